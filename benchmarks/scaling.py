@@ -17,7 +17,7 @@ import wingbeat as wb
 from wingbeat.bench import median_seconds, right_hand_side
 from wingbeat.orbits.flight.shooting import STEPS, flier
 from wingbeat.plots import save_figure
-from wingbeat.style import BLUE, PAGE, VERMILION, drawing, new_figure
+from wingbeat.style import BLUE, PAGE, VERMILION, drawing, legend_below, letter_panels, new_figure
 
 ROOT = Path(__file__).resolve().parents[1]
 REPEATS = 60
@@ -88,8 +88,9 @@ def draw(results: dict[str, tuple[Any, list[float], str]]) -> None:
         axes.yaxis.set_minor_formatter(NullFormatter())
         axes.set_ylim(0.6 * min(ms), 2 * max(ms))
         axes.set_title(f"exponent {power:.2f} over the upper half", fontsize=8)
-        axes.legend()
         axes.grid()
+    letter_panels(panels)
+    legend_below(figure, panels)
     save_figure(figure, ROOT / "docs" / "evidence" / "scaling.png")
 
 

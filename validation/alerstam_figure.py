@@ -10,17 +10,16 @@ from matplotlib.figure import Figure
 
 from wingbeat.models import MODELS
 from wingbeat.species import scaling
-from wingbeat.style import BLUE, GREEN, PAGE, SHADE, VERMILION, drawing, new_figure
+from wingbeat.style import BLUE, GREEN, PAGE, SHADE, VERMILION, drawing, legend_above, letter_panels, new_figure
 
 SLOW = {"color": BLUE, "marker": "o", "markersize": 3.5, "linestyle": "", "alpha": 0.75}
 FAST = {"color": VERMILION, "marker": "^", "markersize": 4.0, "linestyle": "", "alpha": 0.75}
 # Labels and limits of the panels, from top to bottom; the limits hold for all models.
 PANELS = (
-    ("A", "measured airspeed [m/s]", "predicted speed [m/s]", (3, 30)),
-    ("B", "Reynolds number of chord and measured airspeed [-]", "predicted over measured speed [-]", (0.2, 1.9)),
-    ("C", "Reynolds number of chord and airspeed [-]", "frequency over Pennycuick's law [-]", (0.13, 4.6)),
+    ("measured airspeed [m/s]", "predicted speed [m/s]", (3, 30)),
+    ("Reynolds number of chord and measured airspeed [-]", "predicted over measured speed [-]", (0.2, 1.9)),
+    ("Reynolds number of chord and airspeed [-]", "frequency over Pennycuick's law [-]", (0.13, 4.6)),
     (
-        "D",
         "Reynolds number of chord and measured airspeed [-]",
         "speed over that at lift coefficient 1 [-]",
         (0.7, 3.2),
@@ -37,6 +36,8 @@ def draw(found: list[Row], timed: list[Bird]) -> Figure:
     for model, column_of_panels in zip(flown, panels.T, strict=True):
         _draw_model(column_of_panels, of_model(found, model), timed)
         _finish(column_of_panels, model)
+        column_of_panels[0].set_title(f"model {model}", pad=16)
+    letter_panels(panels[:, 0])
     return figure
 
 
@@ -76,17 +77,16 @@ def _frequencies(axes: Axes, found: list[Row], timed: list[Bird]) -> None:
 
 
 def _finish(panels: np.ndarray, model: str) -> None:
-    for axes, (letter, x, y, limits) in zip(panels, PANELS, strict=True):
-        axes.set_title(f"{letter}  {model}", loc="left", fontweight="bold")
+    for row, (axes, (x, y, limits)) in enumerate(zip(panels, PANELS, strict=True)):
         axes.set(xlabel=x, ylabel=y, ylim=limits)
         axes.grid()
-        axes.legend(ncols=2 if letter in "BC" else 1, loc="lower left" if letter in "BC" else "best")
-        if letter != "A":
+        legend_above(axes, columns=2 if row == 2 else 3)
+        if row:
             axes.axvspan(*FITTED[model], color=SHADE, zorder=0)
             axes.axhline(1.0, color="0.4", linewidth=1, linestyle="--")
             axes.set_xticks([2e4, 5e4, 1e5, 2e5, 4e5], ["20 000", "50 000", "100 000", "200 000", "400 000"])
         axes.minorticks_off()
-        if letter in "BC":
+        if row in (1, 2):
             axes.set_yticks([0.2, 0.3, 0.4, 0.5, 0.7, 1.0, 1.5, 2.0, 3.0, 4.0])
             axes.yaxis.set_major_formatter("{x:g}")
             axes.set_ylim(limits)

@@ -49,11 +49,11 @@ orbits).
 
 ![predicted against measured speeds, residuals against Reynolds number, frequencies](alerstam.png)
 
-Each model has a column of panels. A: predicted against measured speed. The dashed line marks equality, the band
-20 % on either side. B: predicted speed divided by measured speed. C: frequency at the measured airspeed, divided by
+Each model has a column of panels. a: predicted against measured speed. The dashed line marks equality, the band
+20 % on either side. b: predicted speed divided by measured speed. c: frequency at the measured airspeed, divided by
 the frequency of Pennycuick's law (1996). Black squares are frequencies that other studies measured on other birds
-(see the table *Measured frequencies*). D: speeds divided by the speed at lift coefficient 1. The grey bands in B to
-D are the Reynolds numbers at which the model's coefficients were measured: 20 000 to 50 000 for the plate of the
+(see the table *Measured frequencies*). d: speeds divided by the speed at lift coefficient 1. The grey bands in b to
+d are the Reynolds numbers at which the model's coefficients were measured: 20 000 to 50 000 for the plate of the
 Su-Fan coefficients, 50 000 to 108 000 for feathered wings. The Reynolds number of a bird is that of its mean chord
 at its measured airspeed.
 """
@@ -200,7 +200,7 @@ TAIL = """
 For the model `paper`:
 
 - Nothing was fitted. The model ranks the species by speed, but no better than wing loading alone does. Both
-  predicted speeds are nearly fixed multiples of the speed at lift coefficient 1 (panel D), because the
+  predicted speeds are nearly fixed multiples of the speed at lift coefficient 1 (panel d), because the
   coefficients do not depend on the Reynolds number. Measured speeds are not fixed multiples of that speed: birds
   with low wing loading fly far faster than a fixed multiple predicts. The model predicts the airspeed of a species
   no better than one speed for all birds does.

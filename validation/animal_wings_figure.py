@@ -10,7 +10,18 @@ from animal_wings_fit import ASPECT_RATIO, HalfWingFit, Terms, curves
 from measured_data import Array
 
 from wingbeat.aero import CoefficientModel
-from wingbeat.style import BLUE, GREEN, ORANGE, PAGE, VERMILION, drawing, legend_below, letter_panels, new_figure
+from wingbeat.style import (
+    BLUE,
+    GREEN,
+    ORANGE,
+    PAGE,
+    VERMILION,
+    drawing,
+    in_words,
+    legend_below,
+    letter_panels,
+    new_figure,
+)
 
 LOOKS: dict[str, dict[str, Any]] = {
     "feathered": {"color": BLUE, "linewidth": 1.6},
@@ -35,7 +46,7 @@ def draw_wings(
     for name, model in models.items():
         a = np.radians(alpha)
         lift, drag = model.lift(a), model.drag(a)
-        axes[0, 0].plot(alpha, lift, **LOOKS[name], label=name)
+        axes[0, 0].plot(alpha, lift, **LOOKS[name], label=in_words(name))
         axes[0, 1].plot(alpha, drag, **LOOKS[name])
         axes[1, 0].plot(lift, drag, **LOOKS[name])
     turn = np.linspace(-180.0, 180.0, 2001)
@@ -77,9 +88,11 @@ def _bands(axes: Any, alpha: Array, drawn: list[Terms]) -> None:
 
 def _label(axes: Any) -> None:
     angle = r"angle of attack $\alpha$ [deg]"
-    axes[0, 0].set(xlabel=angle, ylabel="$C_L$ [-]", ylim=(-0.8, 1.8))
-    axes[0, 1].set(xlabel=angle, ylabel="$C_D$ [-]", ylim=(0.0, 0.7))
-    axes[1, 0].set(xlabel="$C_L$ [-]", ylabel="$C_D$ [-]", xlim=(-0.4, 1.7), ylim=(0.0, 0.4))
+    axes[0, 0].set(xlabel=angle, ylabel="lift coefficient $C_L$ [-]", ylim=(-0.8, 1.8))
+    axes[0, 1].set(xlabel=angle, ylabel="drag coefficient $C_D$ [-]", ylim=(0.0, 0.7))
+    axes[1, 0].set(
+        xlabel="lift coefficient $C_L$ [-]", ylabel="drag coefficient $C_D$ [-]", xlim=(-0.4, 1.7), ylim=(0.0, 0.4)
+    )
     axes[1, 1].set(xlabel=angle, ylabel="$C_L$ (solid), $C_D$ (dashed) [-]")
     axes[1, 1].set_xticks(range(-180, 181, 60))
     letter_panels(axes.flat)

@@ -55,7 +55,7 @@ def draw_polars(models: list[Polar], polars: list[Polar], rows: list[Row]) -> Fi
     for axes, (x, y, x_limits, y_limits) in zip(panels, labels, strict=True):
         axes.set(xlabel=x, ylabel=y, xlim=x_limits, ylim=y_limits)
         axes.grid()
-    letter_panels(panels, "A")
+    letter_panels(panels)
     legend_below(figure, panels, columns=5)
     return figure
 

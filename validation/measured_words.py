@@ -26,11 +26,11 @@ that other people measured. Their data are not part of this project:
 
 ![lift, drag, lift over drag and moment](measured_wings.png)
 
-- Panel A shows lift against the angle of attack, counted from that of zero lift: mount angles of twisted wings
+- Panel a shows lift against the angle of attack, counted from that of zero lift: mount angles of twisted wings
   cannot be compared.
-- Panel B shows drag against lift, and panel C the lift-to-drag ratio against lift. Neither depends on how the angle
+- Panel b shows drag against lift, and panel c the lift-to-drag ratio against lift. Neither depends on how the angle
   was measured.
-- Panel D shows the moment against normal force. The moment is about the shoulder for gulls and about the leading
+- Panel d shows the moment against normal force. The moment is about the shoulder for gulls and about the leading
   edge for Su-Fan, so compare only the slopes.
 """
 

@@ -93,7 +93,7 @@ def draw_parts(orbit: wb.Orbit) -> Any:
     figure.suptitle(f"Pigeon at {SPEED:g} m/s, least frequency: parts of the unsteady terms", fontsize=8.5)
     panels = figure.subplots(1, 2)
     names = (("rotation", "added mass"), ("damping couple", "couple of added mass"))
-    labels = ("upward force / weight [-]", "nose-up couple / (weight x chord) [-]")
+    labels = ("upward force / weight [-]", "nose-up couple / (weight × chord) [-]")
     for axes, group, label in zip(panels, names, labels, strict=True):
         shade_downstrokes(axes, 0.0, 1.0)
         for name, look in zip(group, (FIRST, SECOND), strict=True):
@@ -161,7 +161,7 @@ def main() -> None:
     orbits = plain + least_frequency(with_area, areas)
     title = "Pigeon at 12 m/s, least frequency: tails of other areas"
     values = [0.0, *(1e4 * areas * stock.area)]
-    draw_along(title, "area of the tail [cm2]", values, orbits).savefig(DOCS / "term_tail.png", dpi=200)
+    draw_along(title, "area of the tail [cm²]", values, orbits).savefig(DOCS / "term_tail.png", dpi=200)
 
 
 if __name__ == "__main__":

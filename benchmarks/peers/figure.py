@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from wingbeat.plots import save_figure
-from wingbeat.style import BLUE, GREEN, PAGE, PURPLE, VERMILION, drawing, new_figure
+from wingbeat.style import BLUE, GREEN, PAGE, PURPLE, VERMILION, drawing, letter_panels, new_figure
 
 KINDS = {
     "warm": (BLUE, "o", "warm, one case each"),
@@ -17,8 +17,8 @@ KINDS = {
 
 
 @drawing()
-def draw(results: dict[str, dict], versions: dict[str, str], path: Path) -> None:
-    """Write the figure: seconds on the left, how well the orbits close when re-flown on the right."""
+def draw(results: dict[str, dict], path: Path) -> None:
+    """Write the figure: seconds with their medians on the left, closure when re-flown on the right."""
     names = list(results)[::-1]
     figure = new_figure(PAGE, 41.0 + 9.0 * len(names))
     left, right = figure.subplots(1, 2, sharey=True, width_ratios=(3, 2))
@@ -39,7 +39,6 @@ def draw(results: dict[str, dict], versions: dict[str, str], path: Path) -> None
     right.axvline(1e-6, color="k", lw=0.8, ls=":")
     for axes in (left, right):
         axes.grid(axis="x")
-    figure.legend(loc="outside upper center", ncols=3)
-    words = ", ".join(f"{name} {version}" for name, version in versions.items())
-    figure.supxlabel(f"One core. Bars: medians. {words}", fontsize=5)
+    letter_panels((left, right))
+    figure.legend(loc="outside lower center", ncols=3)
     save_figure(figure, path)

@@ -163,7 +163,7 @@ def main() -> None:
     options.output.mkdir(parents=True, exist_ok=True)
     raw = {"versions": versions, "gap": gap, "results": results, "broken": broken}
     (options.output / "peers.json").write_text(json.dumps(raw, indent=1))
-    draw(results, versions, options.output / "peers.png")
+    draw(results, options.output / "peers.png")
 
 
 def report(results: dict[str, dict], cases: list[Case], starts: int) -> None:

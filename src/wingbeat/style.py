@@ -41,6 +41,30 @@ _STYLE: dict[str, Any] = {
 }
 
 
+# What readers call the coefficient models that carry the names of people.
+_PEOPLE = {"su-fan": "Su-Fan", "dickinson": "Dickinson", "wang": "Wang", "whitney-wood": "Whitney and Wood"}
+_PEOPLE |= {"parslew-crowther": "Parslew and Crowther", "byl": "Byl"}
+
+
+def in_words(name: str) -> str:
+    """Return a program's name of an animal, a model or a quantity as a reader would write it.
+
+    >>> in_words("common-murre"), in_words("su-fan"), in_words("mean_positive_power")
+    ('common murre', 'Su-Fan', 'mean positive power')
+    """
+    return _PEOPLE.get(name, name.replace("-", " ").replace("_", " "))
+
+
+def heading(name: str) -> str:
+    """Return the name of an animal as the first words of a title.
+
+    >>> heading("common-swift")
+    'Common swift'
+    """
+    words = in_words(name)
+    return words[:1].upper() + words[1:]
+
+
 @contextmanager
 def drawing(font: float = FONT) -> Iterator[None]:
     """Apply this style inside a block, or a decorated function; afterwards the user's own settings are restored.
@@ -93,11 +117,11 @@ def shade_downstrokes(
     axes.add_collection(shade, autolim=False)
 
 
-def letter_panels(panels: Any, first: str = "a") -> None:
-    """Write a letter above the upper left corner of each panel, in the order of the alphabet."""
+def letter_panels(panels: Any) -> None:
+    """Write a small bold letter above the upper left corner of each panel, from a on."""
     corner: dict[str, Any] = {"xycoords": "axes fraction", "textcoords": "offset points"}
     for i, axes in enumerate(np.ravel(panels)):
-        axes.annotate(chr(ord(first) + i), (0, 1), (-26, 4), fontsize=FONT + 1, fontweight="bold", **corner)
+        axes.annotate(chr(ord("a") + i), (0, 1), (-26, 4), fontsize=FONT + 1, fontweight="bold", **corner)
 
 
 def legend_above(axes: Axes, handles: Any = None, columns: int = 3, **options: Any) -> None:

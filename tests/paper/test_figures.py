@@ -63,7 +63,8 @@ def lines(axes):
 @pytest.mark.parametrize("number", FIGURES)
 @pytest.mark.parametrize("solved", [True, False], ids=["solved", "nothing"])
 def test_every_axis_has_its_unit_and_no_text_is_lost(orbits, number, solved):
-    figure, _ = FIGURES[number](orbits if solved else {}, "mirrored")
+    figure, _, caption = FIGURES[number](orbits if solved else {}, "mirrored")
+    assert not any(sentence in words(figure) for sentence in caption.split(". "))  # the caption is text beside it
     figure.draw_without_rendering()
     for axes in figure.axes:
         shown = [axes.xaxis.label, axes.yaxis.label] if axes.axison else []
@@ -83,7 +84,7 @@ def test_every_axis_has_its_unit_and_no_text_is_lost(orbits, number, solved):
 
 
 def test_the_vehicle_is_the_models_own(orbits):
-    _, table = vehicle_figure(orbits)
+    _, table, _ = vehicle_figure(orbits)
     data, wing = orbits[PIGEON].dataset, orbits[PIGEON].problem.vehicle.wing
     body = data.isel(phase=64)
     assert float(body["phase"]) == 0.25
@@ -104,7 +105,7 @@ def test_the_vehicle_is_the_models_own(orbits):
 
 
 def test_the_bats_hand_hangs_below_its_arm_at_mid_upstroke(orbits):
-    _, table = vehicle_figure(orbits)
+    _, table, _ = vehicle_figure(orbits)
     place = [
         np.stack([column(table, f"{a}_m", animal="bat", phase=phase, point="quarter chord") for a in "xyz"], 1)
         for phase in (0.25, 0.75)
@@ -118,7 +119,7 @@ def test_the_bats_hand_hangs_below_its_arm_at_mid_upstroke(orbits):
 
 
 def test_coefficients_are_the_published_formulas():
-    figure, table = coefficients_figure()
+    _, table, caption = coefficients_figure()
     at = {"model": "su-fan", "alpha_deg": 20.0}
     for name, value in (("C_L", 0.9724), ("C_D", 0.4579), ("x_cp_chords", 0.4012), ("C_M_mid_chord", 0.1058)):
         assert column(table, f"{name}_formula", **at)[0] == pytest.approx(value, abs=5e-5)
@@ -129,11 +130,11 @@ def test_coefficients_are_the_published_formulas():
     assert math.isnan(column(table, "C_D_formula", model="dickinson", alpha_deg=100.0)[0])
     thin = column(table, "C_M_mid_chord_thin_aerofoil", **at)[0]
     assert thin == pytest.approx(math.pi / 2 * math.radians(20.0))
-    assert "no points are drawn" in words(figure).replace("\n", " ")
+    assert "no points are drawn" in caption
 
 
 def test_portraits_are_the_orbit_with_marks_where_strokes_begin(orbits):
-    figure, table = phase_figure(orbits)
+    figure, table, caption = phase_figure(orbits)
     data = orbits[PIGEON].dataset
     np.testing.assert_array_equal(column(table, "x_m"), data["x"])
     np.testing.assert_array_equal(column(table, "w_m_per_s"), data["w"])
@@ -149,7 +150,7 @@ def test_portraits_are_the_orbit_with_marks_where_strokes_begin(orbits):
         np.testing.assert_allclose(asterisk.get_xydata()[0], [table[0][place], table[0][speed]])
         np.testing.assert_allclose(dot.get_xydata(), [[table[128][place], table[128][speed]]])
         assert table[128]["phase"] == 0.5
-    assert "Our pigeon" in words(figure)
+    assert "our pigeon" in caption
 
 
 def gids(axes):
@@ -157,9 +158,9 @@ def gids(axes):
 
 
 def test_what_the_paper_prints_is_marked_and_a_contradiction_is_said_with_its_reason(orbits):
-    frequency, forces, power, pitch = (
-        drawing(orbits)[0] for drawing in (frequency_figure, forces_figure, power_figure, pitch_figure)
-    )
+    drawn = [drawing(orbits) for drawing in (frequency_figure, forces_figure, power_figure, pitch_figure)]
+    frequency, forces, power, pitch = (one.figure for one in drawn)
+    captions = [one.caption for one in drawn]
     assert {"paper-su-fan", "paper-dickinson"} <= gids(frequency.axes[1])
     (star,) = (line for line in frequency.axes[1].get_lines() if line.get_gid() == "paper-dickinson")
     np.testing.assert_array_equal(star.get_xydata(), [[10.0, 12.0]])
@@ -168,19 +169,19 @@ def test_what_the_paper_prints_is_marked_and_a_contradiction_is_said_with_its_re
     bars = [line for line in pitch.axes[0].get_lines() if line.get_gid() == "paper"]
     assert [np.ptp(bar.get_ydata()) for bar in bars] == pytest.approx([10.0, 25.0])
     peak = orbits[BAT].record()["peak_power"]
-    note = words(power).replace("\n", " ")
+    note = captions[2]
     assert f"prints a peak of 30 W with Su-Fan; ours: {peak:.3g} W, which contradicts it" in note
     assert "The paper leaves open which mean angles are free" in note
     ratio = orbits[BAT_DICKINSON].wingbeat.frequency / orbits[BAT].wingbeat.frequency
-    note = words(frequency).replace("\n", " ")
+    note = captions[0]
     assert f"almost twice that near 10 m/s with Dickinson; ours: {ratio:.2f} times (mirrored), which" in note
     extent = math.degrees(orbits[BAT].record()["body_pitch_range"])
     verdict = "agrees" if extent <= 10 else "contradicts it"
-    assert f"ours: {extent:.3g} deg, which {verdict}" in words(pitch).replace("\n", " ")
+    assert f"ours: {extent:.3g} deg, which {verdict}" in captions[3]
 
 
 def test_frequencies_are_those_of_the_orbits(orbits):
-    figure, table = frequency_figure(orbits)
+    figure, table, _ = frequency_figure(orbits)
     for case, orbit in orbits.items():
         about = {
             "animal": case.animal,
@@ -197,7 +198,7 @@ def test_frequencies_are_those_of_the_orbits(orbits):
 
 
 def test_a_speed_without_a_certified_orbit_is_marked_and_not_drawn(without_dickinson):
-    figure, table = frequency_figure(without_dickinson)
+    figure, table, _ = frequency_figure(without_dickinson)
     drawn = lines(figure.axes[1])
     assert not len(drawn["Dickinson, mirrored"].get_xdata())
     crosses = [line for line in figure.axes[1].get_lines() if line.get_gid() == "absent-mirrored-dickinson"]
@@ -208,7 +209,7 @@ def test_a_speed_without_a_certified_orbit_is_marked_and_not_drawn(without_dicki
 
 
 def test_what_was_measured_carries_its_source(orbits):
-    _, table = frequency_figure(orbits)
+    _, table, _ = frequency_figure(orbits)
     for measured in MEASURED_FREQUENCIES:
         assert measured.source
         assert measured.grade in ("A", "D")
@@ -233,7 +234,7 @@ def test_laws_of_frequency_give_the_published_values(animal, speed, frequencies)
 
 
 def test_forces_are_those_of_one_strip_of_both_wings(orbits):
-    figure, table = forces_figure(orbits)
+    figure, table, caption = forces_figure(orbits)
     data = orbits[BAT].dataset
     weight = 0.068 * 9.81
     # Of ten strips, the third and the eighth have their centres at 1/4 and 3/4 of the span.
@@ -247,7 +248,7 @@ def test_forces_are_those_of_one_strip_of_both_wings(orbits):
         alpha = np.radians(column(table, "alpha_deg", **about))
         wanted = orbits[BAT].record()["alpha_quarter_span" if fraction < 0.5 else "alpha_three_quarter_span"]
         np.testing.assert_allclose([alpha.min(), alpha.max()], wanted, rtol=1e-9)
-    assert "one of 10 equal strips, both wings" in words(figure).replace("\n", " ")
+    assert "one of 10 equal strips, both wings" in caption
     solid, dashed = (lines(figure.axes[0])[name] for name in ("Su-Fan", "Dickinson"))
     assert (solid.get_linestyle(), dashed.get_linestyle()) == ("-", "--")
 
@@ -262,30 +263,30 @@ def test_the_downstroke_is_shaded(orbits):
 
 
 def test_power_and_its_peaks(orbits):
-    figure, table = power_figure(orbits)
+    figure, table, caption = power_figure(orbits)
     np.testing.assert_array_equal(
         column(table, "hinge_power_W", model="su-fan"), orbits[BAT].dataset["hinge_power"]
     )
-    assert f"Su-Fan {orbits[BAT].record()['peak_power']:.3g} W" in words(figure)
+    assert f"Su-Fan {orbits[BAT].record()['peak_power']:.3g} W" in caption
     levels = [line.get_ydata()[0] for line in figure.axes[0].get_lines() if line.get_gid() == "paper"]
     assert levels == [30.0, 150.0]
 
 
 def test_body_pitch_and_its_range(orbits):
-    figure, table = pitch_figure(orbits)
+    figure, table, caption = pitch_figure(orbits)
     drawn = column(table, "body_pitch_deg", model="dickinson")
     np.testing.assert_array_equal(drawn, np.degrees(orbits[BAT_DICKINSON].dataset["body_pitch"]))
     wanted = math.degrees(orbits[BAT_DICKINSON].record()["body_pitch_range"])
     assert np.ptp(drawn) == pytest.approx(wanted, rel=1e-9)
-    assert f"Dickinson {wanted:.3g} deg" in words(figure)
+    assert f"Dickinson {wanted:.3g} deg" in caption
 
 
 @pytest.mark.parametrize("drawing", [forces_figure, power_figure, pitch_figure])
 def test_a_figure_says_what_is_not_certified(without_dickinson, drawing):
-    figure, table = drawing(without_dickinson)
+    figure, table, _ = drawing(without_dickinson)
     assert "bat at 10 m/s with Dickinson (mirrored): infeasible" in words(figure).replace("\n", " ")
     assert {row["model"] for row in table} == {"su-fan"}
-    figure, table = drawing({})
+    figure, table, _ = drawing({})
     assert "no certified orbit" in words(figure)
     assert not table
 
@@ -300,10 +301,13 @@ def test_absence_is_told_in_words(orbits, without_dickinson):
 def test_files_are_written_and_the_same_again(tmp_path, orbits):
     for folder in ("one", "two"):
         written = draw_figures(orbits, [7], tmp_path / folder)
-        assert [path.name for path in written] == ["figure7.png", "figure7.pdf", "figure7.csv"]
+        assert [path.name for path in written] == ["figure7.png", "figure7.pdf", "figure7.csv", "figure7.md"]
         assert sorted(path.name for path in (tmp_path / folder).iterdir()) == sorted(path.name for path in written)
     for path in (tmp_path / "one").iterdir():
         assert path.read_bytes() == (tmp_path / "two" / path.name).read_bytes()
+    page = (tmp_path / "one" / "figure7.md").read_text(encoding="utf-8")
+    assert "(figure7.png)" in page
+    assert power_figure(orbits).caption in page
     with open(tmp_path / "one" / "figure7.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 2 * orbits[BAT].dataset.sizes["phase"]

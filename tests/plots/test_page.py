@@ -129,7 +129,7 @@ def test_a_long_downstroke_is_shaded_to_its_end_and_marked_there():
 def test_the_title_says_what_flies(orbit, page):
     text = "\n".join(each.get_text() for each in page.texts)
     beat = orbit.record()["wingbeat"]["frequency"]
-    for part in ("Pigeon at 10 m/s", f"{beat:.4g} Hz", "su-fan", "mirrored", "Certified: closes to"):
+    for part in ("Pigeon at 10 m/s", f"{beat:.4g} Hz", "Su-Fan", "mirrored", "Certified: closes to"):
         assert part in text
     assert "NOT CERTIFIED" not in text
 
@@ -151,7 +151,7 @@ def test_the_curves_are_the_data_in_the_units_of_the_axes(orbit, page):
     np.testing.assert_array_equal(lines["flap φ"].get_ydata(), np.degrees(data["flap"]))
     np.testing.assert_array_equal(lines["span"].get_ydata(), data["span_ratio"])
     np.testing.assert_array_equal(lines["actuator"].get_ydata(), data["actuator_power"])
-    assert f"mean hinge power {orbit.record()['mean_power']:.3g} W" in page.texts[-1].get_text()
+    assert f"mean hinge power {orbit.record()['mean_power']:.3g} W" in page.texts[0].get_text()
     advance = float(data["x"][-1] - data["x"][0])
     assert f"mean 10 m/s, {advance:.3g} m a beat" in lines
     alpha = shown[6].get_lines()[2].get_ydata()

@@ -27,7 +27,7 @@ def page(frame, *varied):
 def test_one_parameter_is_lines_with_failures_at_the_foot():
     (axes,) = page(table([4.0, 6.0, 8.0], [0.01], failing=[8.0]), "speed").axes
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("speed [m/s]", "least frequency [Hz]")
-    assert [t.get_text() for t in axes.get_legend().get_texts()] == ["su-fan", "not certified", "dickinson"]
+    assert [t.get_text() for t in axes.get_legend().get_texts()] == ["Su-Fan", "not certified", "Dickinson"]
     assert [list(line.get_xdata()) for line in axes.get_lines()] == [[4.0, 6.0, 8.0], [8.0]] * 2
 
 
@@ -36,9 +36,17 @@ def test_two_parameters_are_maps(whole):
     frame = table([4.0, 6.0, 8.0], [0.01, 0.02], failing=[8.0])
     figure = page(frame if whole else frame.drop(index=[0]), "speed", "wing.mass")
     maps = [axes for axes in figure.axes if axes.get_xlabel()]
-    assert [axes.get_title() for axes in maps] == ["su-fan", "dickinson"]
-    assert all((a.get_xlabel(), a.get_ylabel()) == ("speed [m/s]", "wing.mass [kg]") for a in maps)
+    assert [axes.get_title() for axes in maps] == ["Su-Fan", "Dickinson"]
+    assert all((a.get_xlabel(), a.get_ylabel()) == ("speed [m/s]", "mass of one wing [kg]") for a in maps)
     assert [len(axes.get_lines()[0].get_xdata()) for axes in maps] == [2, 2]
+
+
+def test_a_panel_says_its_value_with_name_and_unit():
+    frame = table([4.0, 6.0], [0.01, 0.02], models=("su-fan",))
+    frame.insert(5, "wing.semi_span", [0.2, 0.3, 0.2, 0.3])
+    maps = [axes for axes in page(frame, "wing.mass", "wing.semi_span").axes if axes.get_xlabel()]
+    assert [axes.get_title() for axes in maps] == ["speed 4 m/s", "speed 6 m/s"]
+    assert [axes.texts[0].get_text() for axes in maps] == ["a", "b"]
 
 
 def test_more_parameters_are_parallel_coordinates():
@@ -47,7 +55,12 @@ def test_more_parameters_are_parallel_coordinates():
     figure = page(frame, "speed", "wing.mass", "wing.semi_span")
     assert len(figure.axes) == 4
     labels = [label.get_text() for label in figure.axes[0].get_xticklabels()]
-    assert labels == ["speed\n[m/s]", "wing.mass\n[kg]", "wing.semi_span\n[m]", "least frequency\n[Hz]"]
+    assert labels == [
+        "speed\n[m/s]",
+        "mass of one wing\n[kg]",
+        "semi-span of the wing\n[m]",
+        "least frequency\n[Hz]",
+    ]
     assert len(figure.axes[0].collections[0].get_segments()) == 6
 
 

@@ -20,7 +20,7 @@ from wingbeat.measured_motion.strip_checks import (
 from wingbeat.measured_motion.strip_table import read_strips
 
 REQUIRED_KEYS = ("name", *SCALAR_LIMITS, "mirrored", "periodic", "strips")
-KNOWN_KEYS = (*REQUIRED_KEYS, "from", "to", "forces", "mean_force", "wing")
+KNOWN_KEYS = (*REQUIRED_KEYS, "from", "to", "forces", "mean_force", "wing", "title")
 # If the frequency is invalid, steps of up to ten minutes are accepted, because we cannot say what is wrong with
 # them.
 _UNKNOWN_FREQUENCY = 3e-4
@@ -33,7 +33,8 @@ def read_strip_case(path: str | Path) -> StripCase:
     ``case.toml`` states name, mass [kg], density [kg/m3], gravity [m/s2], frequency [Hz], speed [m/s], mirrored,
     periodic and strips. The value of strips is the name of the file of strips, in the same folder. The forces are
     given either by forces, the name of the file of forces, or by mean_force ([fx, fz] in N). Optional are from and
-    to [s], and wing ("feathered", "membrane" or "rigid"). `StripCase` explains these values.
+    to [s], wing ("feathered", "membrane" or "rigid"), and title (text for figures). `StripCase` explains
+    these values.
 
     The file of strips has one row for each time and strip, with the columns ``time_s, strip``, quarter chord
     ``x_m, y_m, z_m``, chord from trailing to leading edge ``chord_x_m, chord_y_m, chord_z_m``, and ``area_m2``.
@@ -87,6 +88,7 @@ def read_strip_case(path: str | Path) -> StripCase:
         start=given.get("from"),
         end=given.get("to"),
         wing=given.get("wing"),
+        title=given.get("title", ""),
     )
 
 
@@ -125,6 +127,8 @@ def _check_keys(faults: FaultList, given: dict[str, Any], file: str) -> None:
         faults.add(f"{file}, forces", both, "exactly one of forces and mean_force must be given", fix)
     if "mean_force" in given:
         check_mean_force(faults, f"{file}, mean_force", given["mean_force"])
+    if not isinstance(given.get("title", ""), str):
+        faults.add(f"{file}, title", given["title"], "must be a text", 'for example "dragonfly 1"')
     if "wing" in given and given["wing"] not in WINGS:
         faults.choice(f"{file}, wing", given["wing"], WINGS)
 

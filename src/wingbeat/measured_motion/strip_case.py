@@ -60,6 +60,7 @@ class StripCase:
     mean_force : mean forward and upward force [N], in place of `forces`.
     start, end : first and last time at which forces are compared [s]; None for those of `times`.
     wing : "feathered", "membrane" or "rigid"; None if unknown.
+    title : what was measured and by whom, in words for figures; empty for the name.
 
     Attributes
     ----------
@@ -91,6 +92,7 @@ class StripCase:
     start: float | None = None
     end: float | None = None
     wing: str | None = None
+    title: str = ""
     notes: tuple[str, ...] = field(default=(), init=False)
 
     def __post_init__(self) -> None:

@@ -58,18 +58,20 @@ def plain_unit(path: str) -> str:
     return plain(term.unit) if term is not None and term.unit else "1"
 
 
-def label_of(path: str) -> str:
-    """Return the label of the number at a dotted name; the name itself if it is not in the table.
+def label_of(path: str, short: bool = False) -> str:
+    """Return the label, or the short label, of the number at a dotted name; the name itself if the table lacks it.
 
     >>> label_of("closure.u"), label_of("floquet_multipliers.0.1")
     ('residual of the forward velocity of the body when re-flown', 'Floquet multipliers of the orbit, item 0.1')
+    >>> label_of("speed", short=True), label_of("wing.shoulder.x", short=True)
+    ('speed', 'position of the shoulder, x')
     """
     term, parts = find(path), path.split(".")
     if term is None:
         return path
     if parts[0] == "constraints":
         return f"{term.label}, limited to {path.partition('.')[2]}"
-    label = term.label
+    label = term.short_label if short else term.label
     for part in (parts[0], parts[-1]) if len(parts) > 1 else ():
         label = _ABOUT.get(part, "{}").format(label)
     items = ".".join(part for part in parts[1:] if part.isdigit())

@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.aero import LIBRARY, FormulaCoefficients, thin_aerofoil_lift, thin_aerofoil_moment
-from wingbeat.paper.figure_style import LOOKS, Table, sheet
+from wingbeat.paper.figure_style import LOOKS, Drawn, Table, sheet
 from wingbeat.style import GREY, PAGE, drawing, dress, legend_above, letter_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 # The range of the paper's measurements, in finer steps than measured.
 ALPHA_DEG = np.linspace(0.0, 110.0, 441)
@@ -24,10 +23,11 @@ _PANELS = (
     ("centre", "centre of pressure $x_{cp}/c$ [-]", (0.0, 0.8)),
 )
 _NOTE = (
+    "Lift (a), drag (b), moment (c) and centre of pressure (d) against angle of attack. "
     "Coloured lines are the published formulas at the angles to which they were fitted: 0 to 110 degrees for "
     "Su-Fan, and up to 90 degrees for Dickinson, who give no centre of pressure. Thin black lines are what our "
     "simulations use instead: they mirror the formulas beyond 90 degrees and blend them within 1 degree of 0 and "
-    "90. Dotted grey lines are thin-aerofoil theory, 2πα and πα/2. In C the moment is about mid-chord; in D "
+    "90. Dotted grey lines are thin-aerofoil theory, 2πα and πα/2. In c the moment is about mid-chord; in d "
     "the distance is from the leading edge. The paper's measurements are not public, so no points are drawn."
 )
 
@@ -64,12 +64,13 @@ def simulated(model: FormulaCoefficients, alpha_deg: np.ndarray) -> dict[str, np
     return found
 
 
-def coefficients_figure() -> tuple[Figure, Table]:
-    """Draw figure 3: A lift, B drag, C moment about mid-chord, D centre of pressure, 0 to 110 degrees.
+def coefficients_figure() -> Drawn:
+    """Draw figure 3: a lift, b drag, c moment about mid-chord, d centre of pressure, 0 to 110 degrees.
 
     Returns
     -------
-    The figure and its rows, one for each model and angle: by formula, as simulated, and by thin-aerofoil theory.
+    The figure, its caption, and its rows, one for each model and angle: by formula, as simulated, and by
+    thin-aerofoil theory.
 
     Su et al. 2023, doi 10.48550/arXiv.2302.09602; Dickinson et al. 1999, doi 10.1126/science.284.5422.1954.
     """
@@ -77,7 +78,7 @@ def coefficients_figure() -> tuple[Figure, Table]:
         name: (published(LIBRARY[name](), ALPHA_DEG), simulated(LIBRARY[name](), ALPHA_DEG)) for name in LOOKS
     }
     with drawing():
-        figure = sheet(PAGE, 105.0, _NOTE)
+        figure = sheet(PAGE, 105.0)
         panels = figure.subplots(2, 2)
         for axes, (quantity, label, limits) in zip(panels.flat, _PANELS, strict=True):
             _draw_panel(axes, quantity, curves)
@@ -85,8 +86,8 @@ def coefficients_figure() -> tuple[Figure, Table]:
             axes.set(xlim=(0, 110), ylim=limits, xticks=range(0, 111, 15))
         legend_above(panels[0, 0], columns=4)
         figure.align_ylabels(panels)
-        letter_panels(panels, "A")
-    return figure, _rows(curves)
+        letter_panels(panels)
+    return Drawn(figure, _rows(curves), _NOTE)
 
 
 def _draw_panel(axes: Axes, quantity: str, curves: dict[str, Any]) -> None:

@@ -8,14 +8,13 @@ import numpy as np
 
 from wingbeat.datasets import at_station
 from wingbeat.paper.contradictions import NEAR_PEAK, Printed, near, told
-from wingbeat.paper.figure_style import FONT_SMALL, LOOKS, Table, dress_cycle, say, sheet
+from wingbeat.paper.figure_style import FONT_SMALL, LOOKS, Drawn, Table, dress_cycle, say, sheet
 from wingbeat.paper.measured_bands import PAPER_PEAK_POWER, PAPER_PITCH_RANGE_DEG, PAPER_SMALL_ALPHA_DEG
 from wingbeat.paper.treatments import DEFAULT, MODELS, SAMPLE_SPEED, TREATMENTS, Case, Orbits, certified
 from wingbeat.style import COLUMN, PAGE, drawing, legend_above, letter_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
     from wingbeat.results.orbit import Orbit
 
@@ -55,7 +54,7 @@ def assumptions(treatment: str) -> str:
 
 
 def _about(shown: dict[str, Orbit], treatment: str) -> str:
-    """Return the beginning of a note: animal, speed, frequencies and assumptions."""
+    """Return the beginning of a caption: animal, speed, frequencies and assumptions."""
     beats = ", ".join(f"{LOOKS[model].name} {orbit.wingbeat.frequency:.3g} Hz" for model, orbit in shown.items())
     return f"Bat at {SAMPLE_SPEED:g} m/s{f' ({beats})' if beats else ''}; {assumptions(treatment)}."
 
@@ -76,7 +75,7 @@ def strip_series(orbit: Orbit, station: float) -> dict[str, np.ndarray]:
     return {name: at_station(values, station) for (name, _), values in zip(_FORCES, series, strict=True)}
 
 
-def forces_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
+def forces_figure(orbits: Orbits, sample: str = DEFAULT) -> Drawn:
     """Draw figure 6: effective angle of attack, horizontal and vertical force at 1/4 and 3/4 of the bat's span.
 
     Parameters
@@ -86,20 +85,20 @@ def forces_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]
 
     Returns
     -------
-    The figure, and its rows: model, span fraction and phase with the three drawn quantities.
+    The figure, its caption, and its rows: model, span fraction and phase with the three drawn quantities.
     """
     shown = sample_orbits(orbits, sample, "bat")
     strips = {orbit.dataset.sizes["station"] for orbit in shown.values()} or {"N"}
-    note = (
+    caption = (
         f"{_about(shown, sample)} The downstroke is shaded. Forces are those on one of "
         f"{', '.join(map(str, strips))} equal strips, both wings together, divided by the animal's weight; "
         "forward and up are positive. Values are interpolated linearly between strip centres. Hatched: "
         f"{PAPER_SMALL_ALPHA_DEG[0]:g} to {PAPER_SMALL_ALPHA_DEG[1]:g} deg, which the paper calls small."
     )
     series = {(m, name): strip_series(o, s) for m, o in shown.items() for name, s in STATIONS.items()}
-    note = f"{note} {told(6, _printed_of_forces(series))}"
+    caption = f"{caption} {told(6, _printed_of_forces(series))}"
     with drawing():
-        figure = sheet(PAGE, 125.0, note, absence(orbits, sample, "bat"))
+        figure = sheet(PAGE, 125.0, absence(orbits, sample, "bat"))
         panels = figure.subplots(3, 2, sharex=True, sharey="row")
         for row, (quantity, label) in zip(panels, _FORCES, strict=True):
             for axes, station in zip(row, STATIONS, strict=True):
@@ -121,15 +120,15 @@ def forces_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]
         for axes in panels[:2].flat:
             axes.set_xlabel("")
         figure.align_ylabels(panels)
-        letter_panels(panels, "A")
+        letter_panels(panels)
     rows = []
     for (model, station), columns in series.items():
         about = {"model": model, "treatment": sample, "span_fraction": STATIONS[station]}
         rows += _over_phase(shown[model], about, columns)
-    return figure, rows
+    return Drawn(figure, rows, caption)
 
 
-def power_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
+def power_figure(orbits: Orbits, sample: str = DEFAULT) -> Drawn:
     """Draw figure 7: hinge power of both wings of the bat at 10 m/s, and the peaks that the paper prints.
 
     Parameters and returns are those of `forces_figure`.
@@ -137,13 +136,13 @@ def power_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
     shown = sample_orbits(orbits, sample, "bat")
     series = {model: {"hinge_power_W": orbit.dataset["hinge_power"].values} for model, orbit in shown.items()}
     peaks = [f"{LOOKS[m].name} {s['hinge_power_W'].max():.3g} W" for m, s in series.items()]
-    note = (
+    caption = (
         f"{_about(shown, sample)} The power is that at the hinges of both wings. The downstroke is shaded. "
         f"Peaks: {', '.join(peaks) or 'none'}; dotted lines: the peaks that the paper prints for the same two "
         "models. "
     ) + told(7, _printed_of_power(series))
     with drawing():
-        figure = sheet(COLUMN, 62.0, note, absence(orbits, sample, "bat"))
+        figure = sheet(COLUMN, 62.0, absence(orbits, sample, "bat"))
         axes = figure.subplots()
         _draw_cycle(axes, shown, series, "hinge_power_W", "hinge power [W]")
         for model, peak in PAPER_PEAK_POWER.items():
@@ -154,10 +153,10 @@ def power_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
             )
         top = max([*PAPER_PEAK_POWER.values(), *(s["hinge_power_W"].max() for s in series.values())])
         axes.set_ylim(top=1.1 * top)
-    return figure, _rows(shown, sample, series)
+    return Drawn(figure, _rows(shown, sample, series), caption)
 
 
-def pitch_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
+def pitch_figure(orbits: Orbits, sample: str = DEFAULT) -> Drawn:
     """Draw figure 8: body pitch of the bat over one wingbeat at 10 m/s, with the ranges that the paper prints.
 
     Parameters and returns are those of `forces_figure`.
@@ -166,13 +165,13 @@ def pitch_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
     series = {m: {"body_pitch_deg": np.degrees(orbit.dataset["body_pitch"].values)} for m, orbit in shown.items()}
     ranges = [f"{LOOKS[m].name} {np.ptp(s['body_pitch_deg']):.3g} deg" for m, s in series.items()]
     printed = [f"{LOOKS[m].name} {value:g} deg" for m, value in PAPER_PITCH_RANGE_DEG.items()]
-    note = (
+    caption = (
         f"{_about(shown, sample)} Nose up is positive. The downstroke is shaded. "
         f"Range over the wingbeat: {', '.join(ranges) or 'none'}; bars at the right: the ranges that the paper "
         f"prints, {', '.join(printed)}. "
     ) + told(8, _printed_of_pitch(series))
     with drawing():
-        figure = sheet(COLUMN, 62.0, note, absence(orbits, sample, "bat"))
+        figure = sheet(COLUMN, 62.0, absence(orbits, sample, "bat"))
         axes = figure.subplots()
         _draw_cycle(axes, shown, series, "body_pitch_deg", "body pitch ψ [deg]")
         for i, (model, extent) in enumerate(PAPER_PITCH_RANGE_DEG.items()):
@@ -189,7 +188,7 @@ def pitch_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
             axes.annotate(
                 f"paper:\n{extent:g}°", (at, middle), color=LOOKS[model].color, fontsize=FONT_SMALL, **place
             )
-    return figure, _rows(shown, sample, series)
+    return Drawn(figure, _rows(shown, sample, series), caption)
 
 
 def _printed_of_forces(series: dict[tuple[str, str], dict[str, np.ndarray]]) -> list[Printed]:

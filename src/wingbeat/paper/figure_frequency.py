@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.paper.contradictions import CLOSE, TWICE, Printed, told
-from wingbeat.paper.figure_style import FONT_SMALL, LOOKS, MEASURED, Table, sheet
+from wingbeat.paper.figure_style import FONT_SMALL, LOOKS, MEASURED, Drawn, sheet
 from wingbeat.paper.measured_bands import (
     MEASURED_FREQUENCIES,
     PAPER_BAT_FREQUENCY,
@@ -24,7 +24,6 @@ from wingbeat.style import PAGE, drawing, dress, letter_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
     from wingbeat.results.orbit import Orbit
 
@@ -32,6 +31,7 @@ if TYPE_CHECKING:
 FILLS = {treatment.name: treatment.name == DEFAULT for treatment in DRAWN}
 _LEAST_TOP = 25.0  # Hz
 _NOTE = (
+    "Wingbeat frequency against flight speed of (a) the pigeon and (b) the bat. "
     "Our points are certified orbits of minimum frequency. Filled points, thick lines: coefficients mirrored at "
     "negative angles of attack. Open points, thin lines: formulas as printed at negative angles, except Su-Fan's "
     "C_L, which stays mirrored. Neighbouring points may belong to different families of orbits. The flap amplitude "
@@ -44,8 +44,8 @@ _NOTE = (
 )
 
 
-def frequency_figure(orbits: Orbits) -> tuple[Figure, Table]:
-    """Draw figure 5: frequency of A the pigeon and B the bat against speed, both models, two treatments.
+def frequency_figure(orbits: Orbits) -> Drawn:
+    """Draw figure 5: frequency of a the pigeon and b the bat against speed, both models, two treatments.
 
     Parameters
     ----------
@@ -53,32 +53,27 @@ def frequency_figure(orbits: Orbits) -> tuple[Figure, Table]:
 
     Returns
     -------
-    The figure, and its rows: every requested orbit with its status, and every measurement with its source.
+    The figure, its caption, and its rows: every requested orbit with its status, and every measurement with its
+    source.
     """
     series = itertools.product(FILLS, ANIMALS, MODELS)
     drawn = [orbit for each in series for orbit in certified(orbits, *each).values()]
-    # Room for the legends above the measured frequencies, and for every orbit.
+    # One scale for most runs, with room for every orbit.
     top = max([_LEAST_TOP, *(1.1 * orbit.wingbeat.frequency for orbit in drawn)])
     with drawing():
-        note = f"{_NOTE.format(**_leaning(drawn))} {told(5, _printed(orbits))}"
-        figure = sheet(PAGE, 82.0, note)
+        figure = sheet(PAGE, 100.0)
         panels = figure.subplots(1, 2)
         for axes, animal in zip(panels, ANIMALS, strict=True):
             dress(axes, "flight speed U [m/s]", "wingbeat frequency f [Hz]")
             axes.set(xlim=(3, 21), ylim=(0, top))
             axes.set_title(animal, fontsize=8, pad=3)
             measured, ours = _draw_measured(axes, animal), _draw_orbits(axes, orbits, animal)
-            axes.legend(
-                handles=[*measured, *ours],
-                fontsize=FONT_SMALL,
-                frameon=False,
-                loc="upper left",
-                handlelength=2.4,
-                labelspacing=0.3,
-            )
+            below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.16), "ncols": 2}
+            axes.legend(handles=[*measured, *ours], fontsize=FONT_SMALL, handlelength=2.4, columnspacing=1, **below)
         _mark_printed(panels[ANIMALS.index("bat")])
-        letter_panels(panels, "A")
-    return figure, [*_orbit_rows(orbits), *_measured_rows()]
+        letter_panels(panels)
+    caption = f"{_NOTE.format(**_leaning(drawn))} {told(5, _printed(orbits))}"
+    return Drawn(figure, [*_orbit_rows(orbits), *_measured_rows()], caption)
 
 
 def _leaning(drawn: Sequence[Orbit]) -> dict[str, int]:

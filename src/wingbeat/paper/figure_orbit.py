@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.paper.figure_cycle import absence, assumptions, sample_orbits
-from wingbeat.paper.figure_style import LOOKS, Table, say, sheet
+from wingbeat.paper.figure_style import LOOKS, Drawn, say, sheet
 from wingbeat.paper.treatments import DEFAULT, SAMPLE_SPEED, Orbits
 from wingbeat.style import PAGE, drawing, dress, letter_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
     from wingbeat.results.orbit import Orbit
 
@@ -42,8 +41,8 @@ def portrait_series(orbit: Orbit) -> dict[str, np.ndarray]:
     }
 
 
-def phase_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
-    """Draw figure 4: A u against x, B w against z, C pitch rate against body pitch, of the pigeon at 10 m/s.
+def phase_figure(orbits: Orbits, sample: str = DEFAULT) -> Drawn:
+    """Draw figure 4: a u against x, b w against z, c pitch rate against body pitch, of the pigeon at 10 m/s.
 
     Parameters
     ----------
@@ -52,18 +51,20 @@ def phase_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
 
     Returns
     -------
-    The figure, and its rows: phase, time, path and velocities.
+    The figure, its caption, and its rows: phase, time, path and velocities.
     """
     orbit = sample_orbits(orbits, sample, _ANIMAL).get(_MODEL)
     series = {} if orbit is None else portrait_series(orbit)
     beat = "" if orbit is None else f", {orbit.wingbeat.frequency:.3g} Hz"
-    note = (
-        f"Our {_ANIMAL} at {SAMPLE_SPEED:g} m/s{beat}, {LOOKS[_MODEL].name} coefficients; {assumptions(sample)}. "
+    caption = (
+        "Forward velocity against displacement (a), upward velocity against height (b) and pitch rate against "
+        f"body pitch (c) of our {_ANIMAL} at {SAMPLE_SPEED:g} m/s{beat}, {LOOKS[_MODEL].name} coefficients; "
+        f"{assumptions(sample)}. "
         "Asterisk: beginning of the downstroke; black dot: beginning of the upstroke; solid: downstroke, dashed: "
         "upstroke; arrow: direction of time. The paper does not say which animal its sample orbit belongs to."
     )
     with drawing():
-        figure = sheet(PAGE, 55.0, note, absence(orbits, sample, _ANIMAL, (_MODEL,)))
+        figure = sheet(PAGE, 55.0, absence(orbits, sample, _ANIMAL, (_MODEL,)))
         panels = figure.subplots(1, 3)
         for axes, (place, speed, xlabel, ylabel) in zip(panels, _PORTRAITS, strict=True):
             dress(axes, xlabel, ylabel)
@@ -72,8 +73,9 @@ def phase_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
                 _draw_portrait(axes, series["phase"], series[place], series[speed])
             else:
                 say(axes, "no certified orbit")
-        letter_panels(panels, "A")
-    return figure, [dict(zip(series, values, strict=True)) for values in zip(*series.values(), strict=True)]
+        letter_panels(panels)
+    rows = [dict(zip(series, values, strict=True)) for values in zip(*series.values(), strict=True)]
+    return Drawn(figure, rows, caption)
 
 
 def _draw_portrait(axes: Axes, phase: np.ndarray, place: np.ndarray, speed: np.ndarray) -> None:

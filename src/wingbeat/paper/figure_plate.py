@@ -8,22 +8,21 @@ import numpy as np
 
 from wingbeat.aero import SuFan
 from wingbeat.paper.experiment_claims import CHANNEL, CHORD, SPAN, THICKNESS
-from wingbeat.paper.figure_style import LOOKS, MEASURED, Table, sheet
+from wingbeat.paper.figure_style import LOOKS, MEASURED, Drawn, sheet
 from wingbeat.paper.printed import printed_centre, printed_drag, printed_lift, printed_moment
 from wingbeat.style import FONT, GREY, PAGE, SHADE, drawing, letter_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 # The angle at which the forces are drawn [deg], and the length of an arrow for a coefficient of 1, in chords.
 ANGLE_DEG, _LENGTH = 30.0, 0.55
 # If a name is further than this from its arrow, a line joins them [points].
 _FAR = 15
 _NOTE = (
-    "A: the plate as the paper describes it, {span:g} by {chord:g} m and {thickness:g} mm thick. It is broadside "
+    "a: the plate as the paper describes it, {span:g} by {chord:g} m and {thickness:g} mm thick. It is broadside "
     "in the water channel of {width:g} by {height:g} m, drawn to scale and seen along the flow; its height in "
-    "the channel is a guess. B: the section of the plate at {angle:g} degrees. Lift L is normal to the stream U, "
+    "the channel is a guess. b: the section of the plate at {angle:g} degrees. Lift L is normal to the stream U, "
     "and drag D is along it. F_N is normal to the chord, and F_T is along it. All forces are drawn to one scale, "
     "from the published Su-Fan formulas: L = F_N cos α - F_T sin α, D = F_N sin α + F_T cos α. They act at the "
     "centre of pressure x_cp, {centre:.3f} chords from the leading edge. M is their moment about mid-chord, "
@@ -52,12 +51,12 @@ def plate_numbers(alpha_deg: float) -> dict[str, float]:
     }
 
 
-def plate_figure() -> tuple[Figure, Table]:
-    """Draw figure 1: A the plate in its channel, B axes, forces and centre of pressure at 30 degrees.
+def plate_figure() -> Drawn:
+    """Draw figure 1: a the plate in its channel, b axes, forces and centre of pressure at 30 degrees.
 
     Returns
     -------
-    The figure, and its row: the coefficients that B draws.
+    The figure, its caption, and its row: the coefficients that b draws.
 
     Su et al. 2023, doi 10.48550/arXiv.2302.09602.
     """
@@ -65,12 +64,12 @@ def plate_figure() -> tuple[Figure, Table]:
     words = {"span": SPAN, "chord": CHORD, "thickness": 1e3 * THICKNESS, "width": CHANNEL[0], "height": CHANNEL[1]}
     words |= {"angle": ANGLE_DEG, "centre": numbers["x_cp_chords"], "moment": numbers["C_M_mid_chord"]}
     with drawing():
-        figure = sheet(PAGE, 64.0, _NOTE.format(**words))
+        figure = sheet(PAGE, 64.0)
         panels = figure.subplots(1, 2, width_ratios=(1.0, 1.5))
         _draw_channel(panels[0])
         _draw_section(panels[1], numbers)
-        letter_panels(panels, "A")
-    return figure, [numbers]
+        letter_panels(panels)
+    return Drawn(figure, [numbers], _NOTE.format(**words))
 
 
 def _draw_channel(axes: Axes) -> None:

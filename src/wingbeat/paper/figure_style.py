@@ -1,11 +1,11 @@
-"""The look of the paper's figures: sheets as wide as a journal page, and one style for each coefficient model."""
+"""The look of the paper's figures: as wide as a journal page or column, one style for each coefficient model."""
 
 from __future__ import annotations
 
 import textwrap
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat.style import ALARM, FIRST, FONT, GREEN, GREY, INCH, SECOND, dress, new_figure, shade_downstrokes
 
@@ -15,12 +15,20 @@ if TYPE_CHECKING:
 
 FONT_SMALL = 6.5
 _LINE = 3.2
-# Mean width of a letter of the notes, divided by its height.
+# Mean width of a letter, divided by its height.
 _LETTER = 0.545
 MEASURED = GREEN
 
 Row = Mapping[str, Any]
 Table = Sequence[Row]
+
+
+class Drawn(NamedTuple):
+    """A figure, the numbers that it draws, and the caption to print below it."""
+
+    figure: Figure
+    table: Table
+    caption: str
 
 
 @dataclass(frozen=True)
@@ -45,30 +53,25 @@ LOOKS = {
 }
 
 
-def sheet(width: float, height: float, note: str, alarm: str = "") -> Figure:
-    """Return an empty figure with a note below its panels.
+def sheet(width: float, height: float, alarm: str = "") -> Figure:
+    """Return an empty figure, with a warning below its panels if results are missing.
 
     Parameters
     ----------
     width, height : of the figure, and of its panels alone [mm].
-    note : text that a reader needs; it is wrapped.
-    alarm : text about missing results, in red above the note.
+    alarm : text about missing results; it is wrapped and red.
     """
     letters = int(width / (FONT * _LETTER * INCH / 72))
-    lines = [(line, color) for text, color in ((alarm, ALARM), (note, "k")) for line in _wrapped(text, letters)]
-    foot = 2.0 + _LINE * len(lines)
+    lines = textwrap.wrap(alarm, letters, break_on_hyphens=False)
+    foot = 2.0 + _LINE * len(lines) if lines else 0.0
     total = height + foot
     figure = new_figure(width, total)
     layout: Any = figure.get_layout_engine()
     layout.set(rect=(0, foot / total, 1, height / total), w_pad=0.04, h_pad=0.04, wspace=0.02, hspace=0.03)
-    for i, (line, color) in enumerate(lines):
+    for i, line in enumerate(lines):
         y = (foot - 0.8 - _LINE * i) / total
-        figure.text(2 / width, y, line, va="top", fontsize=FONT, color=color, parse_math=False)
+        figure.text(2 / width, y, line, va="top", fontsize=FONT, color=ALARM, parse_math=False)
     return figure
-
-
-def _wrapped(text: str, letters: int) -> list[str]:
-    return textwrap.wrap(text, letters, break_on_hyphens=False) if text else []
 
 
 def dress_cycle(axes: Axes, ylabel: str) -> None:

@@ -7,21 +7,21 @@ from typing import TYPE_CHECKING, Any
 
 from wingbeat.mechanics.wing_points import CORNERS
 from wingbeat.paper.figure_cycle import sample_orbits
-from wingbeat.paper.figure_style import Table, sheet
+from wingbeat.paper.figure_style import Drawn, sheet
 from wingbeat.paper.figure_vehicle_views import draw_front, draw_oblique, draw_section, draw_side, draw_top
 from wingbeat.paper.treatments import ANIMALS, DEFAULT, MODELS, SAMPLE_SPEED, Orbits
 from wingbeat.paper.vehicle_posture import Posture, flown, posture, section
 from wingbeat.style import PAGE, drawing, letter_panels
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    pass
 
 MID_DOWNSTROKE = 0.25
 PHASES = (MID_DOWNSTROKE, 0.0, 0.5, 0.75)
 
 
-def vehicle_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table]:
-    """Draw figure 2: A to C the pigeon with its axes and angles, D to G both animals to one scale.
+def vehicle_figure(orbits: Orbits, sample: str = DEFAULT) -> Drawn:
+    """Draw figure 2: a to c the pigeon with its axes and angles, d to g both animals to one scale.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def vehicle_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table
 
     Returns
     -------
-    The figure, and its rows: corners and quarter chords of the left wing's strips at the phases drawn.
+    The figure, its caption, and its rows: corners and quarter chords of the left wing's strips at the phases drawn.
     """
     found = {animal: sample_orbits(orbits, sample, animal).get(MODELS[0]) for animal in ANIMALS}
     flights = {animal: flown(animal, orbit) for animal, orbit in found.items()}
@@ -40,7 +40,7 @@ def vehicle_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table
     strip = min(int(0.75 * strips), strips - 1)
     stock = [animal for animal, orbit in found.items() if orbit is None]
     with drawing():
-        figure = sheet(PAGE, 92.0, _note(flights, strips, strip, stock))
+        figure = sheet(PAGE, 92.0)
         grid: Any = figure.add_gridspec(2, 4, height_ratios=(1, 1))
         cells = (grid[0, :2], grid[0, 2], grid[0, 3], *(grid[1, i] for i in range(4)))
         panels = [figure.add_subplot(cell) for cell in cells]
@@ -50,11 +50,12 @@ def vehicle_figure(orbits: Orbits, sample: str = DEFAULT) -> tuple[Figure, Table
         for i, animal in enumerate(ANIMALS):
             draw_front(panels[3 + 2 * i], postures[animal], animal)
             draw_top(panels[4 + 2 * i], postures[animal][0], animal)
-        letter_panels(panels, "A")
-    return figure, [row for animal in ANIMALS for each in postures[animal] for row in _rows(animal, each)]
+        letter_panels(panels)
+    rows = [row for animal in ANIMALS for each in postures[animal] for row in _rows(animal, each)]
+    return Drawn(figure, rows, _caption(flights, strips, strip, stock))
 
 
-def _note(flights: dict[str, Any], strips: int, strip: int, stock: list[str]) -> str:
+def _caption(flights: dict[str, Any], strips: int, strip: int, stock: list[str]) -> str:
     beats = ", ".join(f"{animal} {flight.wingbeat.frequency:.3g} Hz" for animal, flight in flights.items())
     guess = (
         f" There is no certified orbit of the {' and the '.join(stock)}: the stock wingbeat is drawn."
@@ -62,10 +63,11 @@ def _note(flights: dict[str, Any], strips: int, strip: int, stock: list[str]) ->
         else ""
     )
     return (
-        f"Drawn from points that the model computes, at mid-downstroke of the orbits at {SAMPLE_SPEED:g} m/s "
+        f"The pigeon (a to e) and the bat (f, g), drawn from points that the model computes, "
+        f"at mid-downstroke of the orbits at {SAMPLE_SPEED:g} m/s "
         f"({beats}).{guess} Each wing has {strips} strips. Dashed line: quarter chord, which is the pitch axis; "
-        f"dot: shoulder. C: cross-section of strip {strip + 1} of the pigeon, with its forces to one scale and θ "
-        "measured from the normal of the stroke plane. D and F also show the quarter chord at both ends of the "
+        f"dot: shoulder. c: cross-section of strip {strip + 1} of the pigeon, with its forces to one scale and θ "
+        "measured from the normal of the stroke plane. d and f also show the quarter chord at both ends of the "
         "stroke (dotted) and at mid-upstroke (grey). In the model the body has no shape. The grey ellipsoid has "
         "the body's mass and pitch inertia, and the density of water."
     )

@@ -1,4 +1,4 @@
-"""Figures 1 to 8 of the paper redrawn from our model, as PNG and PDF files and as tables of the drawn numbers."""
+"""Figures 1 to 8 of the paper redrawn from our model, as PNG and PDF files, with tables and captions."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import math
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -19,15 +19,12 @@ from wingbeat.paper.figure_cycle import forces_figure, pitch_figure, power_figur
 from wingbeat.paper.figure_frequency import frequency_figure
 from wingbeat.paper.figure_orbit import phase_figure
 from wingbeat.paper.figure_plate import plate_figure
-from wingbeat.paper.figure_style import Table
+from wingbeat.paper.figure_style import Drawn, Table
 from wingbeat.paper.figure_vehicle import vehicle_figure
 from wingbeat.paper.treatments import DEFAULT, TREATMENTS, Orbits
 from wingbeat.plots import save_figure
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-Drawing = Callable[[Orbits, str], "tuple[Figure, Table]"]
+Drawing = Callable[[Orbits, str], Drawn]
 FIGURES: dict[int, Drawing] = {
     1: lambda orbits, sample: plate_figure(),
     2: vehicle_figure,
@@ -41,11 +38,13 @@ FIGURES: dict[int, Drawing] = {
 
 
 def draw_figures(orbits: Orbits, numbers: Iterable[int], folder: str | Path, sample: str = DEFAULT) -> list[Path]:
-    """Draw figures of the paper and write ``figureN.png``, ``figureN.pdf`` and ``figureN.csv`` for each.
+    """Draw figures of the paper and write ``figureN.png``, ``.pdf``, ``.csv`` and ``.md`` for each.
+
+    The page ``figureN.md`` shows the figure with its caption.
 
     Parameters
     ----------
-    orbits : solved orbits by case; the figure says which are missing or not certified.
+    orbits : solved orbits by case; the figures say which are missing or not certified.
     numbers : which figures, from 1 to 8.
     folder : folder to write to; created if missing.
     sample : name of the treatment whose orbits at 10 m/s figures 2, 4 and 6 to 8 show.
@@ -69,11 +68,13 @@ def draw_figures(orbits: Orbits, numbers: Iterable[int], folder: str | Path, sam
         Path(folder).mkdir(parents=True, exist_ok=True)
     written = []
     for number in numbers:
-        figure, table = FIGURES[number](orbits, sample)
-        paths = [Path(folder) / f"figure{number}.{kind}" for kind in ("png", "pdf", "csv")]
+        drawn = FIGURES[number](orbits, sample)
+        paths = [Path(folder) / f"figure{number}.{kind}" for kind in ("png", "pdf", "csv", "md")]
         for path in paths[:2]:
-            save_figure(figure, path)
-        write_atomically(paths[2], csv_text(table))
+            save_figure(drawn.figure, path)
+        write_atomically(paths[2], csv_text(drawn.table))
+        title = f"Figure {number} of the paper, from our model"
+        write_atomically(paths[3], f"# {title}\n\n![{title}]({paths[0].name})\n\n{drawn.caption}\n")
         written += paths
     return written
 

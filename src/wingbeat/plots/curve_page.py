@@ -12,7 +12,18 @@ import numpy as np
 from wingbeat.datasets import climb_text
 from wingbeat.errors import FaultList
 from wingbeat.nomenclature import axis_label
-from wingbeat.style import ALARM, BLUE, GREEN, PAGE, VERMILION, drawing, new_figure
+from wingbeat.style import (
+    ALARM,
+    BLUE,
+    GREEN,
+    PAGE,
+    VERMILION,
+    drawing,
+    heading,
+    in_words,
+    letter_panels,
+    new_figure,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -85,6 +96,7 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
         all_axes[-1].set_xlabel(axis_label("speed", full=True))
         for axes in all_axes:
             axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=6.5)
+        letter_panels(all_axes)
         figure.suptitle(_title(dataset), fontsize=8, x=0.01, ha="left")
     return figure
 
@@ -93,9 +105,9 @@ def _title(dataset: xr.Dataset) -> str:
     about = dataset.attrs
     aero = json.loads(about["aero"])
     limits = "".join(f", {text}" for text in json.loads(about["constraints"]))
-    minimised = about["objective"].replace("_", " ")
-    animal = about["species"] + climb_text(about["climb"])
-    return f"{animal}: minimum {minimised}{limits}; {aero['coefficients']}, {aero['extension']}"
+    animal = heading(about["species"]) + climb_text(about["climb"])
+    loads = f"{in_words(aero['coefficients'])} coefficients, {in_words(aero['extension'])}"
+    return f"{animal}: minimum {in_words(about['objective'])}{limits}; {loads}"
 
 
 def _draw_optima(axes: Axes, dataset: xr.Dataset, marks: list[dict[str, Any]], name: str) -> None:
@@ -115,7 +127,7 @@ def _draw_optima(axes: Axes, dataset: xr.Dataset, marks: list[dict[str, Any]], n
     for rank in range(1, values.shape[1]):
         axes.plot(speed, values[:, rank], ".", color=_OTHER, markersize=2)
     torn = {m["lower_speed"] for m in marks if m["kind"] == "branch"}
-    line, label = [values[:, 0], speed], f"best, minimum {dataset.attrs['objective'].replace('_', ' ')}"
+    line, label = [values[:, 0], speed], f"best, minimum {in_words(dataset.attrs['objective'])}"
     for part in np.split(np.arange(len(speed)), [i + 1 for i, u in enumerate(speed) if u in torn]):
         axes.plot(line[1][part], line[0][part], "-o", color=_BEST, markersize=3, label=label, zorder=3)
         label = "_"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wingbeat.experiment import FilmedBeat
-from wingbeat.style import BLUE, COLUMN, PAGE, VERMILION, drawing, legend_below, new_figure
+from wingbeat.style import BLUE, COLUMN, PAGE, VERMILION, drawing, legend_below, letter_panels, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -67,6 +67,7 @@ def film_page(beat: FilmedBeat) -> Figure:
         for axes in (above, below):
             axes.grid()
             axes.set_xlim(0.0, 1.0)
+    letter_panels(pairs[: len(columns), 0])
     legend_below(figure, grid[:2, 0], columns=4 if len(columns) > 1 else 2)
     label = ": synthetic, not filmed" if beat.film.synthetic else ""
     figure.suptitle(beat.film.name + label, fontsize=8)

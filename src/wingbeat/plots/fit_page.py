@@ -18,6 +18,7 @@ from wingbeat.style import (
     VERMILION,
     drawing,
     legend_below,
+    letter_panels,
     new_figure,
 )
 
@@ -65,6 +66,7 @@ def fit_page(fit: WingFit) -> Figure:
         axes.set_axis_off()
     for axes in panels[: len(shown)]:
         axes.set_xlabel(r"angle of attack $\alpha$ [deg]")
+    letter_panels(panels[: len(shown)])
     figure.suptitle(f"{fit.name}: form {fit.form}" + (f"; {fit.citation}" if fit.citation else ""), fontsize=8)
     legend_below(figure, panels[: len(shown)])
     return figure

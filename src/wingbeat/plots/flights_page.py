@@ -8,7 +8,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.nomenclature import plain_unit
-from wingbeat.style import BLUE, GREEN, GREY, ORANGE, PAGE, VERMILION, drawing, dress, letter_panels, new_figure
+from wingbeat.style import (
+    BLUE,
+    GREEN,
+    GREY,
+    ORANGE,
+    PAGE,
+    VERMILION,
+    drawing,
+    dress,
+    heading,
+    in_words,
+    letter_panels,
+    new_figure,
+)
 from wingbeat.whole_flights.comparison import name_of
 from wingbeat.whole_flights.measured import COMPARED, Measurement
 from wingbeat.whole_flights.prediction import Prediction
@@ -58,9 +71,9 @@ def flights_page(prediction: Prediction) -> Figure:
         for axes in figure.axes
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
     }
-    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=3, fontsize=6.5)
-    objective = prediction.objective.replace("_", " ")
-    title = f"{prediction.flights.species}: model {prediction.model}, least {objective}"
+    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=3)
+    animal, objective = heading(prediction.flights.species), in_words(prediction.objective)
+    title = f"{animal}: model {prediction.model}, least {objective}"
     figure.suptitle(title, fontsize=8, x=0.01, ha="left")
     return figure
 

@@ -8,7 +8,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.errors import FaultList
-from wingbeat.style import FIRST, GREEN, PAGE, SECOND, VERMILION, drawing, letter_panels, new_figure
+from wingbeat.style import (
+    FIRST,
+    GREEN,
+    PAGE,
+    SECOND,
+    VERMILION,
+    drawing,
+    heading,
+    in_words,
+    legend_above,
+    letter_panels,
+    new_figure,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -53,8 +65,8 @@ def glide_page(dataset: xr.Dataset) -> Figure:
         torques.plot(speed, dataset["flap_torque"].values, label="flap torque that holds both wings", **_LINE)
         torques.plot(speed, dataset["tail_moment"].values, label="moment needed from a tail", **SECOND)
         torques.set(ylabel="torque, moment [N m]", xlabel="speed [m/s]")
-        for axes in (sink, angles, torques):
-            axes.legend()
+        for axes, columns in ((sink, 1), (angles, 2), (torques, 1)):
+            legend_above(axes, columns=columns)
         for axes in figure.axes:
             axes.grid()
         letter_panels(figure.axes)
@@ -76,5 +88,5 @@ def _title(dataset: xr.Dataset) -> str:
     aero = json.loads(about["aero"])
     count, all_ = int(dataset["trimmed"].sum()), dataset.sizes["angle_of_attack"]
     trimmed = "trimmed" if count == all_ else f"trimmed at {count} of {all_} angles"
-    name = about["species"]
-    return f"{name[:1].upper()}{name[1:]} gliding, wings held still, {aero['coefficients']}; {trimmed}"
+    coefficients = in_words(aero["coefficients"])
+    return f"{heading(about['species'])} gliding, wings held still, {coefficients} coefficients; {trimmed}"

@@ -19,6 +19,8 @@ from wingbeat.style import (
     THIRD,
     drawing,
     dress,
+    heading,
+    in_words,
     legend_below,
     letter_panels,
     new_figure,
@@ -50,7 +52,7 @@ def manoeuvre_page(plan: Manoeuvre, flights: Mapping[str, Flight]) -> Figure:
     orbit = plan.beat_map.orbit
     name = str(orbit.inputs["species"]["name"])
     speeds = " to ".join(f"{speed:g}" for speed in (orbit.inputs["speed"], *(end.speed for end in plan.ends)))
-    figure.suptitle(f"{name[:1].upper()}{name[1:]}: {speeds} m/s", fontsize=8.5)
+    figure.suptitle(f"{heading(name)}: {speeds} m/s", fontsize=8.5)
     panels = figure.subplots(2, 2).ravel()
     path = plan.beat_map.climb
     _draw_state(panels[0], plan, flights, 2, "forward velocity u [m/s]")
@@ -91,7 +93,7 @@ def _draw_changes(axes: Axes, plan: Manoeuvre) -> None:
     middle = 0.5 * (plan.times[1:] + plan.times[:-1])
     for name, values, (colour, mark) in zip(plan.inputs, plan.changes.T, MARKED, strict=False):
         factor = 10.0 if name == "frequency" else (np.degrees(1.0) if name in ANGLES else 1.0)
-        label = f"{name.replace('_', ' ')}{' [0.1 Hz]' if name == 'frequency' else ''}"
+        label = f"{in_words(name)}{' [0.1 Hz]' if name == 'frequency' else ''}"
         axes.plot(middle, factor * values, color=colour, marker=mark, ms=2.0, linewidth=0.8, label=label)
     axes.axhline(0.0, color=GREY, linewidth=0.6)
     dress(axes, "time [s]", "change [deg, 0.1 Hz]")

@@ -17,6 +17,8 @@ from wingbeat.style import (
     VERMILION,
     drawing,
     dress,
+    heading,
+    in_words,
     legend_below,
     letter_panels,
     new_figure,
@@ -44,9 +46,8 @@ def pareto_page(record: dict[str, Any]) -> Figure:
     record : of `ParetoFront.record`.
     """
     figure = new_figure(PAGE, 76.0)
-    name = f"{record['species'][:1].upper()}{record['species'][1:]}"
-    minimised, limited = (record[kind].replace("_", " ") for kind in ("objective", "quantity"))
-    where = f"{name} at {record['speed']:g} m/s{climb_text(record['climb'])}"
+    minimised, limited = (in_words(record[kind]) for kind in ("objective", "quantity"))
+    where = f"{heading(record['species'])} at {record['speed']:g} m/s{climb_text(record['climb'])}"
     figure.suptitle(f"{where}: least {minimised} for each limit of the {limited}", fontsize=8.5)
     front, changes = figure.subplots(1, 2)
     _draw_front(front, record)
@@ -92,7 +93,7 @@ def _draw_changes(axes: Axes, record: dict[str, Any]) -> None:
         if free["quantity_value"] is not None and best:
             rise = [100.0 * (point[name] / free[name] - 1.0) for point in best]
             at = _values(best, "quantity_value", record["quantity_unit"])
-            axes.plot(at, rise, color=colour, marker=mark, ms=3.5, linewidth=1.0, label=name.replace("_", " "))
+            axes.plot(at, rise, color=colour, marker=mark, ms=3.5, linewidth=1.0, label=in_words(name))
     axes.axhline(0.0, color=GREY, linewidth=0.6)
     dress(axes, _label(record, "quantity"), "change from the orbit without limit [%]")
 
@@ -103,4 +104,4 @@ def _values(points: list[dict[str, Any]], name: str, unit: str) -> np.ndarray:
 
 def _label(record: dict[str, Any], kind: str) -> str:
     unit = for_people(cf(record[f"{kind}_unit"]))[1]
-    return f"{record[kind].replace('_', ' ')} [{unit or '-'}]"
+    return f"{in_words(record[kind])} [{unit or '-'}]"

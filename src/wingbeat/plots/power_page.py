@@ -15,6 +15,7 @@ from wingbeat.style import (
     THIRD,
     VERMILION,
     drawing,
+    heading,
     legend_above,
     letter_panels,
     new_figure,
@@ -48,9 +49,9 @@ def power_page(dataset: xr.Dataset) -> Figure:
     account = power_account(dataset)
     with drawing():
         figure = new_figure(PAGE, 74.0)
-        name, speed = str(dataset.attrs["species"]), dataset.attrs["speed"]
+        name, speed = heading(str(dataset.attrs["species"])), dataset.attrs["speed"]
         certified = "" if dataset.attrs["status"] == "converged" else ", NOT CERTIFIED"
-        title = f"{name[:1].upper()}{name[1:]} at {speed:.4g} m/s: hinge power of both wings{certified}"
+        title = f"{name} at {speed:.4g} m/s: hinge power of both wings{certified}"
         figure.suptitle(title, fontsize=8.5, parse_math=False)
         shares, loop, costs = figure.subplots(1, 3)
         _draw_shares(shares, dataset)

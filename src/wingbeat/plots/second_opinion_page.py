@@ -14,6 +14,7 @@ from wingbeat.style import (
     SKY,
     THIRD,
     drawing,
+    heading,
     legend_below,
     letter_panels,
     new_figure,
@@ -42,9 +43,8 @@ def second_opinion_page(opinion: SecondOpinion) -> Figure:
     opinion : from `compare_with_lattice`.
     """
     figure = new_figure(PAGE, 92.0)
-    name = opinion.species
     figure.suptitle(
-        f"{name[:1].upper()}{name[1:]} at {opinion.speed:.4g} m/s: our loads and a vortex lattice, same motion",
+        f"{heading(opinion.species)} at {opinion.speed:.4g} m/s: our loads and a vortex lattice, same motion",
         fontsize=8.5,
         parse_math=False,
     )

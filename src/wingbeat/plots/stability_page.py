@@ -19,6 +19,7 @@ from wingbeat.style import (
     SHADE,
     drawing,
     dress,
+    heading,
     legend_below,
     letter_panels,
     new_figure,
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
 
 _KINDS = ("divergence", "oscillation", "subsidence", "flip")
 _LOOK = dict(zip(_KINDS, MARKED, strict=False))
+_LEGEND = MOVING | {"u": "forward velocity", "w": "upward velocity"}
 _PART_COLOURS = {"body_pitch": BLUE, "u": ORANGE, "w": GREEN, "pitch_rate": PURPLE}
 
 
@@ -46,7 +48,7 @@ def stability_page(records: Sequence[dict[str, Any]]) -> Figure:
     """
     figure = new_figure(PAGE, 68.0)
     first, several = records[0], len(records) > 1
-    name = f"{first['species'][:1].upper()}{first['species'][1:]}"
+    name = heading(first["species"])
     speeds = f"{first['speed']:g} to {records[-1]['speed']:g} m/s" if several else f"{first['speed']:g} m/s"
     figure.suptitle(f"{name} at {speeds}: multipliers of a disturbance in one beat", fontsize=8.5)
     plane, sizes, bars = figure.subplots(1, 3, width_ratios=(1, 1.1, 1))
@@ -114,10 +116,10 @@ def _draw_growth(axes: Axes, record: dict[str, Any]) -> None:
 def _draw_bars(axes: Axes, record: dict[str, Any]) -> None:
     modes = record["modes"]
     left = np.zeros(len(modes))
-    for part, label in MOVING.items():
+    for part, label in _LEGEND.items():
         widths = np.array([mode["shares"][part] for mode in modes])
         axes.barh(range(len(modes)), widths, left=left, height=0.6, color=_PART_COLOURS[part], label=label)
         left += widths
     axes.set_yticks(range(len(modes)), [f"{mode['kind']}\n{mode['modulus']:.3f}" for mode in modes])
     axes.set(xlim=(0, 1), ylim=(len(modes) - 0.4, -0.9), xlabel=f"share at {record['speed']:g} m/s [-]")
-    axes.legend(loc="upper center", ncols=2, fontsize=6, bbox_to_anchor=(0.5, 1.2), handlelength=0.9)
+    axes.legend(loc="upper center", ncols=2, fontsize=6, bbox_to_anchor=(0.45, 1.2), handlelength=0.9)

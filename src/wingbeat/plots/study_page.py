@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat.errors import FaultList
-from wingbeat.style import ALARM, FONT, MARKED, PAGE, drawing, new_figure
+from wingbeat.nomenclature import label_of, plain_unit
+from wingbeat.style import ALARM, FONT, MARKED, PAGE, drawing, in_words, letter_panels, new_figure
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -63,7 +64,8 @@ def study_page(
     if not good:
         faults.add("status", "none converged", "leaves nothing to draw", "see `wingbeat study status`")
     faults.raise_if_any()
-    axes_labels = [f"{name} [{unit}]" for name, unit in zip(varied, units, strict=True)]
+    pairs = zip(varied, units, strict=True)
+    axes_labels = [f"{label_of(name, short=True)} [{'-' if unit == '1' else unit}]" for name, unit in pairs]
     groups = _groups(frame, varied)
     with drawing():
         shown = groups if len(varied) == 1 else groups[: _MOST[len(varied) > 2]]
@@ -87,15 +89,21 @@ def _groups(frame: pd.DataFrame, varied: Sequence[str]) -> list[tuple[str, pd.Da
     asked = [name for name in columns[2:end] if name not in varied]
     others = [name for name in asked if len({str(value) for value in frame[name]}) > 1]
     if not others:
-        return [(str(frame["species"].iloc[0]), frame)]
+        return [(in_words(str(frame["species"].iloc[0])), frame)]
     found = []
     for values, part in frame.groupby(others, sort=False, dropna=False):
         key: Any = values
-        words = [
-            str(value) if name in _NAMES else f"{name} {value}" for name, value in zip(others, key, strict=True)
-        ]
-        found.append((", ".join(words), part))
+        found.append((", ".join(_said(name, value) for name, value in zip(others, key, strict=True)), part))
     return found
+
+
+def _said(name: str, value: Any) -> str:
+    """Return a requested value with its name and unit, as in ``speed 4 m/s``."""
+    if name in _NAMES:
+        return in_words(str(value))
+    number = f"{value:g}" if isinstance(value, float) else str(value)
+    unit = plain_unit(name)
+    return f"{label_of(name, short=True)} {number}{'' if unit == '1' else f' {unit}'}"
 
 
 def _draw_lines(
@@ -141,6 +149,8 @@ def _draw_panels(
         figure.colorbar(drawn, ax=axes, label=label)
     for axes in panels[len(groups) :]:
         axes.remove()
+    if len(groups) > 1:
+        letter_panels(panels[: len(groups)])
 
 
 def _map(axes: Axes, table: np.ndarray, good: np.ndarray, labels: list[str]) -> Any:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from wingbeat.style import FIRST, PAGE, SECOND, THIRD, drawing, legend_above, letter_panels, new_figure
+from wingbeat.style import FIRST, PAGE, SECOND, THIRD, drawing, heading, legend_above, letter_panels, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -28,8 +28,8 @@ def terms_page(record: dict[str, Any]) -> Figure:
         figure = new_figure(PAGE, 66.0)
         *first, last = (word for name, words in _TERMS.items() if name in record["aero"] for word in words)
         terms = f"{', '.join(first)} and {last}" if first else last
-        name = record["species"]
-        title = f"{name[:1].upper()}{name[1:]} at {record['speed']:.4g} m/s: the share of {terms} rises from 0 to 1"
+        name = heading(record["species"])
+        title = f"{name} at {record['speed']:.4g} m/s: the share of {terms} rises from 0 to 1"
         figure.suptitle(title, fontsize=8.5, parse_math=False)
         frequency, amplitude, power = figure.subplots(1, 3)
         runs = _runs(record)

@@ -2,15 +2,28 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import TYPE_CHECKING, Any
 
+from wingbeat.nomenclature import label_of
 from wingbeat.results.sensitivities import Sensitivities
-from wingbeat.style import BLUE, PAGE, VERMILION, drawing, legend_below, new_figure
+from wingbeat.style import (
+    BLUE,
+    PAGE,
+    VERMILION,
+    drawing,
+    heading,
+    in_words,
+    legend_below,
+    letter_panels,
+    new_figure,
+)
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_ROW, _HEAD = 5.0, 24.0  # mm
+_ROW, _HEAD = 6.5, 24.0  # mm
+_LETTERS = 27  # of a line of a label
 _MOST = 12
 
 
@@ -34,14 +47,14 @@ def tornado_page(found: Sensitivities) -> Figure:
     with drawing():
         figure = new_figure(PAGE, _HEAD + _ROW * count)
         problem = found.problem
-        figure.suptitle(
-            f"{problem.species.name} at {problem.speed:g} m/s, minimum {problem.minimise.name.replace('_', ' ')}: "
-            "first-order effect of each plausible range, relative to the largest effect",
-            fontsize=8,
+        title = (
+            f"{heading(problem.species.name)} at {problem.speed:g} m/s, minimum {in_words(problem.minimise.name)}"
         )
+        figure.suptitle(title, fontsize=8, parse_math=False)
         panels = figure.subplots(1, len(found.values), squeeze=False)[0]
         for panel, name in zip(panels, found.values, strict=True):
             _draw(panel, found, name)
+        letter_panels(panels)
         legend_below(figure, panels[0], columns=2)
     return figure
 
@@ -55,8 +68,8 @@ def _draw(panel: Any, found: Sensitivities, name: str) -> None:
             panel.barh(row, change / largest, height=0.7, color=color, label=end if row == 0 else None)
     panel.spines["left"].set_visible(False)
     panel.axvline(0.0, color="0.2", linewidth=0.8)
-    panel.set_yticks(range(len(ranked)), [s.parameter.path for s in ranked])
+    panel.set_yticks(range(len(ranked)), [textwrap.fill(label_of(s.parameter.path), _LETTERS) for s in ranked])
     panel.tick_params(axis="y", length=0)
     panel.invert_yaxis()
     panel.margins(y=0.01)
-    panel.set_xlabel(f"change of {name.replace('_', ' ')} [-]")
+    panel.set_xlabel(f"change of {in_words(name)} / largest [-]")

@@ -24,6 +24,8 @@ from wingbeat.style import (
     THIRD,
     drawing,
     dress,
+    heading,
+    in_words,
     legend_above,
     letter_panels,
     new_figure,
@@ -43,6 +45,11 @@ _LADDER: tuple[dict[str, Any], ...] = (
     {"color": PURPLE, "linestyle": (0, (6, 1, 1, 1, 1, 1))},
     {"color": GREY, "linestyle": (0, (2, 2))},
 )
+_TERMS = {
+    "thin-aerofoil": "rotation, added mass",
+    "thin-aerofoil-wake": "rotation, added mass, wake",
+    "momentum": "induced flow",
+}
 _STATIONS = ((0.25, FIRST), (0.5, SECOND), (0.75, THIRD))
 
 
@@ -75,7 +82,9 @@ def validation_page(found: Validation) -> Figure:
     for panel in grid.ravel():
         _shade(panel, found)
     letter_panels(grid)
-    figure.suptitle(f"{case.name}: {found.regime.wing} wing, Re {significant(found.regime.reynolds)}", fontsize=8)
+    regime = found.regime
+    title = f"{heading(case.title or case.name)}: {regime.wing} wing, Re {significant(regime.reynolds)}"
+    figure.suptitle(title, fontsize=8, parse_math=False)
     return figure
 
 
@@ -102,8 +111,9 @@ def _styled(found: Validation) -> list[tuple[ValidationRow, str, dict[str, Any]]
 
 def row_label(row: ValidationRow) -> str:
     """Return coefficients and terms of a row in a few words."""
-    names = [name for name in (row.unsteady, row.aero.inflow) if name != "none"]
-    return " + ".join([row.aero.coefficients.name, *names]) if names else f"{row.aero.coefficients.name} alone"
+    terms = [_TERMS.get(name, in_words(name)) for name in (row.unsteady, row.aero.inflow) if name != "none"]
+    coefficients = in_words(row.aero.coefficients.name)
+    return f"{coefficients}, {', '.join(terms)}" if terms else f"{coefficients} alone"
 
 
 def _draw_force(panel: Axes, found: Validation, axis: str) -> None:
@@ -122,7 +132,7 @@ def _draw_force(panel: Axes, found: Validation, axis: str) -> None:
         mean = case.mean_force[("fx", "fz").index(axis)] / case.weight
         panel.axhline(mean, label="measured mean", **_MEASURED)
         computed = found.case.mean(getattr(found.recommended.loads, axis)) / case.weight
-        panel.axhline(float(computed), color=BLUE, linewidth=0.8, linestyle=(0, (6, 2)), label="its mean")
+        panel.axhline(float(computed), color=BLUE, linewidth=0.8, linestyle=(0, (6, 2)), label="computed mean")
     legend_above(panel, columns=2)
 
 
@@ -148,7 +158,7 @@ def _draw_alpha(panel: Axes, found: Validation) -> None:
         strip = int(np.abs(side - station * side.max()).argmin())
         line = alpha[:, strip]
         jumps = np.abs(np.diff(line, prepend=line[:1])) > 180.0
-        panel.plot(beats, np.where(jumps, np.nan, line), label=f"{station:g} reach", **style)
+        panel.plot(beats, np.where(jumps, np.nan, line), label=f"{station:g} of the reach", **style)
     panel.axhline(0.0, color="0.6", linewidth=0.6)
     legend_above(panel)
 

@@ -1,4 +1,4 @@
-"""One page of a wingbeat or a flight: nine panels, a title above them, and how to read them below."""
+"""One page of a wingbeat or a flight: nine panels and a title above them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from wingbeat.errors import FaultList
 from wingbeat.plots.panels import draw_loads, draw_motion, draw_portraits, flown, mean_power
 from wingbeat.results.plausibility import statements
 from wingbeat.results.rows import mass_of
-from wingbeat.style import ALARM, FONT, GOOD, PAGE, drawing, letter_panels, new_figure
+from wingbeat.style import ALARM, GOOD, PAGE, drawing, heading, in_words, letter_panels, new_figure
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,17 +50,15 @@ def wingbeat_page(dataset: xr.Dataset) -> Figure:
     '183 mm wide'
     """
     lines, weight = _described(dataset)
-    head, foot = 2.5 + _LINE * len(lines), 1.0 + _LINE
-    height = head + _PANELS + foot
+    height = 2.5 + _LINE * len(lines) + _PANELS
     with drawing():
         figure = new_figure(PAGE, height)
         layout: Any = figure.get_layout_engine()
-        layout.set(rect=(0, foot / height, 1, _PANELS / height), w_pad=0.04, h_pad=0.04, wspace=0, hspace=0.02)
+        layout.set(rect=(0, 0, 1, _PANELS / height), w_pad=0.04, h_pad=0.04, wspace=0, hspace=0.02)
         for i, (text, style) in enumerate(lines):
             # A name that the user chose may hold a dollar sign, which must not start a formula.
             where = (2 / PAGE, 1 - (1.5 + _LINE * i) / height)
             figure.text(*where, text, va="top", parse_math=False, **style)
-        figure.text(2 / PAGE, 1.5 / height, _note(dataset), fontsize=FONT)
         panels = figure.subplots(3, 3)
         draw_motion(dataset, panels[0])
         draw_portraits(dataset, panels[1])
@@ -83,7 +81,9 @@ def _described(dataset: xr.Dataset) -> tuple[list[tuple[str, dict[str, Any]]], f
         vehicle, air, beat = (json.loads(dataset.attrs[name]) for name in ("vehicle", "air", "wingbeat"))
         weight = mass_of(vehicle) * air["gravity"]
         title = _orbit_title if kind == "orbit" else _flight_title
-        return title(dataset, f"{beat['frequency']:.4g} Hz"), weight
+        mean = mean_power(dataset)
+        power = "" if mean is None else f", mean hinge power {mean:.3g} W"
+        return title(dataset, f"{beat['frequency']:.4g} Hz{power}"), weight
     except (KeyError, TypeError, ValueError) as error:
         faults.add("attributes", str(error), "cannot be understood", "solve the orbit or fly the flight again")
     faults.raise_if_any()
@@ -93,9 +93,11 @@ def _described(dataset: xr.Dataset) -> tuple[list[tuple[str, dict[str, Any]]], f
 def _orbit_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[str, Any]]]:
     about = dataset.attrs
     aero, bounds = json.loads(about["aero"]), json.loads(about["active_bounds"])
-    first = f"{about['species']} at {about['speed']:.4g} m/s{climb_text(about['climb'])}, {frequency}"
-    loads = f"Air loads {aero['coefficients']}, {aero['extension']}, {aero['strips']} strips per wing"
-    second = f"{loads}; minimised: {about['objective']}; at the bound of {', '.join(bounds) or 'nothing'}"
+    first = f"{heading(about['species'])} at {about['speed']:.4g} m/s{climb_text(about['climb'])}, {frequency}"
+    names = f"{in_words(aero['coefficients'])}, {in_words(aero['extension'])}"
+    loads = f"Air loads: {names}, {aero['strips']} strips per wing"
+    at = ", ".join(bounds).replace("_", " ") or "nothing"  # a limit may hold a minus sign, which stays
+    second = f"{loads}; minimised: {in_words(about['objective'])}; at the bound of {at}"
     if about["status"] == "converged":
         said = statements({name: _read(about, name) for name in ("status", "closure", "plausibility")})
         parts = [(f"Certified: {said.closes}", _GOOD if said.good else _TEXT)]
@@ -103,7 +105,7 @@ def _orbit_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[st
     else:
         parts = [(f"NOT CERTIFIED ({about['status']}): {about['message']}", _ALARM)]
     lines = [(line, look) for text, look in ((second, _TEXT), *parts) for line in textwrap.wrap(text, 120)]
-    return [(_capital(first), _TITLE), *lines]
+    return [(first, _TITLE), *lines]
 
 
 def _capital(text: str) -> str:
@@ -122,11 +124,3 @@ def _flight_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[s
         return [(first, _TITLE)]
     end = phase[reached][-1] if reached.any() else 0.0
     return [(first, _TITLE), (f"NOT FINISHED: the vehicle tumbled after {end:.3g} beats", _ALARM)]
-
-
-def _note(dataset: xr.Dataset) -> str:
-    """Return the line below the panels."""
-    mean = mean_power(dataset)
-    power = "" if mean is None else f" c: mean hinge power {mean:.3g} W."
-    strips = f"h, i: force on one of {dataset.sizes['station']} equal strips, both wings together."
-    return f"Downstroke shaded.{power} g: effective angle. {strips}"

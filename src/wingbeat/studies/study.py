@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError
-from wingbeat.nomenclature import plain_unit
+from wingbeat.nomenclature import label_of, plain_unit
 from wingbeat.orbits.many.batch import check_processes
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.orbit import Orbit
@@ -253,16 +253,22 @@ class Study(ReportedStudy):
         if not varied:
             varied = [name for name in MOTION if len(getattr(form, name) or ()) > 1]
         if quantity is not None:
-            label = f"{quantity} [{plain_unit(quantity)}]"
+            label = f"{label_of(quantity, short=True)} [{_unit(quantity)}]"
         elif len(least) == 1:
             name = named(least[0])
-            label = f"lowest {name.replace('_', ' ')} [{plain_unit(name)}]"
+            label = f"lowest {name.replace('_', ' ')} [{_unit(name)}]"
         else:
             label = "minimised quantity"
         return frame, varied, quantity or "objective_value", label, [plain_unit(path) for path in varied]
 
     def _about(self) -> dict[str, Any]:
         return {"varied": list(self.plan.paths) or "nothing", "objective": self.plan.form.minimise}
+
+
+def _unit(name: str) -> str:
+    """Return the unit of a quantity as axes of figures say it."""
+    unit = plain_unit(name)
+    return "-" if unit == "1" else unit
 
 
 def _orbit(recipe: Recipe, changes: str, record: str) -> Orbit:

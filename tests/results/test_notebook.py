@@ -102,7 +102,8 @@ def test_a_problem_shows_what_is_asked(problem):
     assert "body_pitch_range<=0.698132" in shown
     assert "frequency 1 to 30 Hz" in shown
     assert "flap_amplitude_deg 5 to 70 deg" in shown
-    bat = wb.models.animal("bat").problem("bat", speed=6.0)
+    animal = wb.load_species("bat")
+    bat = wb.models.animal(animal).problem(animal, speed=6.0)
     assert f"model {bat.origin.name}" in check_table(bat)
 
 

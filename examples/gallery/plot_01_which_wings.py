@@ -12,7 +12,7 @@ Which wings need the least power at 5 m/s?
 import matplotlib.pyplot as plt
 
 import wingbeat as wb
-from wingbeat.style import BLUE, GREEN, VERMILION
+from wingbeat.style import BLUE, VERMILION
 
 robot = wb.robot(mass=0.026, wing_span=0.62, wing_area=0.055)
 wing = robot.vehicle.wing
@@ -34,22 +34,20 @@ def with_wings(length, chord):
 
 # %%
 # One problem for each pair of wings. The results of a problem serve as starts for similar problems.
-lengths, chords = [0.22, 0.25, 0.28, 0.31], [0.06, 0.075, 0.09]
+lengths, chords = [0.22, 0.26, 0.31], [0.06, 0.09]
 pairs = [(length, chord) for chord in chords for length in lengths]
 problems = [
-    wb.OrbitProblem(
-        with_wings(*pair), speed=5.0, minimise="mean_positive_power", subject_to=["frequency<=8"]
-    )
+    wb.OrbitProblem(with_wings(*pair), speed=5.0, minimise="mean_positive_power", subject_to=["frequency<=8"])
     for pair in pairs
 ]
-orbits = wb.solve_orbits(problems, starts=2)
+orbits = wb.solve_orbits(problems, starts=1)
 assert all(orbit.status is wb.Status.CONVERGED for orbit in orbits)
 power = {pair: orbit.record()["mean_positive_power"] for pair, orbit in zip(pairs, orbits, strict=True)}
 
 # %%
 # Least power against the length of a wing, one line for each chord.
 figure, axes = plt.subplots(figsize=(5.5, 3.6), layout="constrained")
-for chord, color, mark in zip(chords, (BLUE, GREEN, VERMILION), "o^s", strict=True):
+for chord, color, mark in zip(chords, (BLUE, VERMILION), "os", strict=True):
     axes.plot(
         [100 * length for length in lengths],
         [power[length, chord] for length in lengths],
@@ -57,7 +55,10 @@ for chord, color, mark in zip(chords, (BLUE, GREEN, VERMILION), "o^s", strict=Tr
         marker=mark,
         label=f"chord {100 * chord:g} cm",
     )
-axes.set(xlabel="length of a wing [cm]", ylabel="least mean positive power [W]", ylim=(0, None))
+axes.set(
+    xlabel="length of a wing [cm]", ylabel="least mean positive power [W]", ylim=(0, 1.1 * max(power.values()))
+)
+axes.spines[["top", "right"]].set_visible(False)
 axes.legend(frameon=False)
 
 # %%

@@ -25,7 +25,11 @@ known = wb.solve_orbit(wb.OrbitProblem(bat, speed=6.0), starts=2)
 assert known.status is wb.Status.CONVERGED
 film = synthetic_film(known.wingbeat, frames=80, noise_deg=1.0, seed=1, columns=("flap_deg", "pitch_deg"))
 seen = known.dataset.interp(phase=film.phase)
-body = {"body_x_m": seen["x"].values, "body_z_m": seen["z"].values, "body_pitch_deg": np.degrees(seen["body_pitch"])}
+body = {
+    "body_x_m": seen["x"].values,
+    "body_z_m": seen["z"].values,
+    "body_pitch_deg": np.degrees(seen["body_pitch"]),
+}
 film = replace(film, columns={**film.columns, **{name: np.array(values) for name, values in body.items()}})
 
 # %%
@@ -56,7 +60,9 @@ for (name, (phase, series, means)), color in zip(found.items(), (BLUE, VERMILION
         axes.axhline(mean, color=color, linestyle="--", linewidth=1)
 for axes, direction in zip(panels, ("upward", "forward"), strict=True):
     axes.set(xlabel="phase [beats]", ylabel=f"missing force {direction} / weight [1]")
-panels[0].legend(frameon=False)
+    axes.spines[["top", "right"]].set_visible(False)
+handles, labels = panels[0].get_legend_handles_labels()
+figure.legend(handles, labels, loc="outside upper center", ncols=2, frameon=False)
 
 # %%
 # The answer:

@@ -33,7 +33,12 @@ figure, axes = plt.subplots(figsize=(5.5, 3.6), layout="constrained")
 axes.axhspan(measured - spread, measured + spread, color=GREEN, alpha=0.25, linewidth=0, label="loaded pigeons")
 for name, color, mark in (("Su-Fan", BLUE, "o"), ("Dickinson", VERMILION, "s")):
     axes.plot(speeds, frequency[name], color=color, marker=mark, label=name)
-axes.set(xlabel="flight speed [m/s]", ylabel="lowest wingbeat frequency [Hz]", ylim=(0, None))
+axes.set(
+    xlabel="flight speed [m/s]",
+    ylabel="lowest wingbeat frequency [Hz]",
+    ylim=(0, 1.1 * frequency["Dickinson"].max()),
+)
+axes.spines[["top", "right"]].set_visible(False)
 axes.legend(frameon=False, loc="lower right")
 
 # %%

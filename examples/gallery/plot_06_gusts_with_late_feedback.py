@@ -31,6 +31,7 @@ for name, color, mark in zip(controls, (VERMILION, BLUE, GREEN), "so^", strict=T
     edges, shares = survey.by_size(name, bins=5)
     axes.plot((edges[1:] + edges[:-1]) / 2, 100 * shares, color=color, marker=mark, label=name)
 axes.set(xlabel="largest velocity of the gust [m/s]", ylabel="gusts survived [%]", ylim=(-3, 103))
+axes.spines[["top", "right"]].set_visible(False)
 axes.legend(frameon=False, loc="center left")
 
 # %%

@@ -38,7 +38,8 @@ axes.axvspan(radar - spread, radar + spread, color=GREEN, alpha=0.25, linewidth=
 axes.plot(power["speed"], power, color=BLUE, marker="o", label="least power")
 for name, color, line in (("minimum_power", "k", ":"), ("maximum_range", VERMILION, "--")):
     axes.axvline(best[name]["speed"], color=color, linestyle=line, label=name.replace("_", " "))
-axes.set(xlabel="flight speed [m/s]", ylabel="mean positive power [W]", ylim=(0, None))
+axes.set(xlabel="flight speed [m/s]", ylabel="mean positive power [W]", ylim=(0, 1.1 * float(power.max())))
+axes.spines[["top", "right"]].set_visible(False)
 axes.legend(frameon=False, loc="upper left")
 
 # %%

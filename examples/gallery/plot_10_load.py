@@ -29,8 +29,11 @@ power = np.array([orbit.record()["mean_positive_power"] for orbit in orbits])
 mass = pigeon.vehicle.mass
 figure, axes = plt.subplots(figsize=(5.5, 3.6), layout="constrained")
 axes.plot(1e3 * loads, power, color=BLUE, marker="o", label="least positive power")
-axes.plot(1e3 * loads, power[0] * (1 + loads / mass), color=GREY, linestyle="--", label="in proportion to the weight")
-axes.set(xlabel="load [g]", ylabel="mean positive power [W]", ylim=(0, None))
+axes.plot(
+    1e3 * loads, power[0] * (1 + loads / mass), color=GREY, linestyle="--", label="in proportion to the weight"
+)
+axes.set(xlabel="load [g]", ylabel="mean positive power [W]", ylim=(0, 1.1 * power.max()))
+axes.spines[["top", "right"]].set_visible(False)
 axes.legend(frameon=False, loc="lower right")
 
 # %%

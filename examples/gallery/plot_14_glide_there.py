@@ -16,7 +16,7 @@ import wingbeat as wb
 from wingbeat.style import BLUE, VERMILION
 
 jackdaw = wb.load_species("jackdaw").with_alternative("body-drag")
-polar = wb.glide_polar(jackdaw, "feathered", angles_of_attack=np.radians(np.arange(-2.0, 13.0)))
+polar = wb.glide_polar(jackdaw, "feathered", angles_of_attack=np.radians(np.arange(1.0, 13.0)))
 flattest = polar.best_ratio
 assert flattest is not None
 
@@ -32,6 +32,7 @@ axes.plot(reach, reach * height / distance, color=VERMILION, linestyle="--", lab
 axes.plot(reach, reach / flattest.glide_ratio, color="k", linestyle=":", label="flattest glide")
 axes.set(xlabel="forward speed [m/s]", ylabel="sink [m/s]", xlim=(0, None), ylim=(0, None))
 axes.invert_yaxis()
+axes.spines[["top", "right"]].set_visible(False)
 axes.legend(frameon=False, loc="lower left")
 
 # %%

@@ -2,8 +2,8 @@
 Which wings for my robot?
 =========================
 
-A robot of 26 g may have longer, shorter, broader or narrower wings. Its motors flap at most eight times per second.
-Which wings need the least power at 5 m/s?
+A robot of 26 g may have longer, shorter, broader or narrower wings. Its motors flap at most eight times per
+second. Which wings need the least power at 5 m/s?
 """
 
 # %%
@@ -40,7 +40,7 @@ problems = [
     wb.OrbitProblem(with_wings(*pair), speed=5.0, minimise="mean_positive_power", subject_to=["frequency<=8"])
     for pair in pairs
 ]
-orbits = wb.solve_orbits(problems, starts=1)
+orbits = wb.solve_orbits(problems, starts=2)
 assert all(orbit.status is wb.Status.CONVERGED for orbit in orbits)
 power = {pair: orbit.record()["mean_positive_power"] for pair, orbit in zip(pairs, orbits, strict=True)}
 
@@ -66,6 +66,6 @@ axes.legend(frameon=False)
 best = min(power, key=power.__getitem__)
 saved = 1 - power[best] / power[0.31, 0.09]
 print(
-    f"Of these wings, those of {100 * best[0]:g} by {100 * best[1]:g} cm need the least power: {power[best]:.2f} W, "
-    f"{saved:.0%} less than wings of 31 by 9 cm."
+    f"Of these wings, those of {100 * best[0]:g} by {100 * best[1]:g} cm need the least power: {power[best]:.2f} "
+    f"W, {saved:.0%} less than wings of 31 by 9 cm."
 )

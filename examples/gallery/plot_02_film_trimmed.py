@@ -8,8 +8,8 @@ wrong, and any force computed from the film is wrong as well.
 """
 
 # %%
-# No film of an animal comes with wingbeat, so we film a wingbeat that we know: an orbit of the bat at 6 m/s, in 80
-# frames with noise of one degree. With a film of your own, write ``film = read_film("film.csv")``.
+# No film of an animal comes with wingbeat, so we film a wingbeat that we know: an orbit of the bat at 6 m/s, in
+# 80 frames with noise of one degree. With a film of your own, write ``film = read_film("film.csv")``.
 from dataclasses import replace
 
 import matplotlib.pyplot as plt
@@ -34,7 +34,8 @@ film = replace(film, columns={**film.columns, **{name: np.array(values) for name
 
 # %%
 # Move wings and body as filmed. The missing force is the force that the motion needs in addition to air loads and
-# weight. The second film is the first with all pitch angles five degrees too high, as after an error of calibration.
+# weight. The second film is the first with all pitch angles five degrees too high, as after an error of
+# calibration.
 pitched = replace(film, columns={**film.columns, "pitch_deg": film.columns["pitch_deg"] + 5.0})
 model = wb.FlightModel(bat.vehicle, "su-fan", bat.air)
 

@@ -2,8 +2,8 @@
 What does a tail cost?
 ======================
 
-The pigeon of Su et al. has no tail, and its flight at 12 m/s is unstable. A tail may make it stable, but a tail has
-drag. How large must the tail be, and what does it cost? The orbits are those of lowest frequency.
+The pigeon of Su et al. has no tail, and its flight at 12 m/s is unstable. A tail may make it stable, but a tail
+has drag. How large must the tail be, and what does it cost? The orbits are those of lowest frequency.
 """
 
 # %%
@@ -48,6 +48,6 @@ for axes in panels:
 first = next(i for i, value in enumerate(radius) if value < 1)
 slower, cheaper = (100 * values[first] for values in change.values())
 print(
-    f"Of these tails, the smallest that makes the flight stable has {square_cm[first]:.0f} cm². It changes the lowest "
-    f"frequency by {slower:+.1f} % and its power by {cheaper:+.1f} %."
+    f"Of these tails, the smallest that makes the flight stable has {square_cm[first]:.0f} cm². It changes the "
+    f"lowest frequency by {slower:+.1f} % and its power by {cheaper:+.1f} %."
 )

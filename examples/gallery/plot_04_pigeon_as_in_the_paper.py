@@ -2,9 +2,9 @@
 Does the pigeon beat as fast as the paper says?
 ===============================================
 
-Su et al. write that above 10 m/s their coefficients predict the pigeon's measured wingbeat frequency remarkably well,
-and that Dickinson's coefficients agree poorly. They print no number for the pigeon. We compare our frequencies with
-loaded pigeons: 8.02 ± 0.69 Hz (Usherwood et al. 2005, doi 10.1242/jeb.01359).
+Su et al. write that above 10 m/s their coefficients predict the pigeon's measured wingbeat frequency remarkably
+well, and that Dickinson's coefficients agree poorly. They print no number for the pigeon. We compare our
+frequencies with loaded pigeons: 8.02 ± 0.69 Hz (Usherwood et al. 2005, doi 10.1242/jeb.01359).
 """
 
 # %%

@@ -20,8 +20,8 @@ for mode in flight.modes:
     print(f"{mode.kind:12} {abs(mode.multiplier):.3f}")
 
 # %%
-# Now the derivatives of the spectral radius, the largest modulus of a multiplier. For each number, the bars show the
-# change at both ends of its plausible range, if the change were linear.
+# Now the derivatives of the spectral radius, the largest modulus of a multiplier. For each number, the bars show
+# the change at both ends of its plausible range, if the change were linear.
 causes = wb.stability_sensitivities(orbit)
 ranked = causes.sensitivities.ranked("spectral_radius")[:7]
 names = {

@@ -7,8 +7,8 @@ that is computed at one top of the stroke may act only one beat later. Which gus
 """
 
 # %%
-# The robot is a pigeon at 12 m/s. ``feedback`` computes the gains of a linear-quadratic regulator: gains for a prompt
-# controller, and gains that allow for a delay of one beat.
+# The robot is a pigeon at 12 m/s. ``feedback`` computes the gains of a linear-quadratic regulator: gains for a
+# prompt controller, and gains that allow for a delay of one beat.
 import matplotlib.pyplot as plt
 
 import wingbeat as wb
@@ -19,8 +19,8 @@ assert orbit.status is wb.Status.CONVERGED
 late = wb.feedback(orbit, delay=1)
 
 # %%
-# Fly random gusts of up to 10 m/s, which is nearly the speed of flight. A flight is lost if the body pitch differs by
-# 60 degrees from the orbit's, or if the robot sinks 5 m.
+# Fly random gusts of up to 10 m/s, which is nearly the speed of flight. A flight is lost if the body pitch
+# differs by 60 degrees from the orbit's, or if the robot sinks 5 m.
 controls = {"no feedback": None, "feedback": wb.feedback(orbit), "feedback one beat late": late}
 survey = wb.survey_gusts(orbit, controls, flights=200, size=10.0, seed=1)
 

@@ -2,8 +2,8 @@
 How certain is this power?
 ==========================
 
-Nobody has measured every number of your animal. If each number may lie anywhere within a tenth of its plausible range,
-how uncertain is the power, and which number should you measure better?
+Nobody has measured every number of your animal. If each number may lie anywhere within a tenth of its plausible
+range, how uncertain is the power, and which number should you measure better?
 """
 
 # %%
@@ -29,10 +29,7 @@ page
 # %%
 # The answer:
 first = found.ranked("mean_positive_power")[0].parameter.path
-names = {
-    "wing.mass_exponent": "how the wing's mass is spread along the span",
-    "wing.semi_span": "the wing's length",
-}
+names = {"body.mass": "the mass of the body", "wing.semi_span": "the length of a wing"}
 assert power.first_order_holds
 print(
     f"Within a tenth of each plausible range the power is {power.mean:.1f} ± {power.deviation:.1f} W (mean and "

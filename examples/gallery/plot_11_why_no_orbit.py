@@ -2,13 +2,13 @@
 Why is there no orbit at 3 m/s?
 ===============================
 
-Live pigeons beat at up to 10 Hz. With this bound, the solver finds no orbit of the pigeon at 3 m/s. That is an answer,
-too: wingbeat says which balance fails, by how much, and what would have to change.
+Live pigeons beat at up to 10 Hz. With this bound, the solver finds no orbit of the pigeon at 3 m/s. That is an
+answer, too: wingbeat says which balance fails, by how much, and what would have to change.
 """
 
 # %%
-# A failed search raises no exception. Its status says what happened, and ``relaxations`` holds the smallest changes
-# of a single number with which there is an orbit.
+# A failed search raises no exception. Its status says what happened, and ``relaxations`` holds the smallest
+# changes of a single number with which there is an orbit.
 import matplotlib.pyplot as plt
 
 import wingbeat as wb
@@ -38,7 +38,7 @@ axes.legend(frameon=False)
 # %%
 # The answer:
 print(
-    f"At 3 m/s and 10 Hz, {failed['law']} is short by {failed['share']:.0%} of the weight. The lowest frequency with "
-    f"an orbit is {frequency[0]:.1f} Hz."
+    f"At 3 m/s and 10 Hz, {failed['law']} is short by {failed['share']:.0%} of the weight. The lowest frequency "
+    f"with an orbit is {frequency[0]:.1f} Hz."
 )
 assert failed["law"] == "lift"

@@ -2,8 +2,8 @@
 How do I get the gait into my controller or MuJoCo?
 ===================================================
 
-A certified orbit is a set of time series: angles for the servos, torques for the motors. A controller needs them as a
-table at equal time steps, and a simulator needs them as a model of the robot.
+A certified orbit is a set of time series: angles for the servos, torques for the motors. A controller needs them
+as a table at equal time steps, and a simulator needs them as a model of the robot.
 """
 
 # %%
@@ -37,8 +37,8 @@ ours = wb.simulate(orbit.problem.model, orbit.wingbeat, orbit.initial_state, bea
 apart = np.abs(flown.states - ours.states).max(axis=0)
 
 # %%
-# What the controller gets: the angles of a wing (left) and the torque that one flap motor must give (middle). The body
-# pitch in MuJoCo is that of the orbit (right).
+# What the controller gets: the angles of a wing (left) and the torque that one flap motor must give (middle). The
+# body pitch in MuJoCo is that of the orbit (right).
 figure, panels = plt.subplots(1, 3, figsize=(8.6, 3.0), layout="constrained")
 time = 1e3 * gait["time"]
 panels[0].plot(time, np.degrees(gait["flap"]), color=BLUE, label="flap")
@@ -60,6 +60,6 @@ for axes in panels:
 assert apart[2] < 1e-4
 print(
     f"The table has {len(gait)} rows and the flap motor of one wing must give at most "
-    f"{np.abs(gait['flap_torque_per_wing']).max():.2f} N m. In a beat in MuJoCo the body pitch differs from ours by "
-    f"at most {np.degrees(apart[2]):.0e} degrees."
+    f"{np.abs(gait['flap_torque_per_wing']).max():.2f} N m. In a beat in MuJoCo the body pitch differs from ours "
+    f"by at most {np.degrees(apart[2]):.0e} degrees."
 )

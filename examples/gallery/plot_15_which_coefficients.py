@@ -2,14 +2,14 @@
 Which coefficient model should I use?
 =====================================
 
-Models of lift and drag were measured on flat plates, insects, feathers and membranes. A measured motion with measured
-forces can tell which of them suits a vehicle. We take a flapping robot with rigid wings in a wind tunnel (Yeo, Atkins
-and Shyy 2011), which comes with wingbeat.
+Models of lift and drag were measured on flat plates, insects, feathers and membranes. A measured motion with
+measured forces can tell which of them suits a vehicle. We take a flapping robot with rigid wings in a wind tunnel
+(Yeo, Atkins and Shyy 2011), which comes with wingbeat.
 """
 
 # %%
-# ``validate`` computes the forces of each model on the measured motion. A rule that never sees the measured forces
-# recommends one model and one choice of unsteady terms.
+# ``validate`` computes the forces of each model on the measured motion. A rule that never sees the measured
+# forces recommends one model and one choice of unsteady terms.
 import matplotlib.pyplot as plt
 
 import wingbeat as wb
@@ -20,14 +20,15 @@ found = wb.validate(case)
 print(f"recommended: {found.recommended.aero.coefficients.name}. {found.reason}")
 
 # %%
-# The error is the root mean square of the difference, each force about its mean, divided by that of the measured force.
+# The error is the root mean square of the difference, each force about its mean, divided by that of the measured
+# force.
 rows = sorted(found.rows, key=lambda row: row.fz.rms_about_mean)
 for row in rows[:3]:
     print(f"{row.fz.rms_about_mean:.2f} {row.aero.coefficients.name}, {row.unsteady}, inflow {row.aero.inflow}")
 
 # %%
-# The measured force (black), that of the recommended model, that of the insect wing's model, and all others (grey). Each
-# force is about its mean.
+# The measured force (black), that of the recommended model, that of the insect wing's model, and all others
+# (grey). Each force is about its mean.
 beats = (found.case.times - found.case.times[0]) * found.case.frequency
 insect = next(row for row in rows if row.aero.coefficients.name == "dickinson" and row.unsteady == "none")
 looks = {
@@ -56,7 +57,7 @@ axes.legend(frameon=False, loc="lower center")
 chosen = found.recommended
 place = 1 + rows.index(chosen)
 print(
-    f"For this robot the rule recommends {chosen.aero.coefficients.name}. Its error is {chosen.fz.rms_about_mean:.0%} "
-    f"of the measured force; by this error it has place {place} of {len(rows)}."
+    f"For this robot the rule recommends {chosen.aero.coefficients.name}. Its error is "
+    f"{chosen.fz.rms_about_mean:.0%} of the measured force; by this error it has place {place} of {len(rows)}."
 )
 assert chosen.fz.rms_about_mean < 0.5

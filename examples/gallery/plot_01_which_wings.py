@@ -2,8 +2,8 @@
 Which wings for my robot?
 =========================
 
-A robot of 26 g may have longer, shorter, broader or narrower wings. Its motors flap at most eight times per second.
-Which wings need the least power at 5 m/s?
+A robot of 26 g may have longer, shorter, broader or narrower wings. Its motors flap at most eight times per
+second. Which wings need the least power at 5 m/s?
 """
 
 # %%
@@ -12,7 +12,7 @@ Which wings need the least power at 5 m/s?
 import matplotlib.pyplot as plt
 
 import wingbeat as wb
-from wingbeat.style import BLUE, GREEN, VERMILION
+from wingbeat.style import BLUE, VERMILION
 
 robot = wb.robot(mass=0.026, wing_span=0.62, wing_area=0.055)
 wing = robot.vehicle.wing
@@ -34,7 +34,7 @@ def with_wings(length, chord):
 
 # %%
 # One problem for each pair of wings. The results of a problem serve as starts for similar problems.
-lengths, chords = [0.22, 0.25, 0.28, 0.31], [0.06, 0.075, 0.09]
+lengths, chords = [0.22, 0.26, 0.31], [0.06, 0.09]
 pairs = [(length, chord) for chord in chords for length in lengths]
 problems = [
     wb.OrbitProblem(with_wings(*pair), speed=5.0, minimise="mean_positive_power", subject_to=["frequency<=8"])
@@ -47,7 +47,7 @@ power = {pair: orbit.record()["mean_positive_power"] for pair, orbit in zip(pair
 # %%
 # Least power against the length of a wing, one line for each chord.
 figure, axes = plt.subplots(figsize=(5.5, 3.6), layout="constrained")
-for chord, color, mark in zip(chords, (BLUE, GREEN, VERMILION), "o^s", strict=True):
+for chord, color, mark in zip(chords, (BLUE, VERMILION), "os", strict=True):
     axes.plot(
         [100 * length for length in lengths],
         [power[length, chord] for length in lengths],
@@ -55,7 +55,10 @@ for chord, color, mark in zip(chords, (BLUE, GREEN, VERMILION), "o^s", strict=Tr
         marker=mark,
         label=f"chord {100 * chord:g} cm",
     )
-axes.set(xlabel="length of a wing [cm]", ylabel="least mean positive power [W]", ylim=(0, None))
+axes.set(
+    xlabel="length of a wing [cm]", ylabel="least mean positive power [W]", ylim=(0, 1.1 * max(power.values()))
+)
+axes.spines[["top", "right"]].set_visible(False)
 axes.legend(frameon=False)
 
 # %%
@@ -63,6 +66,6 @@ axes.legend(frameon=False)
 best = min(power, key=power.__getitem__)
 saved = 1 - power[best] / power[0.31, 0.09]
 print(
-    f"Of these wings, those of {100 * best[0]:g} by {100 * best[1]:g} cm need the least power: {power[best]:.2f} W, "
-    f"{saved:.0%} less than wings of 31 by 9 cm."
+    f"Of these wings, those of {100 * best[0]:g} by {100 * best[1]:g} cm need the least power: {power[best]:.2f} "
+    f"W, {saved:.0%} less than wings of 31 by 9 cm."
 )

@@ -8,8 +8,8 @@ wrong, and any force computed from the film is wrong as well.
 """
 
 # %%
-# No film of an animal comes with wingbeat, so we film a wingbeat that we know: an orbit of the bat at 6 m/s, in 80
-# frames with noise of one degree. With a film of your own, write ``film = read_film("film.csv")``.
+# No film of an animal comes with wingbeat, so we film a wingbeat that we know: an orbit of the bat at 6 m/s, in
+# 80 frames with noise of one degree. With a film of your own, write ``film = read_film("film.csv")``.
 from dataclasses import replace
 
 import matplotlib.pyplot as plt
@@ -34,7 +34,8 @@ film = replace(film, columns={**film.columns, **{name: np.array(values) for name
 
 # %%
 # Move wings and body as filmed. The missing force is the force that the motion needs in addition to air loads and
-# weight. The second film is the first with all pitch angles five degrees too high, as after an error of calibration.
+# weight. The second film is the first with all pitch angles five degrees too high, as after an error of
+# calibration.
 pitched = replace(film, columns={**film.columns, "pitch_deg": film.columns["pitch_deg"] + 5.0})
 model = wb.FlightModel(bat.vehicle, "su-fan", bat.air)
 
@@ -60,7 +61,9 @@ for (name, (phase, series, means)), color in zip(found.items(), (BLUE, VERMILION
         axes.axhline(mean, color=color, linestyle="--", linewidth=1)
 for axes, direction in zip(panels, ("upward", "forward"), strict=True):
     axes.set(xlabel="phase [beats]", ylabel=f"missing force {direction} / weight [1]")
-panels[0].legend(frameon=False)
+    axes.spines[["top", "right"]].set_visible(False)
+handles, labels = panels[0].get_legend_handles_labels()
+figure.legend(handles, labels, loc="outside upper center", ncols=2, frameon=False)
 
 # %%
 # The answer:

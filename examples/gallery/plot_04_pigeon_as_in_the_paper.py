@@ -2,9 +2,9 @@
 Does the pigeon beat as fast as the paper says?
 ===============================================
 
-Su et al. write that above 10 m/s their coefficients predict the pigeon's measured wingbeat frequency remarkably well,
-and that Dickinson's coefficients agree poorly. They print no number for the pigeon. We compare our frequencies with
-loaded pigeons: 8.02 ± 0.69 Hz (Usherwood et al. 2005, doi 10.1242/jeb.01359).
+Su et al. write that above 10 m/s their coefficients predict the pigeon's measured wingbeat frequency remarkably
+well, and that Dickinson's coefficients agree poorly. They print no number for the pigeon. We compare our
+frequencies with loaded pigeons: 8.02 ± 0.69 Hz (Usherwood et al. 2005, doi 10.1242/jeb.01359).
 """
 
 # %%
@@ -33,7 +33,12 @@ figure, axes = plt.subplots(figsize=(5.5, 3.6), layout="constrained")
 axes.axhspan(measured - spread, measured + spread, color=GREEN, alpha=0.25, linewidth=0, label="loaded pigeons")
 for name, color, mark in (("Su-Fan", BLUE, "o"), ("Dickinson", VERMILION, "s")):
     axes.plot(speeds, frequency[name], color=color, marker=mark, label=name)
-axes.set(xlabel="flight speed [m/s]", ylabel="lowest wingbeat frequency [Hz]", ylim=(0, None))
+axes.set(
+    xlabel="flight speed [m/s]",
+    ylabel="lowest wingbeat frequency [Hz]",
+    ylim=(0, 1.1 * frequency["Dickinson"].max()),
+)
+axes.spines[["top", "right"]].set_visible(False)
 axes.legend(frameon=False, loc="lower right")
 
 # %%

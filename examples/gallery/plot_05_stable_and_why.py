@@ -20,8 +20,8 @@ for mode in flight.modes:
     print(f"{mode.kind:12} {abs(mode.multiplier):.3f}")
 
 # %%
-# Now the derivatives of the spectral radius, the largest modulus of a multiplier. For each number, the bars show the
-# change at both ends of its plausible range, if the change were linear.
+# Now the derivatives of the spectral radius, the largest modulus of a multiplier. For each number, the bars show
+# the change at both ends of its plausible range, if the change were linear.
 causes = wb.stability_sensitivities(orbit)
 ranked = causes.sensitivities.ranked("spectral_radius")[:7]
 names = {
@@ -42,6 +42,7 @@ axes.axvline(0, color="k", linewidth=0.8)
 axes.set_yticks(range(len(ranked)), [names.get(slope.parameter.path, slope.parameter.path) for slope in ranked])
 axes.invert_yaxis()
 axes.set(xlabel="linear change of the spectral radius [1]", ylabel="number of the animal")
+axes.spines[["top", "right"]].set_visible(False)
 axes.legend(frameon=False, loc="lower right")
 
 # %%

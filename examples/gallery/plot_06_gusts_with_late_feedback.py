@@ -7,8 +7,8 @@ that is computed at one top of the stroke may act only one beat later. Which gus
 """
 
 # %%
-# The robot is a pigeon at 12 m/s. ``feedback`` computes the gains of a linear-quadratic regulator: gains for a prompt
-# controller, and gains that allow for a delay of one beat.
+# The robot is a pigeon at 12 m/s. ``feedback`` computes the gains of a linear-quadratic regulator: gains for a
+# prompt controller, and gains that allow for a delay of one beat.
 import matplotlib.pyplot as plt
 
 import wingbeat as wb
@@ -19,8 +19,8 @@ assert orbit.status is wb.Status.CONVERGED
 late = wb.feedback(orbit, delay=1)
 
 # %%
-# Fly random gusts of up to 10 m/s, which is nearly the speed of flight. A flight is lost if the body pitch differs by
-# 60 degrees from the orbit's, or if the robot sinks 5 m.
+# Fly random gusts of up to 10 m/s, which is nearly the speed of flight. A flight is lost if the body pitch
+# differs by 60 degrees from the orbit's, or if the robot sinks 5 m.
 controls = {"no feedback": None, "feedback": wb.feedback(orbit), "feedback one beat late": late}
 survey = wb.survey_gusts(orbit, controls, flights=200, size=10.0, seed=1)
 
@@ -31,6 +31,7 @@ for name, color, mark in zip(controls, (VERMILION, BLUE, GREEN), "so^", strict=T
     edges, shares = survey.by_size(name, bins=5)
     axes.plot((edges[1:] + edges[:-1]) / 2, 100 * shares, color=color, marker=mark, label=name)
 axes.set(xlabel="largest velocity of the gust [m/s]", ylabel="gusts survived [%]", ylim=(-3, 103))
+axes.spines[["top", "right"]].set_visible(False)
 axes.legend(frameon=False, loc="center left")
 
 # %%

@@ -2,8 +2,8 @@
 What does a spring at the shoulder save?
 ========================================
 
-Wings that flap fast must be braked and accelerated twice in each beat. A spring at the shoulder can store the energy
-of the braking wing. How stiff should it be, and how much power does it save?
+Wings that flap fast must be braked and accelerated twice in each beat. A spring at the shoulder can store the
+energy of the braking wing. How stiff should it be, and how much power does it save?
 """
 
 # %%

@@ -2,8 +2,8 @@
 What if my animal carries a load?
 =================================
 
-A logger, a camera or a letter makes a pigeon heavier. How much more power does it need at 10 m/s, and does the power
-grow faster than the weight?
+A logger, a camera or a letter makes a pigeon heavier. How much more power does it need at 10 m/s, and does the
+power grow faster than the weight?
 """
 
 # %%
@@ -32,7 +32,8 @@ axes.plot(1e3 * loads, power, color=BLUE, marker="o", label="least positive powe
 axes.plot(
     1e3 * loads, power[0] * (1 + loads / mass), color=GREY, linestyle="--", label="in proportion to the weight"
 )
-axes.set(xlabel="load [g]", ylabel="mean positive power [W]", ylim=(0, None))
+axes.set(xlabel="load [g]", ylabel="mean positive power [W]", ylim=(0, 1.1 * power.max()))
+axes.spines[["top", "right"]].set_visible(False)
 axes.legend(frameon=False, loc="lower right")
 
 # %%
@@ -41,5 +42,5 @@ heavier, dearer = loads[-1] / mass, power[-1] / power[0] - 1
 assert dearer > heavier
 print(
     f"A load of {1e3 * loads[-1]:.0f} g is {heavier:.0%} of the pigeon's mass, and raises the power by {dearer:.0%}: "
-    f"the power grows faster than the weight."
+    "the power grows faster than the weight."
 )

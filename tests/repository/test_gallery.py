@@ -1,0 +1,91 @@
+"""Each example of the gallery asks a question, answers it with a number, and draws a figure with labelled axes."""
+
+import ast
+import runpy
+
+import matplotlib
+import matplotlib.pyplot as plt
+import pytest
+from matplotlib.figure import Figure
+
+from tests.helpers.places import ROOT
+
+GALLERY = ROOT / "examples" / "gallery"
+EXAMPLES = sorted(GALLERY.glob("*.py"))
+FEWEST = 15
+MOST_LINES = 100
+
+
+def names(path):
+    return path.stem
+
+
+@pytest.fixture
+def drawn_nowhere(monkeypatch, tmp_path):
+    """Draw without a screen, in the folder of the gallery as its builder does, and write to a folder that goes."""
+    backend = matplotlib.get_backend()
+    matplotlib.use("Agg")
+    plt.close("all")
+    monkeypatch.chdir(GALLERY)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    yield
+    plt.close("all")
+    matplotlib.use(backend)
+
+
+def figures_of(values):
+    """Return the figures of an example, those of pyplot and those that wingbeat's own pages are."""
+    pages = [value for value in values.values() if isinstance(value, Figure)]
+    found = [*map(plt.figure, plt.get_fignums()), *pages]
+    return list({id(figure): figure for figure in found}.values())
+
+
+def title_and_why(path):
+    """Return the title of an example, the line below it, and the paragraph that follows."""
+    text = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8")))
+    assert text is not None
+    title, line, *rest = text.splitlines()
+    return title, line, "\n".join(rest).strip()
+
+
+def test_the_gallery_is_numbered_without_gaps():
+    assert len(EXAMPLES) >= FEWEST
+    assert [path.stem.split("_")[:2] for path in EXAMPLES] == [
+        ["plot", f"{number:02}"] for number in range(1, len(EXAMPLES) + 1)
+    ]
+    assert len({title_and_why(path)[0] for path in EXAMPLES}) == len(EXAMPLES)
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=names)
+def test_an_example_asks_a_question_and_says_why(path):
+    title, line, why = title_and_why(path)
+    assert title.endswith("?")
+    assert line == "=" * len(title)
+    assert why
+    assert "\n\n" not in why, "one paragraph"
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=names)
+def test_an_example_is_short_cells_that_check_and_print_an_answer(path):
+    text = path.read_text(encoding="utf-8")
+    asserts = [node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Assert)]
+    assert len(text.splitlines()) <= MOST_LINES
+    assert text.count("\n# %%\n") >= 3
+    assert asserts
+    *_, last = text.split("\n# %%\n")
+    assert last.startswith("# The answer:")
+    assert "print(" in last
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=names)
+def test_an_example_runs_and_draws_labelled_axes(path, drawn_nowhere, capsys):
+    values = runpy.run_path(str(path), run_name="__main__")
+    figures = figures_of(values)
+    assert figures
+    for figure in figures:
+        figure.canvas.draw()
+        assert figure.axes
+        for axes in figure.axes:
+            assert axes.get_xlabel() or axes.get_ylabel()
+        assert any("[" in axes.get_xlabel() + axes.get_ylabel() for axes in figure.axes), "units"
+    assert len(capsys.readouterr().out.splitlines()) >= 1

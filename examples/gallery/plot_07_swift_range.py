@@ -49,8 +49,8 @@ axes.legend(frameon=False, loc="upper left")
 ratio = median(float(bird["max_range_speed"]) / float(bird["airspeed"]) for bird in birds)
 print(
     f"To go far, this swift should fly at {best['maximum_range']['speed']:.1f} m/s; it stays up for longest at "
-    f"{best['minimum_power']['speed']:.1f} m/s. Live swifts migrate at {radar:.1f} m/s. The model is too slow for most "
-    f"birds: its median over {len(birds)} birds is {ratio:.2f} times the measured speed."
+    f"{best['minimum_power']['speed']:.1f} m/s. Live swifts migrate at {radar:.1f} m/s. The model is too slow for "
+    f"most birds: its median over {len(birds)} birds is {ratio:.2f} times the measured speed."
 )
 assert len(birds) == 129
 assert ratio < 1

@@ -42,15 +42,15 @@ for name, color, line in (("minimum_power", "k", ":"), ("maximum_range", VERMILI
     axes.axvline(best[name]["speed"], color=color, linestyle=line, label=name.replace("_", " "))
 axes.set(xlabel="flight speed [m/s]", ylabel="mean positive power [W]", ylim=(0, 1.1 * float(power.max())))
 axes.spines[["top", "right"]].set_visible(False)
-axes.legend(frameon=False, loc="upper left")
+figure.legend(loc="outside upper center", ncols=2, frameon=False)
 
 # %%
 # The answer:
 ratio = median(float(bird["max_range_speed"]) / float(bird["airspeed"]) for bird in birds)
 print(
     f"To go far, this swift should fly at {best['maximum_range']['speed']:.1f} m/s; it stays up for longest at "
-    f"{best['minimum_power']['speed']:.1f} m/s. Live swifts migrate at {radar:.1f} m/s. The model is too slow for most "
-    f"birds: its median over {len(birds)} birds is {ratio:.2f} times the measured speed."
+    f"{best['minimum_power']['speed']:.1f} m/s. Live swifts migrate at {radar:.1f} m/s. The model is too slow for "
+    f"most birds: its median over {len(birds)} birds is {ratio:.2f} times the measured speed."
 )
 assert len(birds) == 129
 assert ratio < 1

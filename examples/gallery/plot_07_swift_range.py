@@ -42,7 +42,7 @@ for name, color, line in (("minimum_power", "k", ":"), ("maximum_range", VERMILI
     axes.axvline(best[name]["speed"], color=color, linestyle=line, label=name.replace("_", " "))
 axes.set(xlabel="flight speed [m/s]", ylabel="mean positive power [W]", ylim=(0, 1.1 * float(power.max())))
 axes.spines[["top", "right"]].set_visible(False)
-axes.legend(frameon=False, loc="upper left")
+figure.legend(loc="outside upper center", ncols=2, frameon=False)
 
 # %%
 # The answer:

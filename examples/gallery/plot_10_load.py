@@ -41,6 +41,6 @@ axes.legend(frameon=False, loc="lower right")
 heavier, dearer = loads[-1] / mass, power[-1] / power[0] - 1
 assert dearer > heavier
 print(
-    f"A load of {1e3 * loads[-1]:.0f} g is {heavier:.0%} of the pigeon's mass, and raises the power by {dearer:.0%}. "
-    "The power grows faster than the weight."
+    f"A load of {1e3 * loads[-1]:.0f} g is {heavier:.0%} of the pigeon's mass, and raises the power by "
+    f"{dearer:.0%}: the power grows faster than the weight."
 )

@@ -273,7 +273,7 @@ def test_power_and_its_peaks(orbits):
 
 
 def test_body_pitch_and_its_range(orbits):
-    figure, table, caption = pitch_figure(orbits)
+    _, table, caption = pitch_figure(orbits)
     drawn = column(table, "body_pitch_deg", model="dickinson")
     np.testing.assert_array_equal(drawn, np.degrees(orbits[BAT_DICKINSON].dataset["body_pitch"]))
     wanted = math.degrees(orbits[BAT_DICKINSON].record()["body_pitch_range"])

@@ -9,22 +9,20 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wingbeat.files import write_atomically
+from wingbeat.paper.assumption_figure import TRUSTED, draw
 from wingbeat.paper.assumption_study import ORBITS, Judged
 from wingbeat.paper.assumptions import ASSUMPTIONS
 from wingbeat.paper.importance import Importance, importance
 from wingbeat.paper.pieces import table
 from wingbeat.plots import save_figure
-from wingbeat.style import BLUE, GREEN, VERMILION, drawing, letter_panels, new_figure
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+    pass
 
 # A pair of claims is reported as never holding together only if each holds in at least this many sets.
 _OFTEN = 20
 # Assumptions that explain less than this share of the variance of a claim's number are not named.
 _TELLING = 0.05
-# A surface that explains less than this share of the variance of unseen numbers says little.
-TRUSTED = 0.3
 _BEST = 5
 
 
@@ -68,6 +66,11 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         heading,
         "",
         "![Share of the testable sets that satisfy each claim, and what the claim depends on](assumptions.png)",
+        "",
+        "*Share of the testable sets that satisfy each claim (bars in a), and share of all sets that can test it "
+        "(ticks). Share of the variance of the claim's number that each assumption explains (b); grey: too few "
+        "sets. Quality of the response surface behind these shares (c); left of the line the surface says little. "
+        "The claims are in the order of the table below. U: Usherwood et al. 2005, P: Pennycuick 1996.*",
         "",
         "## Claim by claim",
         "",
@@ -147,39 +150,3 @@ def _apart(study: Judged) -> list[str]:
     if never:
         lines.append(f"- no set satisfies any of these: {', '.join(f'`{name}`' for name in never)}")
     return lines or ["- for any two claims that each hold in many sets, at least one set satisfies both"]
-
-
-@drawing(font=9.0)
-def draw(study: Judged, hangs: Sequence[Importance | None]) -> Figure:
-    """Draw, for each claim, the share of the testable sets that satisfy it and what its number depends on."""
-    from matplotlib import colormaps
-
-    count = len(study.claims)
-    figure = new_figure(254.0, 51.0 + 6.9 * count)
-    bars, heat, fits = figure.subplots(1, 3, sharey=True, width_ratios=(1.1, 3.0, 0.5))
-    places = np.arange(count)
-    told = np.isfinite(study.holds)
-    share = np.array([100 * h[t].mean() if t.any() else 0.0 for h, t in zip(study.holds.T, told.T, strict=True)])
-    bars.barh(places, share, color=BLUE, height=0.7)
-    bars.plot(100 * told.mean(axis=0), places, "|", color=VERMILION, markersize=9)
-    shown = "bar: sets in which the claim holds\n[% of the sets that can test it]\n"
-    bars.set(xlim=(0, 103), xlabel=f"{shown}tick: sets that can test it\n[% of all sets]")
-    bars.set_yticks(places, [claim.id for claim in study.claims], fontsize=8)
-    shares = np.array([np.full(len(ASSUMPTIONS), np.nan) if h is None else h.shares for h in hangs])
-    image = heat.imshow(
-        100 * shares, aspect="auto", cmap=colormaps["Blues"].with_extremes(bad="0.85"), vmin=0, vmax=60
-    )
-    names = [assumption.name.replace("_", " ").removesuffix(" deg") for assumption in ASSUMPTIONS]
-    heat.set_xticks(np.arange(len(ASSUMPTIONS)), names, rotation=40, ha="right", fontsize=8)
-    explained = "share of the variance of the claim's number\nthat the assumption explains [%]; grey: too few sets"
-    figure.colorbar(image, ax=heat, label=explained, fraction=0.03, pad=0.01)
-    quality = np.array([np.nan if h is None else h.quality for h in hangs])
-    fits.barh(places, np.maximum(quality, 0.0), color=GREEN, height=0.7)
-    fits.axvline(TRUSTED, color="0.35", linestyle="-.", linewidth=0.8)
-    fits.set(xlim=(0, 1), xlabel="R² of the\nsurface [-]")
-    for axes in (bars, heat, fits):
-        axes.tick_params(length=2)
-    letter_panels((bars, heat, fits))
-    title = f"{len(study.sets)} sets of assumptions: which claims hold, and what they depend on"
-    figure.suptitle(title, fontsize=10)
-    return figure

@@ -4,8 +4,8 @@ The names are loaded when first used: `wingbeat orbit`, which may need a film, t
 
 >>> import wingbeat as wb
 >>> film = wb.experiment.synthetic_film(wb.load_species("pigeon").wingbeat, frames=60, noise_deg=0.0)
->>> round(wb.experiment.fit_film(film).film.frequency, 2)
-8.0
+>>> round(wb.experiment.fit_film(film).numbers["flap_amplitude"], 3)
+0.785
 """
 
 from __future__ import annotations

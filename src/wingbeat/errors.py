@@ -30,11 +30,29 @@ class Fault:
 
 
 class WingbeatError(Exception):
-    """The base class of all errors that wingbeat raises on purpose."""
+    """The base class of all errors that wingbeat raises on purpose.
+
+    >>> import wingbeat as wb
+    >>> try:
+    ...     wb.load_species("pigon")
+    ... except wb.WingbeatError as error:
+    ...     print(error)
+    species = 'pigon': is not a built-in species; did you mean pigeon; or give the path of a .toml file
+    """
 
 
 class InvalidInputError(WingbeatError, ValueError):
-    """Input was refused; ``faults`` holds every fault found, and the message has one line for each."""
+    """Input was refused; ``faults`` holds every fault found, and the message has one line for each.
+
+    >>> import wingbeat as wb
+    >>> try:
+    ...     wb.Body(mass=-0.3, pitch_inertia=0.0)
+    ... except wb.InvalidInputError as error:
+    ...     print(error.faults[0])
+    ...     len(error.faults)
+    body.mass = -0.3: must be > 0 kg; give the mass without the wings
+    2
+    """
 
     def __init__(self, faults: list[Fault]) -> None:
         self.faults = faults
@@ -42,19 +60,55 @@ class InvalidInputError(WingbeatError, ValueError):
 
 
 class FileError(WingbeatError):
-    """A file could not be read or written; the message names the file, the reason and a fix."""
+    """A file could not be read or written; the message names the file, the reason and a fix.
+
+    >>> import wingbeat as wb
+    >>> try:
+    ...     wb.load_orbit("missing.nc")
+    ... except wb.FileError as error:
+    ...     print(error)
+    cannot read 'missing.nc': no such file or directory; check the path
+    """
 
 
 class ClusterError(WingbeatError):
-    """Other machines cannot be reached or cannot do the work; the message says which, why, and how to fix it."""
+    """Other machines cannot be reached or cannot do the work; the message says which, why, and how to fix it.
+
+    >>> import wingbeat as wb
+    >>> def run(study):
+    ...     try:
+    ...         return study.run(dask="tcp://lab:8786")
+    ...     except wb.ClusterError as error:  # for example, no scheduler answers there
+    ...         print(error)
+    ...         return study.run(processes=2)
+    >>> issubclass(wb.ClusterError, wb.WingbeatError)
+    True
+    """
 
 
 class ForkError(WingbeatError, RuntimeError):
-    """A forked process cannot run JAX if its parent has used JAX; the message says what to do instead."""
+    """A forked process cannot run JAX if its parent has used JAX; the message says what to do instead.
+
+    >>> import multiprocessing, wingbeat as wb
+    >>> context = multiprocessing.get_context("spawn")  # after "fork", a solve in the new process raises ForkError
+    >>> context.get_start_method(), issubclass(wb.ForkError, wb.WingbeatError)
+    ('spawn', True)
+    """
 
 
 class WorkerError(WingbeatError, RuntimeError):
-    """A worker process cannot be started, or two of them died on the same work; the message says which."""
+    """A worker process cannot be started, or two of them died on the same work; the message says which.
+
+    >>> import wingbeat as wb
+    >>> def solve(problems):
+    ...     try:
+    ...         return wb.solve_orbits(problems, processes=2)
+    ...     except wb.WorkerError as error:  # for example, a process had too little memory
+    ...         print(error)
+    ...         return wb.solve_orbits(problems)
+    >>> solve([])
+    []
+    """
 
 
 def install_extra(extra: str) -> str:

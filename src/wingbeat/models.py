@@ -3,6 +3,11 @@
 A model chooses coefficients, terms of the air loads, parts of the vehicle, free parameters and the objective.
 `paper` makes the choices of Su et al. 2023 (doi 10.48550/arXiv.2302.09602), `animal` those for a bird, a bat or a
 robot. The choices depend on the kind of flyer. None is fitted to a measured flight.
+
+>>> import wingbeat as wb
+>>> pigeon = wb.load_species("pigeon")
+>>> wb.models.animal(pigeon).problem(pigeon, speed=10.0).minimise.name
+'metabolic_power'
 """
 
 from __future__ import annotations

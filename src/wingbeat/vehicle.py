@@ -25,6 +25,11 @@ class Body:
     Raises
     ------
     InvalidInputError : a mass or inertia that is not positive, a negative drag area, a number that is not finite.
+
+    >>> import wingbeat as wb
+    >>> body = wb.Body(mass=0.276, pitch_inertia=3.6e-4, drag_area=5e-4)
+    >>> round(wb.Vehicle(body, wb.Wing(semi_span=0.279, chord=0.112, mass=0.020)).mass, 3)
+    0.316
     """
 
     mass: float
@@ -57,6 +62,11 @@ class Wing:
     ------
     InvalidInputError : a length or mass that is not positive, a negative exponent, fewer than two stations of the
         chord, a shoulder that is not three numbers, a number that is not finite.
+
+    >>> import wingbeat as wb
+    >>> wing = wb.Wing(semi_span=0.3, chord=(0.12, 0.10, 0.04), mass=0.02, mass_exponent=2.0)
+    >>> round(wing.mean_chord, 3)
+    0.09
     """
 
     semi_span: float
@@ -124,6 +134,12 @@ class Tail:
     ------
     InvalidInputError : an area or slope that is not positive, a negative drag coefficient, a number that is not
         finite.
+
+    >>> import dataclasses, wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon").vehicle
+    >>> tailed = dataclasses.replace(pigeon, tail=wb.Tail(area=0.008, arm=0.12, lift_slope=1.6))
+    >>> pigeon.tail is None, tailed.tail.area
+    (True, 0.008)
     """
 
     area: float
@@ -204,6 +220,11 @@ class Air:
     ------
     InvalidInputError : a density or viscosity that is not positive, a negative gravity, a number that is not
         finite.
+
+    >>> import wingbeat as wb
+    >>> high = wb.Air(density=0.9)
+    >>> round(high.reynolds(10.0, 0.1))
+    66667
     """
 
     density: float = 1.225

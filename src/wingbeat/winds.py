@@ -1,4 +1,10 @@
-"""Moving air as functions of time: a single gust, and turbulence with a published spectrum."""
+"""Moving air as functions of time: a single gust, and turbulence with a published spectrum.
+
+>>> import wingbeat as wb
+>>> gust = wb.winds.CosineGust(w=2.0, duration=0.4)  # for wb.simulate and wb.simulate_many
+>>> float(gust(0.2)[1])
+2.0
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,9 @@
-"""Air loads: quasi-steady coefficients of a wing strip, and blade elements that turn them into forces."""
+"""Air loads: quasi-steady coefficients of a wing strip, and blade elements that turn them into forces.
+
+>>> import wingbeat as wb
+>>> wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0, aero=wb.aero.Dickinson()).aero.coefficients.name
+'dickinson'
+"""
 
 from wingbeat.aero.animal_wings import (
     WING_ESTIMATES,

@@ -46,6 +46,11 @@ class ValidationRow:
     fx, fz : how close the computed forward and upward forces are to the measured ones.
     aerodynamic_power : mean power that the wings give to the air [W].
     loads : the loads through time.
+
+    >>> import wingbeat as wb
+    >>> row = wb.validate(wb.shipped_cases()[0], aero=["dickinson"]).recommended
+    >>> row.aero.coefficients.name, row.unsteady, round(row.fz.mean_ratio, 1)
+    ('dickinson', 'thin-aerofoil', 1.1)
     """
 
     aero: BladeElement
@@ -81,6 +86,11 @@ class Validation(Reported):
     regime : Reynolds number, reduced frequency and kind of wing, which decide the recommendation.
     rows : one for each model and choice of terms.
     reason : why the recommended row is recommended.
+
+    >>> import wingbeat as wb
+    >>> found = wb.validate(wb.shipped_cases()[0], aero=["dickinson"])
+    >>> len(found.rows), found.recommended.unsteady
+    (2, 'thin-aerofoil')
     """
 
     case: StripCase

@@ -70,6 +70,11 @@ class StripCase:
     ------
     InvalidInputError : numbers that are missing, not finite or out of range, arrays of the wrong shape, times that
         do not rise or leave gaps, chords of zero length, both or neither of `forces` and `mean_force`.
+
+    >>> import wingbeat as wb
+    >>> case = wb.read_strip_case(wb.shipped_cases()[-1])
+    >>> case.name, case.position.shape[1:], round(case.weight, 3)
+    ('flapper-yeo2011', (20, 3), 0.071)
     """
 
     name: str

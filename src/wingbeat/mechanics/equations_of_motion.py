@@ -182,6 +182,13 @@ def air_forces(
     Returns
     -------
     AirForces : ``generalised`` is f_aero, shape (..., 5) [N, N m].
+
+    >>> import numpy as np, wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> model = wb.FlightModel(pigeon.vehicle, "su-fan")
+    >>> forward = np.array([10.0, 0.0, 0.0, 0.0, 0.0])
+    >>> wb.air_forces(model, pigeon.wingbeat, np.zeros(5), forward, 0.0).generalised.shape
+    (5,)
     """
     more = () if q_acceleration is None else (q_acceleration,)
     return _over_axes(_air_forces, model, wingbeat, time, q, q_dot, *more)
@@ -208,5 +215,13 @@ def generalised_torques(
     -------
     tau of shape (..., 5). The first three components are zero in free flight [N, N, N m]; the others are the flap
     and pitch hinge torques of both wings together [N m].
+
+    >>> import numpy as np, wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> model = wb.FlightModel(pigeon.vehicle, "su-fan")
+    >>> rest = np.zeros(5)
+    >>> tau = wb.generalised_torques(model, pigeon.wingbeat, rest, rest, rest, 0.0)
+    >>> round(float(tau[1]) / pigeon.vehicle.mass, 2)  # what holds it up in still air: its weight
+    9.81
     """
     return _over_axes(_torque, model, wingbeat, time, q, q_dot, q_acceleration)

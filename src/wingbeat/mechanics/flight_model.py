@@ -37,6 +37,11 @@ class State(NamedTuple):
     body_pitch : nose-up positive [rad].
     u, w : velocity, forward and up [m/s].
     pitch_rate : [rad/s].
+
+    >>> import wingbeat as wb
+    >>> start = wb.State(u=10.0)  # for wb.simulate
+    >>> start.u, start.body_pitch
+    (10.0, 0.0)
     """
 
     x: Component = 0.0

@@ -6,7 +6,14 @@ import enum
 
 
 class Status(enum.Enum):
-    """How the solver ended; the value is the name in records."""
+    """How the solver ended; the value is the name in records.
+
+    >>> import wingbeat as wb
+    >>> [status.value for status in wb.Status]
+    ['converged', 'infeasible', 'not-converged']
+    >>> wb.Status("converged") is wb.Status.CONVERGED
+    True
+    """
 
     CONVERGED = "converged"
     INFEASIBLE = "infeasible"

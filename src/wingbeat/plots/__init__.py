@@ -1,4 +1,13 @@
-"""Figures: of wingbeats, flights, stability, gusts, curves, fits, measured motions and second opinions; saving."""
+"""Figures: of wingbeats, flights, stability, gusts, curves, fits, measured motions and second opinions; saving.
+
+>>> import wingbeat as wb
+>>> pigeon = wb.load_species("pigeon")
+>>> model = wb.FlightModel(pigeon.vehicle, "su-fan")
+>>> flight = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0), beats=1)
+>>> figure = wb.plots.wingbeat_page(flight.dataset)  # wb.plots.save_figure writes it to a file
+>>> len(figure.axes) > 0
+True
+"""
 
 from wingbeat.plots.curve_page import Published as Published
 from wingbeat.plots.curve_page import curve_page as curve_page

@@ -51,6 +51,11 @@ class Curve(Saveable, Reported):
     gaps : speeds at which nothing is certified [m/s].
     warnings : notes for the reader.
     characteristic_speeds : speeds of minimum power and maximum range [m/s].
+
+    >>> import wingbeat as wb
+    >>> curve = wb.solve_curve(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), [12.0, 12.5], starts=1)
+    >>> curve.dataset.sizes["speed"], curve.gaps
+    (2, [])
     """
 
     def __init__(self, dataset: xr.Dataset) -> None:
@@ -212,6 +217,14 @@ def load_curve(path: str | PathLike[str]) -> Curve:
     Raises
     ------
     FileError : the file is missing, unreadable, truncated, or not a curve of wingbeat.
+
+    >>> import tempfile, pathlib, wingbeat as wb
+    >>> curve = wb.solve_curve(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), [12.0, 12.5], starts=1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "curve.nc"
+    ...     curve.save(path)
+    ...     wb.load_curve(path).record() == curve.record()
+    True
     """
     return curve_from(load_dataset(path), path)
 

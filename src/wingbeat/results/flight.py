@@ -40,6 +40,13 @@ class Flight(Saveable):
         integrator gave up.
     wingbeats : the wingbeat of each beat.
     air : velocity of the air, forward and up [m/s], shape (K, 2); None for still air.
+
+    >>> import wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> model = wb.FlightModel(pigeon.vehicle, "su-fan")
+    >>> flight = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0), beats=1)
+    >>> flight.completed, flight.dataset["body_pitch"].attrs["units"]
+    (True, 'rad')
     """
 
     model: FlightModel
@@ -162,6 +169,16 @@ class TorqueDrivenFlight(Saveable):
     time : sample times [s], shape (K,).
     coordinates : x, z [m], body pitch, flap and wing pitch [rad], shape (K, 5).
     rates : of the coordinates, shape (K, 5).
+
+    >>> import jax.numpy as jnp, wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> model = wb.FlightModel(pigeon.vehicle, "su-fan")
+    >>> start, rates = [0.0, 0.0, 0.1, 0.4, 0.2], [10.0, 0.0, 0.0, 0.0, 0.0]
+    >>> limp = wb.simulate_torque_driven(
+    ...     model, pigeon.wingbeat, start, rates, lambda time, _: jnp.zeros(2), [0.0, 0.01]
+    ... )
+    >>> limp.coordinates.shape
+    (2, 5)
     """
 
     time: np.ndarray

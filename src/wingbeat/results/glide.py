@@ -45,6 +45,11 @@ class GlidePolar(Saveable):
         smallest or largest angle.
     best_ratio : the glide of flattest path within the same angles; None if the flattest path is at the smallest or
         largest angle.
+
+    >>> import numpy as np, wingbeat as wb
+    >>> polar = wb.glide_polar(wb.load_species("pigeon"), angles_of_attack=np.radians([4.0, 6.0, 8.0]))
+    >>> [round(glide.speed, 1) for glide in polar.glides]
+    [12.8, 11.6, 10.9]
     """
 
     species: Species

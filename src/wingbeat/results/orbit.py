@@ -107,6 +107,11 @@ class Orbit(Saveable, Reported):
     problem : the problem it solves.
     inputs : all inputs, enough to find the orbit again.
     dataset : time series of one beat, labelled, with the record as attributes.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> orbit.status.value, round(orbit.wingbeat.frequency, 1)
+    ('converged', 9.5)
     """
 
     def __init__(
@@ -273,6 +278,14 @@ def load_orbit(path: str | PathLike[str]) -> Orbit:
     Raises
     ------
     FileError : the file is missing, unreadable, truncated, or not an orbit of wingbeat.
+
+    >>> import tempfile, pathlib, wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = pathlib.Path(folder) / "orbit.nc"
+    ...     orbit.save(path)
+    ...     wb.load_orbit(path).wingbeat == orbit.wingbeat
+    True
     """
     dataset = load_dataset(path)
     record, inputs = parse_attributes(dataset.attrs, path)

@@ -48,6 +48,12 @@ class Sensitivities(Reported):
     units : their units.
     slopes : derivatives with respect to the parameters.
     prices : derivatives with respect to the active bounds and limits.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> found = wb.sensitivities(orbit)
+    >>> found.ranked("frequency")[0].parameter.path
+    'wing.semi_span'
     """
 
     def __init__(
@@ -301,6 +307,13 @@ def uncertainty_by_samples(
     Raises
     ------
     InvalidInputError : samples not a whole number from 10 to 100000; inputs that `Sensitivities.error_bar` refuses.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> found = wb.sensitivities(orbit)
+    >>> checked = wb.uncertainty_by_samples(found, ["frequency"], samples=10, share=0.1)["frequency"]
+    >>> checked.drawn, checked.first_order_holds
+    (10, True)
     """
     faults = FaultList()
     faults.whole("samples", samples, 10, 100_000)

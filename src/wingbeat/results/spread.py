@@ -23,6 +23,13 @@ class Spread(NamedTuple):
     values : by the name of a number in the record, its values in the certified draws, shape (certified,) each.
     estimates : the same numbers for the orbit itself.
     asked : number of draws, certified or not.
+
+    >>> import dataclasses, wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> drawn = [dataclasses.replace(orbit.wingbeat, span_retraction=value) for value in (0.2, 0.3, 0.4)]
+    >>> spread = wb.orbit_spread(orbit, drawn)
+    >>> sorted(spread.values)[:2], spread.asked
+    (['cost_of_transport', 'mean_actuator_power'], 3)
     """
 
     values: dict[str, np.ndarray]
@@ -63,6 +70,13 @@ def orbit_spread(
     Returns
     -------
     Spread : of powers, cost of transport, and the wingbeat's free parameters, named like ``wingbeat.pitch_mean``.
+
+    >>> import dataclasses, wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> drawn = [dataclasses.replace(orbit.wingbeat, span_retraction=value) for value in (0.2, 0.3, 0.4)]
+    >>> spread = wb.orbit_spread(orbit, drawn)
+    >>> spread.certified, round(spread.standard_error("mean_positive_power"), 1)  # [W]
+    (3, 3.4)
     """
     problem = orbit.problem
     rows = []

@@ -49,6 +49,12 @@ class Feedback(Reported):
     lower, upper : largest changes of the inputs, shape (inputs,) [Hz, rad or shares].
     controllability : what the inputs do to each mode, the fastest growing first.
     sufficient : every input that alone reaches all modes that do not decay without feedback.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> held = wb.feedback(orbit)
+    >>> held.gains.shape, bool(held.spectral_radius < 1.0)
+    ((5, 5), True)
     """
 
     flight: LinearFlight

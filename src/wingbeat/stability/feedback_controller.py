@@ -28,6 +28,13 @@ class FeedbackController:
     noise : standard deviations of what is measured of the state, shape (5,) [m, rad, m/s, m/s, rad/s].
     seed : of the noise.
     commands : inputs of each beat so far, as they act, each of shape (inputs,) [Hz, rad or shares].
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> hold = wb.feedback(orbit).controller()
+    >>> flown = wb.simulate(orbit.problem.model, orbit.wingbeat, orbit.initial_state, beats=3, controller=hold)
+    >>> flown.completed, len(hold.commands)
+    (True, 3)
     """
 
     def __init__(self, feedback: Feedback, late: int, noise: np.ndarray, seed: int) -> None:

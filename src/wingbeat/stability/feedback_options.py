@@ -29,6 +29,11 @@ class FeedbackOptions:
     reach : inputs change by at most so many units, if no limits are given [-].
     least_effect : an input reaches a mode if its unit moves the mode by more than this share of a unit [-].
     linear : options of the linearisation.
+
+    >>> import wingbeat as wb
+    >>> options = wb.FeedbackOptions(z=0.5)  # pass them on: wb.feedback(orbit, options=options)
+    >>> options.z, options.body_pitch
+    (0.5, 0.1)
     """
 
     z: float = 0.2

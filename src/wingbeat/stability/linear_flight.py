@@ -54,6 +54,12 @@ class LinearFlight(Reported):
     averaged_modes : modes of the averaged model, whose matrix holds the derivatives of the rates by the state,
         averaged along the orbit.
     compensation : harmonics that go with the inputs, so that the wing does not jump; empty without `smooth`.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> flight = wb.linearise(orbit)
+    >>> flight.state, round(flight.spectral_radius, 2)
+    (('body_pitch', 'u', 'w', 'pitch_rate'), 1.35)
     """
 
     orbit: Orbit

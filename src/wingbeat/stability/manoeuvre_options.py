@@ -35,6 +35,11 @@ class ManoeuvreOptions:
     reach : commands exceed the inputs of the steady flights by at most so many of their units [-]. A pigeon that
         flies from 6 to 16 m/s and back needs 4.0 with 2 m/s2, and 3.0 with 1 m/s2.
     feedback : scales of the state and units of the inputs.
+
+    >>> import wingbeat as wb
+    >>> options = wb.ManoeuvreOptions(acceleration=0.5)  # pass them on: wb.manoeuvre(..., options=options)
+    >>> options.acceleration, options.feedback.z
+    (0.5, 0.2)
     """
 
     acceleration: float = 1.0

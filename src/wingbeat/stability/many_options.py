@@ -22,6 +22,11 @@ class ManyOptions:
     lanes : flights that are computed at once.
     tilt : a flight is lost if its body pitch differs by more than this from the orbit's at the same phase [rad].
     loss : a flight is lost if it is more than this below the orbit's path at a top of the stroke [m].
+
+    >>> import math, wingbeat as wb
+    >>> options = wb.ManyOptions(tilt=math.radians(45))  # pass them on: wb.simulate_many(..., options=options)
+    >>> round(options.tilt, 3), options.loss
+    (0.785, 5.0)
     """
 
     steps: int = 64

@@ -33,6 +33,12 @@ class Mode(Reported):
     disturbance : of (body_pitch, u, w, pitch_rate) at phase 0, shape (4,). Its length is 1 in the scales of
         `modes_of`.
     shares : mean size over the beat of each of the four numbers, without growth and decay, as a share of their sum.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> fastest = wb.linearise(orbit).modes[0]
+    >>> fastest.kind, round(fastest.time_to_double, 2)  # it doubles in so many seconds
+    ('divergence', 0.24)
     """
 
     kind: str

@@ -24,6 +24,12 @@ class Reach(NamedTuple):
     multiplier : of the mode; of a pair the one with positive imaginary part.
     effects : how far a unit of each input moves the mode's own coordinate in a beat, in units (the test of Popov,
         Belevitch and Hautus, input by input); 0 if the input does not reach the mode.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> reach = wb.feedback(orbit).controllability[0]
+    >>> reach.kind, max(reach.effects, key=reach.effects.get)
+    ('divergence', 'flap_amplitude')
     """
 
     kind: str

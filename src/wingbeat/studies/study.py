@@ -49,6 +49,11 @@ class Study(ReportedStudy):
     ----------
     plan : the points of the study.
     store : path of the file that keeps the results.
+
+    >>> import wingbeat as wb
+    >>> study = wb.plan_study(species="pigeon", vary={"speed": {"grid": [8.0, 10.0]}}, store="pigeon.study.sqlite")
+    >>> len(study), study.status().waiting  # study.run() solves them
+    (2, 2)
     """
 
     def __init__(self, plan: Plan, store: Path) -> None:

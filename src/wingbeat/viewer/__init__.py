@@ -1,4 +1,13 @@
-"""Moving pictures of flights: in a browser, in a notebook, or as an animated GIF."""
+"""Moving pictures of flights: in a browser, in a notebook, or as an animated GIF.
+
+>>> import tempfile, pathlib, wingbeat as wb
+>>> pigeon = wb.load_species("pigeon")
+>>> flight = wb.simulate(wb.FlightModel(pigeon.vehicle, "su-fan"), pigeon.wingbeat, wb.State(u=10.0), beats=1)
+>>> with tempfile.TemporaryDirectory() as folder:
+...     wb.viewer.write_page([("pigeon", flight.dataset)], pathlib.Path(folder) / "flight.html")
+...     len(list(pathlib.Path(folder).iterdir()))
+1
+"""
 
 from wingbeat.viewer.animation import animate
 from wingbeat.viewer.page import bundle_path, write_page

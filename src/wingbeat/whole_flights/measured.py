@@ -66,6 +66,11 @@ class MeasuredFlights:
     speeds : speeds at which to fly the species [m/s], increasing; they include each speed of a measurement at a
         single speed.
     measurements : the numbers to compare with.
+
+    >>> import wingbeat as wb
+    >>> flights = wb.read_measured_flights("pigeon")
+    >>> flights.species, len(flights.measurements)
+    ('pigeon', 5)
     """
 
     species: str

@@ -77,6 +77,13 @@ class Prediction(Reported):
     model : name of the model, as in `wb.models`.
     objective : what the wingbeats minimise.
     flown : one flight for each speed, in their order.
+
+    >>> import dataclasses, wingbeat as wb
+    >>> flights = dataclasses.replace(wb.read_measured_flights("pigeon"), speeds=(12.0,))
+    >>> prediction = wb.predict_flights(flights, model="paper")
+    >>> speeds, frequencies, low, high = prediction.series("frequency")
+    >>> speeds.tolist(), frequencies.round(1).tolist()
+    ([12.0], [9.5])
     """
 
     flights: MeasuredFlights
@@ -168,6 +175,12 @@ def predict_flights(
     ------
     InvalidInputError : draws neither 0 nor from 10 to 100000; faults of the species file or the model.
     FileError : the species file cannot be read.
+
+    >>> import dataclasses, wingbeat as wb
+    >>> flights = dataclasses.replace(wb.read_measured_flights("pigeon"), speeds=(12.0,))
+    >>> flown = wb.predict_flights(flights, model="paper").flown[0]
+    >>> flown.status, round(flown.values["frequency"], 1)
+    ('converged', 9.5)
     """
     faults = FaultList()
     if draws:

@@ -64,6 +64,11 @@ class Beat(NamedTuple):
     weight : [N].
     semi_span : [m].
     drive : muscles, motor and springs at the flap hinges; the flight does not depend on them.
+
+    >>> import wingbeat as wb
+    >>> highest = wb.Quantity("highest_flap", lambda beat: beat.flap, unit="rad")  # the function takes a Beat
+    >>> str(wb.Constraint(highest, 1.2))
+    'highest_flap<=1.2'
     """
 
     phase: Series

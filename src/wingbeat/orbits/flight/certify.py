@@ -28,6 +28,12 @@ class Certificate:
     phase : phases of the samples, shape (K,).
     states : (x, z, body_pitch, u, w, pitch_rate) there, shape (K, 6) [m, m, rad, m/s, m/s, rad/s].
     steps : the integrator's steps.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> flown = wb.certify(orbit.problem.model, orbit.wingbeat, orbit.initial_state[2:])
+    >>> round(float(flown.end[0]) * orbit.wingbeat.frequency, 3), flown.pitch.shape  # mean speed, body pitch
+    (12.0, (257,))
     """
 
     phase: np.ndarray
@@ -58,6 +64,12 @@ def certify(
     pitch_state : initial pitch state, shape (4,) [rad, m/s, m/s, rad/s].
     rtol : relative tolerance of the flight.
     rough : whether to sample the path at only a few phases, which takes half the time.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> flown = wb.certify(orbit.problem.model, orbit.wingbeat, orbit.initial_state[2:])
+    >>> bool(abs(flown.end[2:] - flown.states[0, 2:]).max() < 1e-6)
+    True
     """
     # A rough flight has the same number of phases, the last ones all at the end. One compiled program thus serves
     # both kinds of flight.

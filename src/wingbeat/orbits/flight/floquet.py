@@ -74,6 +74,13 @@ def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) ->
     ----------
     steps : the certifier's steps.
     model, wingbeat : the flight model and its wingbeat.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> steps = wb.certify(orbit.problem.model, orbit.wingbeat, orbit.initial_state[2:]).steps
+    >>> multipliers = wb.floquet_multipliers(orbit.problem.model, orbit.wingbeat, steps)
+    >>> round(float(abs(multipliers[0])), 2)
+    1.35
     """
     return multipliers_of(monodromy(model, wingbeat, steps))
 

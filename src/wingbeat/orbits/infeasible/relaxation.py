@@ -98,6 +98,12 @@ class Relaxation:
         unsteady, hand) they are 1 and 0.
     unit : of `old` and `new`: SI, angles in radians.
     text : the change in words, angles in degrees.
+
+    >>> import wingbeat as wb
+    >>> slow = wb.OrbitProblem(wb.load_species("pigeon"), speed=4.0)
+    >>> change = wb.Relaxation("speed", "=", 4.0, 5.0, "m/s", "speed 4 -> 5 m/s")  # as in orbit.relaxations
+    >>> change.apply(slow).speed
+    5.0
     """
 
     name: str

@@ -67,6 +67,12 @@ class ErrorBar(NamedTuple):
     deviation : standard deviation; its square is the sum of the squares of `due_to` [`unit`].
     shift : mean minus `value`; not 0 where a parameter's value is not in the middle of its range [`unit`].
     due_to : standard deviation due to each spread, by its name, the largest first [`unit`].
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> bar = wb.sensitivities(orbit).error_bar("frequency")
+    >>> next(iter(bar.ranking)), round(bar.deviation, 1), bar.unit
+    ('wing.semi_span', 1.5, 'Hz')
     """
 
     quantity: str
@@ -119,6 +125,12 @@ class Samples(NamedTuple):
     quantities : values in the order requested and in the quantities' units, shape (n, Q); not-a-number for draws
         without an orbit.
     certified : whether a draw has a certified orbit, shape (n,).
+
+    >>> import numpy as np, wingbeat as wb
+    >>> deviations, frequencies = np.array([[-0.02], [0.0], [0.02]]), np.array([[9.3], [9.5], [np.nan]])
+    >>> drawn = wb.Samples(("body.mass",), deviations, frequencies, certified=np.array([True, True, False]))
+    >>> float(drawn.quantities[drawn.certified].mean().round(1))
+    9.4
     """
 
     paths: tuple[str, ...]

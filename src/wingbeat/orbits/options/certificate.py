@@ -25,6 +25,12 @@ class NewtonOptions:
     curvature_share : the update also requires that the curvature along the step exceeds this share of the expected
         curvature.
     diverged : a larger violation, in the optimiser's scale, ends the method.
+
+    >>> import wingbeat as wb
+    >>> newton = wb.NewtonOptions(iterations=20)
+    >>> options = wb.SolverOptions(certificate=wb.CertificateOptions(newton=newton))
+    >>> options.changed()  # pass them on: wb.solve_orbit(problem, options=options)
+    {'certificate': {'newton': {'iterations': 20}}}
     """
 
     iterations: int = 10
@@ -67,6 +73,11 @@ class CertificateOptions:
     iterations, tolerance : largest number of iterations of SLSQP, and its tolerance of the objective. SLSQP takes
         over where Newton's method fails.
     newton : options of Newton's method, which follows the optimum while its closure is corrected.
+
+    >>> import wingbeat as wb
+    >>> options = wb.SolverOptions(certificate=wb.CertificateOptions(corrections=20))
+    >>> options.changed()  # pass them on: wb.solve_orbit(problem, options=options)
+    {'certificate': {'corrections': 20}}
     """
 
     closure_tolerance: float = 1e-6

@@ -35,6 +35,11 @@ class ContinuationOptions:
     near_share : solutions have about equal weight in a prediction if their distances from the predicted problem are
         below this share of the largest of these distances.
     rounding : relative differences between numbers that come from rounding.
+
+    >>> import wingbeat as wb
+    >>> options = wb.SolverOptions(continuation=wb.ContinuationOptions(first_speed_step=0.1))
+    >>> options.changed()  # pass them on: wb.solve_curve(problem, speeds, options=options)
+    {'continuation': {'first_speed_step': 0.1}}
     """
 
     max_step: float = 0.15
@@ -70,6 +75,11 @@ class SensitivityOptions:
     step_tolerance : Newton's method, which finds the optimum of these flights, ends with a step shorter than this,
         in the optimiser's scale.
     room : how far difference steps may leave the bounds, in the optimiser's scale.
+
+    >>> import wingbeat as wb
+    >>> options = wb.SolverOptions(sensitivity=wb.SensitivityOptions(step=3e-4))
+    >>> options.changed()  # pass them on: wb.sensitivities(orbit, options=options)
+    {'sensitivity': {'step': 0.0003}}
     """
 
     fine_blocks: int = 6

@@ -45,6 +45,11 @@ class DiagnosisOptions:
         more start.
     term_trace : a first search keeps this share of the term, because the compiled programs then still apply. The
         problem without the term needs programs of its own, and is solved only if the first search closes.
+
+    >>> import wingbeat as wb
+    >>> options = wb.SolverOptions(diagnosis=wb.DiagnosisOptions(reported=5))
+    >>> options.changed()  # pass them on: wb.solve_orbit(problem, options=options)
+    {'diagnosis': {'reported': 5}}
     """
 
     nearest_ends: int = 6
@@ -93,6 +98,11 @@ class ChangeOptions:
     beyond : mass, climb and shoulder are first moved by this multiple of the deficit, as a share of their scale.
     chords : largest shift of the shoulder [chords].
     low_speed : if the problem's speed is lower than this, a change of speed or climb by this much is large [m/s].
+
+    >>> import wingbeat as wb
+    >>> options = wb.SolverOptions(changes=wb.ChangeOptions(lightest=0.5))
+    >>> options.changed()  # pass them on: wb.solve_orbit(problem, options=options)
+    {'changes': {'lightest': 0.5}}
     """
 
     large_angle: float = math.radians(60.0)

@@ -24,6 +24,12 @@ class LeastSquaresOptions:
     trusted : only a step that gains more than this share of the prediction may be the last.
     bound_changes : largest number of active-set iterations of one step, divided by the number of unknowns. Each
         iteration makes one bound active or inactive.
+
+    >>> import wingbeat as wb
+    >>> deficit = wb.LeastSquaresOptions(evaluations=300)
+    >>> options = wb.SolverOptions(diagnosis=wb.DiagnosisOptions(deficit=deficit))
+    >>> options.changed()  # pass them on: wb.solve_orbit(problem, options=options)
+    {'diagnosis': {'deficit': {'evaluations': 300}}}
     """
 
     evaluations: int = 150

@@ -62,6 +62,11 @@ class SearchOptions:
         number of iterations of SLSQP in each. Of 6 searches that succeeded with 8 steps, 2 failed with 4 steps.
     largest_residual : residuals of diverging flights, in the optimiser's scale, are limited to this, so that a line
         search can shorten its step.
+
+    >>> import wingbeat as wb
+    >>> options = wb.SolverOptions(search=wb.SearchOptions(most_starts=100))
+    >>> options.changed()  # pass them on: wb.solve_orbit(problem, options=options)
+    {'search': {'most_starts': 100}}
     """
 
     starts: int = 6

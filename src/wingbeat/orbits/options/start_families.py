@@ -20,6 +20,13 @@ class StartFamily(NamedTuple):
     pitch_mean, pitch_amplitude : values of the start; default those of the stock wingbeat [rad].
     flap_amplitude, frequency : multiples of those of the stock wingbeat.
     nose_up : nose-up rotation of the body from the body pitch at which the stroke plane is upright [rad].
+
+    >>> import wingbeat as wb
+    >>> fast = wb.StartFamily(frequency=4.0)
+    >>> search = wb.SearchOptions(start_families=(fast, *wb.SearchOptions().start_families))
+    >>> options = wb.SolverOptions(search=search)  # pass them on: wb.solve_orbit(problem, options=options)
+    >>> len(options.search.start_families)
+    7
     """
 
     flap_mean: float | None = None

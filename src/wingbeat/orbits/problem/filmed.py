@@ -41,6 +41,13 @@ def filmed_species(beat: Filmed, species: Species) -> Species:
     Raises
     ------
     InvalidInputError : an impossible wingbeat, a filmed area that is not a share of the species' area.
+
+    >>> import wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> film = wb.experiment.synthetic_film(pigeon.wingbeat, frames=60, noise_deg=0.0)
+    >>> filmed = wb.filmed_species(wb.experiment.fit_film(film), pigeon)
+    >>> round(filmed.wingbeat.frequency / pigeon.wingbeat.frequency, 2)
+    1.0
     """
     filmed = beat.numbers_of(species.vehicle, species.wingbeat)
     return species.with_values({f"wingbeat.{name}": value for name, value in filmed.items()})

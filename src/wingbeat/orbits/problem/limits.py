@@ -26,6 +26,13 @@ class Constraint:
     Raises
     ------
     InvalidInputError : an unknown quantity, a limit that is not finite.
+
+    >>> import wingbeat as wb
+    >>> limit = wb.Constraint("peak_power", 30.0)
+    >>> str(limit)
+    'peak_power<=30'
+    >>> wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0, subject_to=[limit]).subject_to == (limit,)
+    True
     """
 
     quantity: Quantity

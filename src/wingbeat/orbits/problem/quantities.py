@@ -1,4 +1,10 @@
-"""Quantities of a beat that can be minimised or kept within limits."""
+"""Quantities of a beat that can be minimised or kept within limits.
+
+>>> import wingbeat as wb
+>>> cost = wb.objectives.PowerCost(returned=0.5)
+>>> wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0, minimise=cost).minimise.name
+'power_cost(0.5)'
+"""
 
 from __future__ import annotations
 

@@ -12,6 +12,7 @@ import wingbeat
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_extensions"))
+from page_scraper import scrape_pages  # noqa: E402  # after its folder is known
 
 project = "wingbeat"
 author = "the wingbeat authors"
@@ -63,6 +64,8 @@ sphinx_gallery_conf = {
     "filename_pattern": "plot_",
     "within_subsection_order": "FileNameSortKey",
     "abort_on_example_error": True,
+    "image_scrapers": ("matplotlib", scrape_pages),
+    "capture_repr": (),
     "download_all_examples": False,
     "show_memory": False,
     "show_signature": False,
@@ -88,4 +91,4 @@ html_theme_options = {
 copybutton_exclude = ".linenos, .gp, .go"
 copybutton_prompt_text = "$ "
 copybutton_only_copy_prompt_lines = False
-suppress_warnings = ["myst.xref_missing"]
+suppress_warnings = ["config.cache", "myst.xref_missing"]  # the scraper is a function

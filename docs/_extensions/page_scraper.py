@@ -1,7 +1,4 @@
-"""Lets sphinx-gallery show wingbeat's own pages, which are matplotlib figures that pyplot does not know.
-
-In conf.py: ``sphinx_gallery_conf = {"image_scrapers": ("matplotlib", scrape_pages), "capture_repr": ()}``.
-"""
+"""Lets sphinx-gallery show wingbeat's own pages, which are matplotlib figures that pyplot does not know."""
 
 from typing import Any
 

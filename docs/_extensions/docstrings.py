@@ -20,13 +20,19 @@ _ENTRY = re.compile(r"^(\S[^:]*?) : (.+)$")
 
 
 def meanings_below(lines: list[str]) -> list[str]:
-    """Return the lines of a docstring with each meaning below its name."""
+    """Return the lines of a docstring with each meaning below its name, and a heading above the example.
+
+    Without the heading, napoleon takes the example's lines for entries of the section before it.
+    """
     found: list[str] = []
     inside = False
     for i, line in enumerate(lines):
         underlined = i + 1 < len(lines) and set(lines[i + 1]) == {"-"}
         if underlined:
             inside = line.strip() in _SECTIONS
+        if inside and line.startswith(">>> "):
+            found += ["Examples", "--------"]
+            inside = False
         entry = _ENTRY.match(line) if inside else None
         if entry:
             found += [entry[1], f"    {entry[2]}"]

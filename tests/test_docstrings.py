@@ -1,9 +1,14 @@
-"""A docstring says what it is of, the parameters with units, the fields of a record, and what is refused."""
+"""A docstring says what it is of, the parameters with units, the fields of a record, and what is refused.
+
+Each public name has an example, which pytest runs.
+"""
 
 import ast
 import dataclasses
+import doctest
 import inspect
 import re
+import sys
 import textwrap
 
 import pytest
@@ -127,6 +132,20 @@ def test_every_public_docstring_is_complete(name):
     assert list(faults_of(name, REACHABLE[name])) == []
 
 
+def examples_of(thing):
+    """Return the examples of a thing that pytest finds in the module that defines it."""
+    module = thing if inspect.ismodule(thing) else sys.modules[thing.__module__]
+    own = module.__name__ if thing is module else f"{module.__name__}.{thing.__name__}"
+    return [one for test in doctest.DocTestFinder().find(module) if test.name == own for one in test.examples]
+
+
+@pytest.mark.parametrize("name", [name for name in wb.__all__ if name != "__version__"])
+def test_every_public_name_has_an_example_that_runs(name):
+    examples = examples_of(getattr(wb, name))
+    assert any(example.want for example in examples), "show what a user gets"
+    assert not any(doctest.SKIP in example.options for example in examples)
+
+
 def test_there_are_many():
     assert len(REACHABLE) > 150
     assert {"Orbit.save", "solve_curve", "SuFan", "CurveFit.band", "Wing", "wingbeat_page"} <= REACHABLE.keys()
@@ -155,6 +174,14 @@ class _Silent:
         FaultList().raise_if_any()
 
 
+class _Rich:
+    """What it is.
+
+    >>> 1 + 1
+    2
+    """
+
+
 def _careless(mass, span):
     """Return nothing.
 
@@ -178,6 +205,11 @@ def test_what_is_missing_is_found():
         "speaks of parameters that it does not take: ['area']",
         "does not say what it refuses",
     ]
+
+
+def test_a_docstring_without_an_example_is_found():
+    assert examples_of(_Poor) == []
+    assert [example.source for example in examples_of(_Rich)] == ["1 + 1\n"]
 
 
 def test_help_of_an_orbit_says_what_can_be_done_with_one():

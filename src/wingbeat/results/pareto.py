@@ -46,6 +46,12 @@ class ParetoFront(Reported):
     limits : from the loosest to the tightest, in the unit of the quantity; the first is None, no limit.
     orbits : the orbit of least objective within each limit.
     values : the quantity in each orbit; NaN without a certified orbit, shape (K,).
+
+    >>> import wingbeat as wb
+    >>> problem = wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0)
+    >>> front = wb.pareto_front(problem, "spectral_radius", [1.2], starts=1)
+    >>> [orbit.status.value for orbit in front.orbits], bool(front.values[1] < front.values[0])
+    (['converged', 'converged'], True)
     """
 
     quantity: Quantity

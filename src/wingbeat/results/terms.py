@@ -36,6 +36,13 @@ class TermTrace:
     orbits : the best orbit of each share, in order. If it is not certified, its message says why.
     branches : every optimum that was found, and how they are linked.
     seconds : computing time [s].
+
+    >>> import wingbeat as wb
+    >>> loads = wb.aero.BladeElement("su-fan", unsteady="thin-aerofoil")
+    >>> problem = wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0, aero=loads)
+    >>> trace = wb.trace_terms(problem, shares=[0.0, 1.0], starts=1)
+    >>> [orbit.status.value for orbit in trace.orbits]
+    ['converged', 'converged']
     """
 
     problem: OrbitProblem

@@ -44,6 +44,12 @@ class StabilitySensitivities(Reported):
     multipliers : Floquet multipliers, the largest modulus first, shape (4,).
     by_parameter : by the path of a parameter, the derivatives of the four multipliers, per its unit, shape (4,).
         They are infinite where two multipliers meet.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> found = wb.stability_sensitivities(orbit)
+    >>> round(found.spectral_radius, 2), found.by_parameter["body.mass"].shape
+    (1.35, (4,))
     """
 
     sensitivities: Sensitivities

@@ -41,6 +41,12 @@ class GustSurvey(Reported):
     survived : by the name of the feedback, shape (flights,) each.
     largest_pitch : largest deviation of the body pitch [rad], likewise.
     beats : of each flight.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
+    >>> found = wb.survey_gusts(orbit, {"held": wb.feedback(orbit)}, flights=20, size=3.0, seed=1)
+    >>> found.share("held"), found.size.shape
+    (1.0, (10,))
     """
 
     size: np.ndarray

@@ -55,6 +55,12 @@ class Manoeuvre(ReportedManoeuvre):
         scales of `FeedbackOptions` [-].
     status : converged if the manoeuvre is certified.
     message : what the status means, in terms of flight.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> faster = wb.manoeuvre(orbit, [12.5])
+    >>> faster.status.value, len(faster.frequencies) == sum(faster.legs)
+    ('converged', True)
     """
 
     beat_map: BeatMap

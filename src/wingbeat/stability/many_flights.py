@@ -46,6 +46,12 @@ class ManyFlights:
     lowest : least height above the orbit's path at a top of the stroke [m], shape (flights,).
     survived : whether all numbers are finite, `largest_pitch` is at most `ManyOptions.tilt`, and `lowest` is not
         below ``-ManyOptions.loss``, shape (flights,).
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> flights = wb.simulate_many(orbit, [wb.winds.CosineGust(w=size) for size in (0.0, 0.1)], beats=2)
+    >>> flights.states.shape, flights.survived.tolist()
+    ((2, 3, 6), [True, True])
     """
 
     states: np.ndarray

@@ -38,6 +38,12 @@ class SegmentFlight:
     states : (x, z, body_pitch, u, w, pitch_rate) at the ends of all segments, shape (beats * segments + 1, 6).
     deviations : of (z, body_pitch, u, w, pitch_rate) from the orbit there, shape (beats * segments + 1, 5).
     bumps : of flap and pitch in each segment [rad], shape (beats * segments, 2).
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> flown = wb.feedback_in_beat(orbit, segments=4).fly(wb.winds.CosineGust(w=0.5), beats=2)
+    >>> flown.bumps.shape, bool(abs(flown.bumps).max() > 0.0)
+    ((8, 2), True)
     """
 
     states: np.ndarray
@@ -57,6 +63,12 @@ class SegmentFeedback:
     A, B : linear maps over each segment, by the state and by the bumps, shapes (segments, 5, 5), (segments, 5, 2).
     gains : of each segment, shape (segments, 2, 5) [rad per unit of the state].
     limit : largest bump [rad].
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> held = wb.feedback_in_beat(orbit, segments=4)
+    >>> held.gains.shape, bool(held.spectral_radius < 1.0)
+    ((4, 2, 5), True)
     """
 
     orbit: Orbit

@@ -61,15 +61,15 @@ def frequency_figure(orbits: Orbits) -> Drawn:
     # One scale for most runs, with room for every orbit.
     top = max([_LEAST_TOP, *(1.1 * orbit.wingbeat.frequency for orbit in drawn)])
     with drawing():
-        figure = sheet(PAGE, 100.0)
+        figure = sheet(PAGE, 118.0)
         panels = figure.subplots(1, 2)
         for axes, animal in zip(panels, ANIMALS, strict=True):
             dress(axes, "flight speed U [m/s]", "wingbeat frequency f [Hz]")
             axes.set(xlim=(3, 21), ylim=(0, top))
             axes.set_title(animal, fontsize=8, pad=3)
             measured, ours = _draw_measured(axes, animal), _draw_orbits(axes, orbits, animal)
-            below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.16), "ncols": 2}
-            axes.legend(handles=[*measured, *ours], fontsize=FONT_SMALL, handlelength=2.4, columnspacing=1, **below)
+            below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.16)}
+            axes.legend(handles=[*measured, *ours], fontsize=FONT_SMALL, handlelength=2.4, **below)
         _mark_printed(panels[ANIMALS.index("bat")])
         letter_panels(panels)
     caption = f"{_NOTE.format(**_leaning(drawn))} {told(5, _printed(orbits))}"

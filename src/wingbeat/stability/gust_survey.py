@@ -44,9 +44,9 @@ class GustSurvey(Reported):
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
-    >>> found = wb.survey_gusts(orbit, {"held": wb.feedback(orbit)}, flights=20, size=3.0, seed=1)
+    >>> found = wb.survey_gusts(orbit, {"open": None, "held": wb.feedback(orbit)}, flights=20, size=3.0, seed=1)
     >>> found.share("held"), found.size.shape
-    (1.0, (10,))
+    (1.0, (20,))
     """
 
     size: np.ndarray

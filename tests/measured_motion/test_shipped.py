@@ -139,7 +139,7 @@ def test_the_figure_shows_force_residual_and_angles(found):
     labels = [axes.get_ylabel() for axes in figure.axes]
     assert labels == ["upward force / weight [-]", "residual / weight [-]", "angle of attack α [deg]"]
     shown = {line.get_label() for line in figure.axes[0].get_lines()}
-    assert {"measured", "best sine", "Su-Fan, rotation, added mass, wake", "Su-Fan alone", "other models"} <= shown
+    assert {"measured", "best sine", "Su-Fan + rotation, added mass, wake", "Su-Fan alone", "other models"} <= shown
     assert figure.get_suptitle().startswith("Flapping wing, Yeo et al. 2011: rigid wing, Re ")
     means = validation_page(found["dragonfly-azuma1988-2"])
     assert "measured mean" in {line.get_label() for line in means.axes[0].get_lines()}

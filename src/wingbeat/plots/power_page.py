@@ -48,7 +48,7 @@ def power_page(dataset: xr.Dataset) -> Figure:
     """
     account = power_account(dataset)
     with drawing():
-        figure = new_figure(PAGE, 74.0)
+        figure = new_figure(PAGE, 80.0)
         name, speed = heading(str(dataset.attrs["species"])), dataset.attrs["speed"]
         certified = "" if dataset.attrs["status"] == "converged" else ", NOT CERTIFIED"
         title = f"{name} at {speed:.4g} m/s: hinge power of both wings{certified}"
@@ -69,7 +69,7 @@ def _draw_shares(axes: Axes, dataset: xr.Dataset) -> None:
     for name, variable in SHARES.items():
         axes.plot(phase, dataset[variable].values, label=f"{name} share", **_LOOKS[name])
     axes.set(xlabel="phase t/T [-], downstroke shaded", ylabel="power [W]")
-    legend_above(axes, columns=2)
+    legend_above(axes, columns=1)
 
 
 def _draw_torque(axes: Axes, dataset: xr.Dataset, spring: dict[str, Any]) -> None:
@@ -81,7 +81,7 @@ def _draw_torque(axes: Axes, dataset: xr.Dataset, spring: dict[str, Any]) -> Non
         axes.plot(np.degrees(flap), given, label="best spring", **_LOOKS["inertial"])
         axes.plot(np.degrees(flap), torque - given, label="remaining for actuators", **_LOOKS["aerodynamic"])
     axes.set(xlabel="flap angle φ [deg]", ylabel="torque [N m]")
-    legend_above(axes, columns=2)
+    legend_above(axes, columns=1)
 
 
 def _draw_costs(axes: Axes, account: dict[str, Any]) -> None:

@@ -68,7 +68,10 @@ def _draw(panel: Any, found: Sensitivities, name: str) -> None:
             panel.barh(row, change / largest, height=0.7, color=color, label=end if row == 0 else None)
     panel.spines["left"].set_visible(False)
     panel.axvline(0.0, color="0.2", linewidth=0.8)
-    panel.set_yticks(range(len(ranked)), [textwrap.fill(label_of(s.parameter.path), _LETTERS) for s in ranked])
+    panel.set_yticks(
+        range(len(ranked)),
+        [textwrap.fill(label_of(s.parameter.path), _LETTERS, break_on_hyphens=False) for s in ranked],
+    )
     panel.tick_params(axis="y", length=0)
     panel.invert_yaxis()
     panel.margins(y=0.01)

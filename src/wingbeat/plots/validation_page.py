@@ -105,15 +105,17 @@ def _styled(found: Validation) -> list[tuple[ValidationRow, str, dict[str, Any]]
     grey: dict[str, Any] = {"color": "0.65", "linewidth": 0.4}
     others = [row for row in found.rows if row is not best and row not in same]
     styled = [(row, "other models" if i == 0 else "_", grey) for i, row in enumerate(others)]
-    styled += [(row, row_label(row), style) for row, style in zip(same, _LADDER, strict=False)]
+    styled += [(row, row_label(row, best), style) for row, style in zip(same, _LADDER, strict=False)]
     return [*styled, (best, row_label(best), {**FIRST, "linewidth": 1.4})]
 
 
-def row_label(row: ValidationRow) -> str:
-    """Return coefficients and terms of a row in a few words."""
+def row_label(row: ValidationRow, beside: ValidationRow | None = None) -> str:
+    """Return coefficients and terms of a row in a few words; only the terms beside a row of these coefficients."""
     terms = [_TERMS.get(name, in_words(name)) for name in (row.unsteady, row.aero.inflow) if name != "none"]
     coefficients = in_words(row.aero.coefficients.name)
-    return f"{coefficients}, {', '.join(terms)}" if terms else f"{coefficients} alone"
+    if not terms:
+        return f"{coefficients} alone"
+    return f"{coefficients if beside is None else ''} + {', '.join(terms)}".strip()
 
 
 def _draw_force(panel: Axes, found: Validation, axis: str) -> None:
@@ -158,7 +160,7 @@ def _draw_alpha(panel: Axes, found: Validation) -> None:
         strip = int(np.abs(side - station * side.max()).argmin())
         line = alpha[:, strip]
         jumps = np.abs(np.diff(line, prepend=line[:1])) > 180.0
-        panel.plot(beats, np.where(jumps, np.nan, line), label=f"{station:g} of the reach", **style)
+        panel.plot(beats, np.where(jumps, np.nan, line), label=f"{station:g} reach", **style)
     panel.axhline(0.0, color="0.6", linewidth=0.6)
     legend_above(panel)
 

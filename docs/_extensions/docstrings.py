@@ -7,6 +7,7 @@ their own, because a section of numpydoc ends only at the next heading.
 
 from __future__ import annotations
 
+import itertools
 import re
 from typing import TYPE_CHECKING, Any
 
@@ -26,7 +27,7 @@ def in_numpydoc_form(lines: list[str]) -> list[str]:
     """Return the lines of a docstring with each meaning below its name, and headings after the last section."""
     found: list[str] = []
     inside, before = False, ""
-    for line, below in zip(lines, [*lines[1:], ""], strict=True):
+    for line, below in itertools.zip_longest(lines, lines[1:], fillvalue=""):
         entry = _ENTRY.match(line) if inside else None
         if below and set(below) == {"-"}:
             inside = line.strip() in _SECTIONS

@@ -101,6 +101,6 @@ def damping_couple(
     density : rho [kg/m3].
     chord, width : c and dr [m].
     turning : omega [rad/s].
-    speed : |V|, the airspeed of the quarter chord that determines the loads, planar or full [m/s].
+    speed : ``|V|``, the airspeed of the quarter chord that determines the loads, planar or full [m/s].
     """
     return -math.pi / 16 * density * chord * chord * chord * width * speed * turning

@@ -91,4 +91,5 @@ html_theme_options = {
 copybutton_exclude = ".linenos, .gp, .go"
 copybutton_prompt_text = "$ "
 copybutton_only_copy_prompt_lines = False
-suppress_warnings = ["config.cache", "myst.xref_missing"]  # the scraper is a function
+# The scraper is a function, and several classes have a number `u` or `lift`.
+suppress_warnings = ["config.cache", "myst.xref_missing", "ref.python"]

@@ -44,7 +44,8 @@ def commands() -> str:
     # Each heading is the command itself; brackets with units are no links.
     text = re.sub(r"\*\[(default|choices): (.*?)\]\*", r"(\1: \2)", made[start:])
     text = re.sub(r"^(#+) wingbeat (.*)$", lambda m: f"{m[1]} {m[2]}", text, flags=re.MULTILINE)
-    text = text.replace("```console", "```text").replace("[", "\\[").replace("](", "\\](")
+    fences = text.replace("```console", "```text").split("```")
+    text = "```".join(part if i % 2 else part.replace("[", "\\[") for i, part in enumerate(fences))
     intro = (
         "# Commands\n\nType `uv run` before each command in a clone. Exit codes: 0 success, 2 bad input, 3 no "
         "certified orbit. `wingbeat COMMAND --help` prints the same text.\n\n"

@@ -96,7 +96,7 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         "## All at once",
         "",
         f"No set satisfies more than {kept.max():.0f} of the {len(study.claims)} claims; half of the sets satisfy "
-        f"at least {np.median(kept):.0f}.",
+        f"at least {np.median(kept):.0f}. Many sets cannot test all claims, because an orbit is missing.",
         "",
         *_apart(study),
         "",

@@ -19,7 +19,14 @@ def _mend(app: Sphinx, page: str, template: str, context: dict[str, Any], doctre
     body = context.get("body")
     if body:
         body = body.replace("<pre>", '<pre tabindex="0">')
-        context["body"] = _THUMBNAIL.sub(r'<a \1 aria-label="\3">\2', body)
+        context["body"] = _THUMBNAIL.sub(
+            lambda link: f'<a {link[1]} aria-label="{_plain(link[3])}">{link[2]}', body
+        )
+
+
+def _plain(title: str) -> str:
+    """Return a title without its markup, for an attribute."""
+    return re.sub(r"<[^>]*>", "", title).replace('"', "&quot;")
 
 
 def setup(app: Sphinx) -> dict[str, Any]:

@@ -12,13 +12,12 @@ if TYPE_CHECKING:
 
 
 def write_live(app: Sphinx) -> None:
-    """Write the viewer's page of a pigeon and a bat, unless it is there."""
+    """Write the viewer's page of a pigeon and a bat."""
     path = Path(app.srcdir) / "_live" / "live.html"
-    if path.exists():
-        return
     flights = []
     for name, speed in (("pigeon", 10.0), ("bat", 6.0)):
         orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species(name), speed=speed))
+        assert orbit.status is wb.Status.CONVERGED, orbit.message
         flights.append((f"{name}, {speed:g} m/s", orbit.dataset))
     wb.viewer.write_page(flights, path)
 

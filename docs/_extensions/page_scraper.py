@@ -20,5 +20,5 @@ def scrape_pages(block: Any, block_vars: dict[str, Any], gallery_conf: dict[str,
     if not isinstance(last, Figure) or last.canvas.manager is not None:
         return ""
     path = next(block_vars["image_path_iterator"])
-    last.savefig(path, dpi=gallery_conf.get("page_dpi", 200))
+    last.savefig(path, dpi=200)
     return figure_rst([path], gallery_conf["src_dir"])

@@ -59,7 +59,10 @@ def test_every_option_of_every_command_is_on_its_page(reference):
     parts = dict(re.findall(r"^#+ (.+?)\n(.*?)(?=^#+ |\Z)", page, re.DOTALL | re.MULTILINE))
     found = list(options_of(build_app()))
     assert len(found) > 200
-    assert [(words, option) for words, option in found if option not in parts.get(words, "")] == []
+    missing = [
+        (words, option) for words, option in found if not re.search(rf"{option}(?![\w-])", parts.get(words, ""))
+    ]
+    assert missing == []
 
 
 def test_every_key_of_files_is_on_its_page_with_a_meaning(reference):
@@ -88,7 +91,7 @@ def test_the_built_site_has_a_page_for_each_name(site):
 
 @pytest.mark.parametrize("name", PAGES)
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_a_page_keeps_to_itself_and_is_accessible(site, browser, name, scheme):
+def test_a_page_keeps_to_itself(site, browser, name, scheme):
     context = browser.new_context(color_scheme=scheme, viewport={"width": 1280, "height": 900})
     asked = []
     context.on("request", lambda request: asked.append(request.url))
@@ -96,12 +99,21 @@ def test_a_page_keeps_to_itself_and_is_accessible(site, browser, name, scheme):
     page.goto((site / name).as_uri())
     page.wait_for_load_state("networkidle")
     assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
-    if AXE.exists():
-        page.add_script_tag(content=AXE.read_text())
-        faults = page.evaluate("axe.run(document, {iframes: false}).then(found => found.violations)")
-        serious = [fault for fault in faults if fault["impact"] in ("serious", "critical")]
-        assert [(fault["id"], fault["nodes"][0]["html"][:120]) for fault in serious] == []
     context.close()
+
+
+@pytest.mark.parametrize("name", PAGES)
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_axe_finds_nothing_serious(site, browser, name, scheme):
+    if not AXE.exists():
+        pytest.skip("needs axe-core: npm ci in the folder viewer")
+    page = browser.new_page(color_scheme=scheme, viewport={"width": 1280, "height": 900})
+    page.goto((site / name).as_uri())
+    page.add_script_tag(content=AXE.read_text())
+    faults = page.evaluate("axe.run(document, {iframes: false}).then(found => found.violations)")
+    serious = [fault for fault in faults if fault["impact"] in ("serious", "critical")]
+    assert [(fault["id"], fault["nodes"][0]["html"][:120]) for fault in serious] == []
+    page.close()
 
 
 def test_no_page_names_a_script_a_style_or_a_picture_of_another_host(site):

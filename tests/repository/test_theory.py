@@ -89,7 +89,7 @@ def test_a_docstring_that_names_no_equation_is_found():
     assert "pitch-law" not in labels_in(resolved("wingbeat.kinematics.flap_angle").__doc__)
 
 
-def test_labels_in_the_source_stand_on_the_page_that_names_that_source():
+def test_the_source_names_every_equation_and_no_other():
     cited = {label for path in (ROOT / "src").rglob("*.py") for label in labels_in(text_of(path))}
     assert cited == set(named())
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,9 +14,6 @@ from wingbeat.paper.assumptions import ASSUMPTIONS
 from wingbeat.paper.importance import Importance, importance
 from wingbeat.paper.pieces import table
 from wingbeat.plots import save_figure
-
-if TYPE_CHECKING:
-    pass
 
 # A pair of claims is reported as never holding together only if each holds in at least this many sets.
 _OFTEN = 20

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from wingbeat.mechanics.wing_points import CORNERS
 from wingbeat.paper.figure_cycle import sample_orbits
@@ -12,9 +12,6 @@ from wingbeat.paper.figure_vehicle_views import draw_front, draw_oblique, draw_s
 from wingbeat.paper.treatments import ANIMALS, DEFAULT, MODELS, SAMPLE_SPEED, Orbits
 from wingbeat.paper.vehicle_posture import Posture, flown, posture, section
 from wingbeat.style import PAGE, drawing, letter_panels
-
-if TYPE_CHECKING:
-    pass
 
 MID_DOWNSTROKE = 0.25
 PHASES = (MID_DOWNSTROKE, 0.0, 0.5, 0.75)

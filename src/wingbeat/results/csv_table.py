@@ -14,6 +14,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from wingbeat.datasets import KIND
 from wingbeat.results.columns import leaves, result_unit
 
 if TYPE_CHECKING:
@@ -66,7 +67,7 @@ def frame_of(dataset: xr.Dataset) -> pd.DataFrame:
     """
     import pandas as pd
 
-    columns = _columns(dataset, _ROWS[dataset.attrs["wingbeat_kind"]])
+    columns = _columns(dataset, _ROWS[dataset.attrs[KIND]])
     return pd.DataFrame({column.name: column.values for column in columns})
 
 

@@ -57,7 +57,8 @@ def _rows(mode: dict[str, Any]) -> list[tuple[str, str]]:
     rows = [("multiplier", f"{real:.3f}" + (f" ± {imaginary:.3f}i" if mode["kind"] == "oscillation" else ""))]
     for label, name in (("doubles in", "time_to_double"), ("halves in", "time_to_half")):
         if mode[name] is not None:
-            beats = math.log(2) / abs(math.log(mode["modulus"]))
+            # A multiplier of 0 ends a disturbance within the beat.
+            beats = math.log(2) / abs(math.log(mode["modulus"])) if mode["modulus"] > 0 else 0.0
             rows.append((label, f"{mode[name]:.3g} s ({beats:.3g} beats)"))
     if mode["period"] is not None:
         rows.append(("period", f"{mode['period']:.3g} s"))

@@ -10,6 +10,7 @@ from wingbeat.reports import Report, Reported, grouped
 from wingbeat.species.report import bound_cells
 
 if TYPE_CHECKING:
+    from wingbeat.orbits.problem.limits import Constraint
     from wingbeat.orbits.problem.problem import OrbitProblem
 
 _TERMS = ("unsteady", "inflow")
@@ -39,12 +40,19 @@ def problem_report(problem: OrbitProblem) -> Report:
         *origin,
         ("air loads", loads_in_words(named)),
         ("minimised", problem.minimise.name.replace("_", " ")),
-        *(("limit", str(limit)) for limit in problem.subject_to),
+        *(("limit", limit_in_words(limit)) for limit in problem.subject_to),
     ]
     bounds = {name if name not in problem.free else f"wingbeat.{name}": b for name, b in problem.bounds.items()}
     cells = [bound_cells(path, limits) for path, limits in bounds.items()]
     bounded = [(name.removeprefix("wingbeat."), f"{ends} {unit}".rstrip()) for name, ends, unit in cells]
     return [grouped({"orbit problem": rows, "free parameters, and limits along the path": bounded})]
+
+
+def limit_in_words(limit: Constraint) -> str:
+    """Return a limit in the unit that readers prefer."""
+    factor, unit = for_people(limit.quantity.unit)
+    sign = "<=" if limit.at_most else ">="
+    return f"{limit.quantity.name} {sign} {limit.limit * factor:.6g} {unit}".rstrip()
 
 
 def place_in_words(species: str | None, speed: float, climb: float | None) -> str:

@@ -38,15 +38,8 @@ LANGUAGES = {"sh", "bash", "text", "python", "py", "toml", "csv", "matlab"}
 FILE = re.compile(r"[\w./-]+\.(toml|csv|nc|json|jsonl|html|gif|png|pdf|mat|parquet|sqlite|py)")
 WRITES = {"-o", "--output", "--plot", "--tornado", "--plot-kinematics"}
 TOOLS = {"pytest", "ruff", "pyright", "lint-imports", "pre-commit"}  # of the group dev
-SUFFIXES = {
-    ".css",
-    ".gif",
-    ".md",
-    ".png",
-    ".py",
-    ".txt",
-    ".woff2",
-}  # of pages, pictures, and what the site is made with
+# Of pages, pictures, and what the site is made with.
+SUFFIXES = {".css", ".gif", ".md", ".png", ".py", ".rst", ".txt", ".woff2"}
 
 
 def page_name(page):

@@ -51,9 +51,8 @@ class Study(ReportedStudy):
     store : path of the file that keeps the results.
 
     >>> import wingbeat as wb
-    >>> study = wb.plan_study(species="pigeon", vary={"speed": {"grid": [8.0, 10.0]}}, store="pigeon.study.sqlite")
-    >>> len(study), study.status().waiting  # study.run() solves them
-    (2, 2)
+    >>> wb.plan_study(species="bat", vary={"speed": {"grid": [8.0]}}, store="my.study.sqlite").status().waiting
+    1
     """
 
     def __init__(self, plan: Plan, store: Path) -> None:
@@ -197,7 +196,7 @@ class Study(ReportedStudy):
 
         Raises
         ------
-        FileError : there is no store, it cannot be read, or holds the points of another study.
+        FileError : as of `orbits`.
         """
         with self._answers() as store:
             return frame_of(store)

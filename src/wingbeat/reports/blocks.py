@@ -59,7 +59,8 @@ class Table(NamedTuple):
     ----------
     rows : of the table.
     headings : of the columns; none for a list of labels and values.
-    align : a letter for each column: ``l`` for text, which may wrap, and ``r`` for numbers, which may not.
+    align : a letter for each column: ``l`` for text, which may wrap; ``n`` for names and ``r`` for numbers, which
+        may not.
     label_width : least width of the first column [letters].
     """
 

@@ -105,7 +105,7 @@ def _table(table: Table, width: int) -> Iterator[Printed]:
         ]
         for parts in zip_longest(*wrapped, fillvalue=""):
             sides = zip(parts, widths, table.align, strict=True)
-            padded = [part.ljust(size) if side == "l" else part.rjust(size) for part, size, side in sides]
+            padded = [part.rjust(size) if side == "r" else part.ljust(size) for part, size, side in sides]
             line = _GAP.join(padded).rstrip()
             yield Printed(line, row.tone, len(line) if row.tone else 0)
 

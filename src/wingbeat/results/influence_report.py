@@ -37,7 +37,7 @@ def influence_report(found: Sensitivities, bars: Sequence[ErrorBar] | None = Non
         Line("  for error bars run `wingbeat uncertainty`"),
         Line(""),
         Line("change at the low and high end of each range, extrapolated linearly: for ranking only", tone="title"),
-        Table(rows, ("parameter", "plausible", *headings), "l" + "r" * (1 + len(names))),
+        Table(rows, ("parameter", "plausible", *headings), "n" + "r" * (1 + len(names))),
         Line(""),
         Line("prices of the active bounds", tone="title"),
         *(Line(price) for price in prices),

@@ -24,7 +24,7 @@ _OFF: dict[str, Any] = {
 
 def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
     """Return the groups of numbers in an orbit record, by title; an empty group has no rows."""
-    place = place_in_words(record.get("species"), record["speed"], record.get("climb"))
+    place = place_in_words(record.get("species"), record.get("speed"), record.get("climb"))
     return {
         "flight": [
             ("species, mean speed", place),

@@ -72,7 +72,7 @@ def _numbers(numbers: Mapping[str, Number], sources: dict[str, int]) -> Table:
         name = name if path == "vehicle.mass" else name.removeprefix("vehicle.")  # as --set takes them
         told = ", ".join(f"{each:g}" for each in value)
         rows.append(Row((name, told, unit, limits, _mark(shown.source, sources))))
-    return Table(tuple(rows), _NUMBERS, "lrlrr")
+    return Table(tuple(rows), _NUMBERS, "nrlrr")
 
 
 def _free(animal: Species) -> Table:
@@ -82,7 +82,7 @@ def _free(animal: Species) -> Table:
         short = path.removeprefix("wingbeat.")
         guess = "guess: " if short in animal.guessed_bounds else ""
         rows.append(Row((*bound_cells(path, limits), guess + animal.reasons[short].removeprefix("guess: "))))
-    return Table(tuple(rows), _FREE, "lrll")
+    return Table(tuple(rows), _FREE, "nrll")
 
 
 def _plausible(animal: Species, sources: dict[str, int]) -> Table:
@@ -93,4 +93,4 @@ def _plausible(animal: Species, sources: dict[str, int]) -> Table:
         low, high = ("" if end is None else f"{factor * end:g}" for end in known[:2])
         speeds = "{:g} to {:g}".format(*known.speeds) if known.speeds else ""
         rows.append(Row((name, low, high, unit, speeds, _mark(known.source, sources))))
-    return Table(tuple(rows), _PLAUSIBLE, "lrrlrr")
+    return Table(tuple(rows), _PLAUSIBLE, "nrrlrr")

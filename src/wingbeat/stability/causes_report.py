@@ -21,7 +21,7 @@ def causes_report(record: dict[str, Any]) -> Report:
     rows = tuple(Row(_cells(parameter)) for parameter in record["parameters"][:_MOST])
     return [
         Line(f"what moves the spectral radius {record['spectral_radius']:.3f} most", tone="title"),
-        Table(rows, _HEADINGS, "lrrrr"),
+        Table(rows, _HEADINGS, "nrrrr"),
         Line("the changes are extrapolated linearly: for ranking only"),
         Line("for the share of stable orbits run `wingbeat uncertainty`"),
     ]

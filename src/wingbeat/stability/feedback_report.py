@@ -33,7 +33,7 @@ def feedback_report(record: dict[str, Any]) -> Report:
         Line(headline(record), wraps=False),
         Line(""),
         Line("change of the inputs per unit of"),
-        Table(rows, headings, "l" + "r" * len(STATE_UNITS)),
+        Table(rows, headings, "n" + "r" * len(STATE_UNITS)),
         *(last if delay else []),
         Line(""),
         Line("multipliers without feedback: " + _numbers(record["open_loop"]["multipliers"]), wraps=False),

@@ -55,8 +55,10 @@ def limit_in_words(limit: Constraint) -> str:
     return f"{limit.quantity.name} {sign} {limit.limit * factor:.6g} {unit}".rstrip()
 
 
-def place_in_words(species: str | None, speed: float, climb: float | None) -> str:
+def place_in_words(species: str | None, speed: float | None, climb: float | None) -> str:
     """Return which species flies, and how fast."""
+    if speed is None:
+        return str(species)
     (factor, unit), (factor_up, unit_up) = (for_people(NOMENCLATURE[name].unit) for name in ("speed", "climb"))
     climbing = f", climbing {climb * factor_up:.4g} {unit_up}" if climb else ""
     return f"{species} at {speed * factor:.4g} {unit}{climbing}"

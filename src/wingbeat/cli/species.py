@@ -169,7 +169,7 @@ def _table(title: str, *columns: str) -> Table:
     table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     for column in columns:
         name, _, right = column.partition(">")
-        table.add_column(name, justify="right" if right else "left", overflow="fold", no_wrap=name == "name")
+        table.add_column(name, justify="right" if right else "left", overflow="fold")
     return table
 
 

@@ -9,7 +9,10 @@ def blend_distance(alpha):
 
 
 def _mirrored(alpha, lift, drag):
-    """Return (c_l, c_d, angle in 0..90 degrees, seen from behind?) of a plate at `alpha` (rad)."""
+    """Return lift and drag coefficients [1], the angle [deg] from 0 to 90, and whether the rear edge leads.
+
+    `alpha` is the angle of attack of a plate [rad].
+    """
     # Theory: equations ``folded-angle`` and ``mirrored-extension``.
     if blend_distance(alpha) < 1.0 - 1e-9:
         raise ValueError(f"alpha = {math.degrees(alpha)} deg lies within a degree of a blend centre")

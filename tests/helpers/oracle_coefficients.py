@@ -8,7 +8,7 @@ def blend_distance(alpha):
     return abs((math.degrees(alpha) + 45.0) % 90.0 - 45.0)
 
 
-def _mirrored(alpha, lift, drag):
+def mirrored(alpha, lift, drag):
     """Return lift and drag coefficients [1], the angle [deg] from 0 to 90, and whether the rear edge leads.
 
     `alpha` is the angle of attack of a plate [rad].
@@ -26,7 +26,7 @@ def _mirrored(alpha, lift, drag):
 def su_fan(alpha):
     """(c_l, c_d, x_cp) of Su and Fan at `alpha` (rad); x_cp in chords from the leading edge."""
     # Theory: equation ``su-fan``.
-    c_l, c_d, a, behind = _mirrored(
+    c_l, c_d, a, behind = mirrored(
         alpha,
         lambda a: -0.44 * math.exp(-0.47 * a) + 1.19 * math.sin(math.radians(1.74 * a + 20.0)),
         lambda a: 1.04 + math.sin(math.radians(1.72 * a - 70.0)),
@@ -38,7 +38,7 @@ def su_fan(alpha):
 def dickinson(alpha):
     """(c_l, c_d, 0.25) of Dickinson 1999 at `alpha` (rad); no centre of pressure was published."""
     # Theory: equation ``dickinson``.
-    c_l, c_d, _, _ = _mirrored(
+    c_l, c_d, _, _ = mirrored(
         alpha,
         lambda a: 0.225 + 1.58 * math.sin(math.radians(2.13 * a - 7.2)),
         lambda a: 1.92 - 1.55 * math.cos(math.radians(2.04 * a - 9.82)),

@@ -13,6 +13,7 @@ from tests.helpers.differences import differences, rates_along
 from tests.helpers.differences import miss as of_jacobians
 from tests.helpers.driven import spline_torques
 from tests.helpers.models import changed
+from tests.helpers.oracle_coefficients import mirrored
 from tests.helpers.programs import compiled
 from tests.helpers.unsteady_flights import (
     ALL_TERMS,
@@ -38,7 +39,7 @@ from wingbeat.results.dataset import evaluate
 
 def wang(alpha):
     """Return (c_l, c_d, x_cp) of Wang 2004, coefficients of a section."""
-    c_l, c_d, *_ = oracle._mirrored(
+    c_l, c_d, *_ = mirrored(
         alpha, lambda a: 1.2 * np.sin(np.radians(2 * a)), lambda a: 1.4 - np.cos(np.radians(2 * a))
     )
     return c_l, c_d, 0.25

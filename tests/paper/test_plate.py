@@ -10,7 +10,7 @@ from wingbeat.paper.figure_plate import plate_figure
 
 
 def test_the_plate_is_drawn_with_its_forces_at_the_centre_of_pressure():
-    figure, (row,) = plate_figure()
+    figure, (row,), _ = plate_figure()
     alpha = math.radians(row["alpha_deg"])
     c, s = math.cos(alpha), math.sin(alpha)
     # The paper's equation 1, and its C_M = C_N (0.5 - x_cp).

@@ -70,7 +70,7 @@ def test_controls_work_by_hand_and_by_key(show, page_of_one):
     assert page.evaluate(f"{VIEWER}.playing") is True
     page.keyboard.press("Space")
     page.get_by_label("lift", exact=True).check()
-    arrows = f"{VIEWER}.stage.animals[0].arrows.lift.visible"
+    arrows = f"{VIEWER}.stage.animals[0].arrows.lift.group.visible"
     assert page.evaluate(arrows) is True
     page.get_by_label("Strips").select_option("strip_lift")
     assert "lift of a strip [N]" in page.locator(".wb-scale").inner_text()
@@ -92,7 +92,7 @@ def test_arrows_are_the_loads_on_one_scale(show, page_of_one, bats):
     page = show(page_of_one).page
     data = bats["su-fan"].dataset.isel(phase=80)
     page.evaluate(f"({VIEWER}.pause(), {VIEWER}.set({float(data['phase'])}))")
-    arrows = f"{VIEWER}.stage.animals[0].arrows.force.children"
+    arrows = f"{VIEWER}.stage.animals[0].arrows.force.group.children"
     parts = page.evaluate(f"{arrows}.map((part) => Array.from(part.instanceMatrix.array))")
     scale = page.evaluate(f"{VIEWER}.look.scale")
     shaft, head = (np.array(part).reshape(-1, 4, 4) for part in parts)

@@ -31,6 +31,8 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _HEIGHT = 150.0  # mm
+_MOST_LIMITS = 1  # for whose words the title has room
+_MOST_EMPTY = 0.35  # share of the axis that may lie below the slowest speed
 _BEST, _OTHER, _PUBLISHED, _SPEEDS = BLUE, "0.6", GREEN, VERMILION
 _DASHES = ((0, (1, 1)), (0, (3, 1, 1, 1)), (0, (6, 1.5)), (0, (2, 2.5)))
 # Marks in a strip above the panel: kind, marker, its fill, height as a share of the panel's, and label.
@@ -105,8 +107,10 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
 
 def _title(dataset: xr.Dataset) -> str:
     about = dataset.attrs
-    aero = json.loads(about["aero"])
-    limits = "".join(f", {text}" for text in json.loads(about["constraints"]))
+    aero, kept = (json.loads(about[name]) for name in ("aero", "constraints"))
+    limits = "".join(f", {in_words(text)}" for text in kept).replace("<=", " ≤ ").replace(">=", " ≥ ")
+    if len(kept) > _MOST_LIMITS:
+        limits = f", within {len(kept)} limits"
     animal = heading(about["species"]) + climb_text(about["climb"])
     loads = f"{in_words(aero['coefficients'])} coefficients, {in_words(aero['extension'])}"
     return f"{animal}: minimum {in_words(about['objective'])}{limits}; {loads}"
@@ -134,7 +138,10 @@ def _draw_optima(axes: Axes, dataset: xr.Dataset, marks: list[dict[str, Any]], n
         axes.plot(line[1][part], line[0][part], "-o", color=_BEST, markersize=3, label=label, zorder=3)
         label = "_"
     top = 1.15 * np.nanmax(values[:, 0]) if some.any() else 1.0
-    axes.set_xlim(-0.02 * speed[-1], 1.02 * speed[-1])  # from 0 on, where the tangent of greatest range starts
+    # From 0 on, where the tangent of greatest range starts, unless that leaves much of the panel empty.
+    start = 0.0 if speed[0] < _MOST_EMPTY * speed[-1] else speed[0]
+    margin = 0.02 * (speed[-1] - start)
+    axes.set_xlim(start - margin, speed[-1] + margin)
     axes.set_ylim(0, max(top, min(1.05 * high[some].max(initial=0.0), 1.5 * top)))
 
 

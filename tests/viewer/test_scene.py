@@ -140,8 +140,22 @@ def test_a_schematic_bird_has_the_chords_and_the_tail_of_its_vehicle():
     chord = np.add(shown["leading"], shown["trailing"])
     np.testing.assert_allclose(chord[[0, 10, 20]], [0.12, 0.1, 0.05])
     np.testing.assert_allclose(shown["leading"], 0.25 * chord)
-    tail = shown["body"]
-    assert 0.5 * tail["tail_length"] * tail["tail_width"] == pytest.approx(species.vehicle.tail.area)
+    assert tail_area(shown) == pytest.approx(species.vehicle.tail.area)
+
+
+def tail_area(shown):
+    return 0.5 * shown["body"]["tail_length"] * shown["body"]["tail_width"]
+
+
+def test_a_tail_that_was_added_to_the_vehicle_is_drawn():
+    tail = {"tail.area": 0.01, "tail.arm": 0.2, "tail.lift_slope": 3.0}
+    robot = wb.load_species("robofalcon2")
+    bare, tailed = (scene([("one", flight_of(s))])["flights"][0] for s in (robot, robot.with_values(tail)))
+    assert tail_area(bare["shape"]) == 0
+    assert tail_area(tailed["shape"]) == pytest.approx(0.01)
+    pigeon = wb.load_species("pigeon").with_tail()  # its own tail has a length of its own
+    shown = scene([("one", flight_of(pigeon))])["flights"][0]["shape"]
+    assert shown["body"]["tail_length"] == pigeon.shape.tail_length
 
 
 def test_files_of_versions_without_shapes_are_shown(bats, pigeon_model):

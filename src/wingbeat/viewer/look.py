@@ -70,7 +70,7 @@ def look_of(dataset: xr.Dataset) -> dict[str, Any]:
     known = json.loads(dataset.attrs.get(SHAPE, "{}"))
     kind = known.get("kind") or _kind(dataset, vehicle)
     found = _own(vehicle, known) if "cover" in known else _schematic(vehicle, kind)
-    return {"kind": kind, **found, "wrist": beat.get("wrist", 0.5)}
+    return {"kind": kind, **found, "wrist": beat["wrist"]}
 
 
 def _kind(dataset: xr.Dataset, vehicle: dict[str, Any]) -> str:
@@ -81,12 +81,14 @@ def _kind(dataset: xr.Dataset, vehicle: dict[str, Any]) -> str:
 
 def _own(vehicle: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
     chord = Wing(**vehicle["wing"]).mean_chord
+    tail = {} if known["tail_length"] else _tail(vehicle)
     return {
         **{name: known[name] for name in ("cover", "schematic", "camber", "thickness", "colours")},
         "leading": [chord * place for place in known["leading_edge"]],
         "trailing": [chord * place for place in known["trailing_edge"]],
         "body": {name: known[f"body_{name}"] for name in ("length", "width", "depth")}
-        | {name: known[name] for name in _BODY_PARTS},
+        | {name: known[name] for name in _BODY_PARTS}
+        | tail,
     }
 
 
@@ -96,10 +98,6 @@ def _schematic(vehicle: dict[str, Any], kind: str) -> dict[str, Any]:
     half_length, half_depth = body_axes(Body(**vehicle["body"]))
     length = 2 * half_length
     parts = dict(zip(_BODY_PARTS, (share * length for share in plan.shares), strict=True))
-    if "tail" in vehicle:
-        root, left, right = tail_corners(Tail(**vehicle["tail"]))
-        parts["tail_length"] = float(np.linalg.norm(0.5 * (left + right) - root))
-        parts["tail_width"] = float(np.linalg.norm(left - right))
     return {
         "cover": plan.cover,
         "schematic": True,
@@ -107,9 +105,18 @@ def _schematic(vehicle: dict[str, Any], kind: str) -> dict[str, Any]:
         "trailing": (0.75 * chord).tolist(),
         "camber": plan.camber,
         "thickness": plan.thickness,
-        "body": {"length": length, "width": 2 * half_depth, "depth": 2 * half_depth, **parts},
+        "body": {"length": length, "width": 2 * half_depth, "depth": 2 * half_depth} | parts | _tail(vehicle),
         "colours": dict(zip(COLOURS, plan.colours, strict=True)),
     }
+
+
+def _tail(vehicle: dict[str, Any]) -> dict[str, float]:
+    """Return the size of the tail that the vehicle has [m]; nothing if it has none."""
+    if "tail" not in vehicle:
+        return {}
+    root, left, right = tail_corners(Tail(**vehicle["tail"]))
+    length = float(np.linalg.norm(0.5 * (left + right) - root))
+    return {"tail_length": length, "tail_width": float(np.linalg.norm(left - right))}
 
 
 def _chord(plan: _Plan, wing: Wing) -> np.ndarray:

@@ -82,3 +82,15 @@ def test_what_holds_no_flight_is_refused(bats):
     fallen["u"][:] = np.nan
     with pytest.raises(FileError, match="fewer than two samples before the vehicle tumbled"):
         scene([("other", fallen)])
+
+
+def test_a_flight_without_a_shape_gets_a_schematic_one_of_its_own_size(pigeon_model):
+    pigeon, model = pigeon_model
+    data = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0), samples=16).dataset
+    shape = scene([("flight", data)])["flights"][0]["shape"]
+    assert shape["schematic"]
+    assert (shape["kind"], shape["cover"]) == ("bird", "feathers")
+    chord = np.add(shape["leading"], shape["trailing"])
+    assert np.trapezoid(chord, dx=1 / (len(chord) - 1)) == pytest.approx(pigeon.vehicle.wing.chord, rel=1e-9)
+    assert chord[-1] == 0
+    assert shape["wrist"] == pigeon.wingbeat.wrist

@@ -13,6 +13,7 @@ from wingbeat.datasets import KIND, at_station, climb_text, downstrokes, flown
 from wingbeat.errors import FaultList, FileError
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.vehicle import Body, Tail
+from wingbeat.viewer.look import look_of
 from wingbeat.viewer.pushes import Push
 from wingbeat.viewer.shape import body_axes, tail_corners
 
@@ -125,6 +126,7 @@ def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:
         "frequency": beat["frequency"],
         "periodic": dataset.attrs[KIND] == "orbit" and dataset.attrs["status"] == "converged",
         "body_axes": body_axes(Body(**body)),
+        "shape": look_of(dataset),
         **({} if tail is None else {"tail": tail.ravel().tolist()}),
         "downstrokes": [list(ends) for ends in downstrokes(dataset["phase"].values, dataset["flap_rate"].values)],
         "arrays": {name: _packed(*array) for name, array in _arrays(dataset, weight).items()},

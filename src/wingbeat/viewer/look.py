@@ -1,0 +1,104 @@
+"""How the animal of a flight looks: outline of the wing, body and colours, for the drawings alone."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from wingbeat.vehicle import Body, Tail, Wing
+from wingbeat.viewer.shape import body_axes, tail_corners
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_STATIONS = 21
+
+
+class _Plan(NamedTuple):
+    """A schematic animal of one kind: guesses, for a flight whose species has no shape of its own."""
+
+    cover: str
+    taper: float  # share of the chord lost at the tip, before rounding
+    rounding: float  # the chord is multiplied by sqrt(1 - s^rounding)
+    camber: float
+    thickness: float
+    shares: tuple[float, float, float, float, float]  # head, bill, ear, tail length, tail width over body length
+    colours: tuple[str, str, str, str, str, str]
+
+
+_BODY_PARTS = ("head_length", "bill_length", "ear_length", "tail_length", "tail_width")
+_COLOURS = ("back", "breast", "head", "wing", "wing_tip", "bill")
+_PLANS = {
+    "bird": _Plan(
+        *("feathers", 0.2, 4.0, 0.06, 0.04, (0.3, 0.1, 0.0, 0.5, 0.4)),
+        ("#8a8f98", "#b9bdc4", "#7b808a", "#9a9fa8", "#5d626c", "#4a4d55"),
+    ),
+    "bat": _Plan(
+        *("membrane", 0.45, 8.0, 0.08, 0.02, (0.3, 0.0, 0.15, 0.25, 0.35)),
+        ("#7d6a5b", "#9c8a79", "#75624f", "#5b4a40", "#4a3b33", "#4a3b33"),
+    ),
+    "robot": _Plan(
+        *("film", 0.3, 12.0, 0.03, 0.01, (0.0, 0.0, 0.0, 0.5, 0.5)),
+        ("#4c535e", "#5d6570", "#4c535e", "#b9c4d0", "#a3afbd", "#4c535e"),
+    ),
+}
+
+
+def look_of(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return how the animal of a flight looks: JSON-able, lengths in m, span fractions from root to tip.
+
+    A flight that does not carry the shape of its species gets a schematic one from the numbers of its vehicle.
+    ``leading`` is ahead of the pitch axis, ``trailing`` behind it.
+
+    Parameters
+    ----------
+    dataset : of an orbit or a flight.
+
+    >>> import wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon")
+    >>> flight = wb.simulate(wb.FlightModel(pigeon.vehicle, "su-fan"), pigeon.wingbeat, wb.State(u=10.0), beats=1)
+    >>> shape = look_of(flight.dataset)
+    >>> shape["kind"], shape["cover"], shape["schematic"]
+    ('bird', 'feathers', True)
+    """
+    vehicle, beat = (json.loads(dataset.attrs[name]) for name in ("vehicle", "wingbeat"))
+    return {**_schematic(vehicle, _kind(dataset, vehicle)), "wrist": beat.get("wrist", 0.5)}
+
+
+def _kind(dataset: xr.Dataset, vehicle: dict[str, Any]) -> str:
+    species = json.loads(dataset.attrs.get("inputs", "{}")).get("species", {})
+    return species.get("kind") or ("robot" if "motor" in vehicle else "bird")
+
+
+def _schematic(vehicle: dict[str, Any], kind: str) -> dict[str, Any]:
+    plan, wing = _PLANS[kind], Wing(**vehicle["wing"])
+    chord = _chord(plan, wing)
+    half_length, half_depth = body_axes(Body(**vehicle["body"]))
+    length = 2 * half_length
+    parts = dict(zip(_BODY_PARTS, (share * length for share in plan.shares), strict=True))
+    if "tail" in vehicle:
+        root, left, right = tail_corners(Tail(**vehicle["tail"]))
+        parts["tail_length"] = float(np.linalg.norm(0.5 * (left + right) - root))
+        parts["tail_width"] = float(np.linalg.norm(left - right))
+    return {
+        "kind": kind,
+        "cover": plan.cover,
+        "schematic": True,
+        "leading": (0.25 * chord).tolist(),
+        "trailing": (0.75 * chord).tolist(),
+        "camber": plan.camber,
+        "thickness": plan.thickness,
+        "body": {"length": length, "width": 2 * half_depth, "depth": 2 * half_depth, **parts},
+        "colours": dict(zip(_COLOURS, plan.colours, strict=True)),
+    }
+
+
+def _chord(plan: _Plan, wing: Wing) -> np.ndarray:
+    """Return chords at equally spaced stations [m]: those of the vehicle, or an outline with its mean chord."""
+    place = np.linspace(0.0, 1.0, _STATIONS)
+    if isinstance(wing.chord, tuple):
+        return np.interp(place, np.linspace(0.0, 1.0, len(wing.chord)), wing.chord)
+    outline = (1.0 - plan.taper * place) * np.sqrt(1.0 - place**plan.rounding)
+    return wing.mean_chord / float(np.trapezoid(outline, place)) * outline

@@ -18,13 +18,21 @@ from wingbeat.files import write_atomically
 from wingbeat.measured_motion.reading import KNOWN_KEYS, REQUIRED_KEYS
 from wingbeat.measured_motion.strip_checks import SCALAR_LIMITS
 from wingbeat.nomenclature import NOMENCLATURE, find, for_people, plain
-from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE, Key
+from wingbeat.species_schema.keys import COVERS, FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE, Key
 from wingbeat.studies.form import Sample, StudyForm, Vary
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
 
-_SHAPES = {"number": "number", "stations": "number or list", "vector": "three numbers", "list": "list"}
+_SHAPES = {
+    "number": "number",
+    "stations": "number or list",
+    "vector": "three numbers",
+    "list": "list",
+    "edge": "list, root to tip",
+    "cover": " or ".join(f"`{cover}`" for cover in COVERS),
+    "colour": "`#rrggbb`",
+}
 
 
 def _cell(text: object) -> str:
@@ -55,8 +63,7 @@ def commands() -> str:
 
 def _species_rows(keys: Iterable[Key]) -> list[tuple[object, ...]]:
     return [
-        (f"`{key.path}`", _SHAPES[key.shape], key.unit or "1", "yes" if key.required else "", key.meaning)
-        for key in keys
+        (f"`{key.path}`", _SHAPES[key.shape], key.unit, "yes" if key.required else "", key.meaning) for key in keys
     ]
 
 
@@ -87,6 +94,13 @@ Give `low`, `high` or both, and optionally `unit`, `source` and `speeds`: the sp
 [m/s].
 
 {table(head, ((*row[:1], "low, high", *row[2:]) for row in _species_rows(PLAUSIBLE)))}
+## How it looks
+
+Only drawings use the table `shape`: no orbit, sensitivity or error bar depends on it. Without it, drawings show a
+schematic animal of the vehicle's size. The chord, the sum of both edges, has the mean 1, so that the drawn wing has
+the area of the model's. A drawing is called schematic if a source begins with `guess`.
+
+{table(head, _species_rows((*LOOKS, *SHAPE)))}
 ## Other keys
 
 {

@@ -11,6 +11,8 @@ if TYPE_CHECKING:
 
 # The attribute of a data set that says what it is: an orbit, a flight, a curve, a study.
 KIND = "wingbeat_kind"
+# The attribute of an orbit or a flight that says how the animal looks: its kind, and its shape if that is known.
+SHAPE = "shape"
 # The body's state in the world, as data sets and records name it.
 STATE_NAMES = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
 

@@ -16,7 +16,7 @@ from wingbeat.nomenclature.series import GLIDE, SERIES
 from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.problem.quantities import QUANTITIES, Frequency
 from wingbeat.results.columns import flat
-from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE
+from wingbeat.species_schema.keys import FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE
 
 SOURCE = Path(wb.__file__).parent
 # Lists that are not ours: spellings and limits of other people's files, and units of the paper's claims.
@@ -76,7 +76,7 @@ def test_every_quantity_has_the_unit_of_the_table():
 
 
 def test_every_number_of_a_species_file_has_the_unit_of_the_table():
-    for key in (*KEYS, *PATH, *FREE, *PLAUSIBLE):
+    for key in (*KEYS, *PATH, *FREE, *PLAUSIBLE, *LOOKS, *SHAPE):
         term = find(key.path)
         assert term is not None, key.path
         assert (key.unit, key.meaning) == (plain(term.unit), term.definition), key.path

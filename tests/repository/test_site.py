@@ -11,7 +11,7 @@ from tests.helpers.places import ROOT
 from wingbeat.cli.app import build_app
 from wingbeat.measured_motion.reading import KNOWN_KEYS
 from wingbeat.nomenclature import NOMENCLATURE
-from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE
+from wingbeat.species_schema.keys import FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE
 from wingbeat.studies.form import Sample, StudyForm, Vary
 
 SITE = ROOT / "site"
@@ -67,7 +67,9 @@ def test_every_option_of_every_command_is_on_its_page(reference):
 
 def test_every_key_of_files_is_on_its_page_with_a_meaning(reference):
     species, study, case = reference.species_file(), reference.study_file(), reference.case_file()
-    assert [key.path for key in (*KEYS, *FREE, *PATH, *PLAUSIBLE) if f"`{key.path}`" not in species] == []
+    assert [
+        key.path for key in (*KEYS, *FREE, *PATH, *PLAUSIBLE, *LOOKS, *SHAPE) if f"`{key.path}`" not in species
+    ] == []
     for model in (StudyForm, Vary, Sample):
         names = [entry.alias or name for name, entry in model.model_fields.items() if not entry.description]
         assert names == []

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from tests.helpers.species_texts import check_words
 from wingbeat.errors import FileError, InvalidInputError
 from wingbeat.species import load_species, parse_setting, template
-from wingbeat.species_schema import KEYS
+from wingbeat.species_schema import KEYS, LOOKS, SHAPE
 
 FIXED = settings(
     derandomize=True,
@@ -65,7 +65,7 @@ TABLES = [
     "{ value = { value = 1 } }",
 ]
 LEAVES = st.sampled_from(BARE + ODD + TABLES) | st.floats().map(repr) | st.integers().map(str)
-PATHS = [spelling for key in KEYS for spelling in key.spellings]
+PATHS = [spelling for key in (*KEYS, *SHAPE, *LOOKS) for spelling in key.spellings]
 PATHS += [f"alternatives.a.{path}" for path in PATHS[:8]] + ["alternatives.a", "alternatives.a.reason"]
 PATHS += [path.replace("wingbeat.", "free.") for path in PATHS if path.startswith("wingbeat.")]
 PATHS += [
@@ -77,6 +77,8 @@ PATHS += [
     "air",
     "colour",
     "vehicle.wing.x",
+    "shape",
+    "shape.colours",
 ]
 
 

@@ -17,7 +17,7 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.species import json_schema, load_species, species_names, template
 from wingbeat.species.building import UNNAMED_PATHS
 from wingbeat.species.writing import species_text
-from wingbeat.species_schema import KEYS
+from wingbeat.species_schema import KEYS, LOOKS, SHAPE
 
 # --- the built-in animals ---
 
@@ -151,7 +151,7 @@ def test_the_template_is_complete_and_loads_without_a_warning(load: Any) -> None
     own = load(text)
     assert own.name == "my-flyer"
     assert own.warnings == ()
-    for key in KEYS:
+    for key in (*KEYS, *SHAPE, *LOOKS):
         name = key.path.rpartition(".")[2]
         assert f"\n{name}" in text or f"\n# {name}" in text, f"{key.path} is not in the template"
     for field in fields(Wingbeat):

@@ -65,7 +65,7 @@ def carried(
     faults.raise_if_any()
     path = fit_body_path(beat, given.get("u"), given.get("w"), given.get("body_pitch"))
     model = FlightModel(animal.vehicle, aero, animal.air, velocity=path.velocity)
-    flight = carry(model, animal.wingbeat, path, beats, samples)
+    flight = carry(model, animal.wingbeat, path, beats, samples, species=animal)
     return flight, _errors(flight, beat, path, samples)
 
 

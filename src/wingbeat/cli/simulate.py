@@ -103,6 +103,7 @@ def simulate(
         orbit = load_orbit(from_)
         with unpacking(from_):
             flown_by, wingbeat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
+            animal = orbit.problem.species
             reach = orbit.problem.bounds["flap"]
         start = start._replace(**disturbed)
     else:
@@ -132,7 +133,7 @@ def simulate(
         flown_by = FlightModel(animal.vehicle, whole.aero, animal.air, velocity=velocity)
     check_outputs(output, plot_kinematics)
     wind = wind_of(gust, turbulence, wind_seed, math.hypot(start.u, start.w))
-    flight = fly(flown_by, wingbeat, start, beats, samples, wind=wind)
+    flight = fly(flown_by, wingbeat, start, beats, samples, wind=wind, species=animal)
     if output:
         flight.save(output)
     if plot_kinematics and beat:

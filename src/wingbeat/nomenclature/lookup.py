@@ -10,12 +10,13 @@ import re
 from wingbeat.nomenclature.answers import ANSWER, BEAT, STUDY
 from wingbeat.nomenclature.given import AERO, GIVEN, RUN, WINGBEAT
 from wingbeat.nomenclature.series import GLIDE, SERIES, SERIES_WHERE_ON
+from wingbeat.nomenclature.shape import SHAPE
 from wingbeat.nomenclature.term import Term
 from wingbeat.nomenclature.units import plain
 
 NOMENCLATURE: dict[str, Term] = {
     term.name: term
-    for term in (*SERIES, *SERIES_WHERE_ON, *GLIDE, *GIVEN, *WINGBEAT, *BEAT, *AERO, *RUN, *ANSWER, *STUDY)
+    for term in (*SERIES, *SERIES_WHERE_ON, *GLIDE, *GIVEN, *WINGBEAT, *SHAPE, *BEAT, *AERO, *RUN, *ANSWER, *STUDY)
 }
 _AXES = ("x", "y", "z")
 # A part before or after a name that says which of its numbers is meant.

@@ -16,8 +16,9 @@ from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.flight.beat import mean_positive
 from wingbeat.results.dataset import evaluate_carried, flight_dataset
-from wingbeat.results.record import beat_mean, vehicle_record, wingbeat_record
+from wingbeat.results.record import beat_mean, shape_attribute, vehicle_record, wingbeat_record
 from wingbeat.results.saving import Saveable
+from wingbeat.species import Species
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -45,6 +46,7 @@ class CarriedFlight(Saveable):
     phase : beats since the start, shape (K,).
     states : (x, z, body_pitch, u, w, pitch_rate), shape (K, 6) [m, m, rad, m/s, m/s, rad/s].
     accelerations : (x'', z'', psi''), shape (K, 3) [m/s2, m/s2, rad/s2].
+    species : what flies, for drawings alone; None if it was not given.
     """
 
     model: FlightModel
@@ -52,6 +54,7 @@ class CarriedFlight(Saveable):
     phase: np.ndarray
     states: np.ndarray
     accelerations: np.ndarray
+    species: Species | None = None
 
     @functools.cached_property
     def dataset(self) -> xr.Dataset:
@@ -63,6 +66,7 @@ class CarriedFlight(Saveable):
             "vehicle": json.dumps(vehicle_record(self.model.vehicle)),
             "air": json.dumps(vars(self.model.air)),
             "wingbeat": json.dumps(wingbeat_record(self.wingbeat)),
+            **shape_attribute(self.species),
             "version": __version__,
         }
         return flight_dataset(self.model, self.wingbeat, self.phase, self.states, found, attributes, missing)
@@ -90,7 +94,15 @@ class CarriedFlight(Saveable):
         return {name: float(value) for name, value in told.items()}
 
 
-def carry(model: FlightModel, wingbeat: Wingbeat, path: Path, beats: int = 1, samples: int = 128) -> CarriedFlight:
+def carry(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    path: Path,
+    beats: int = 1,
+    samples: int = 128,
+    *,
+    species: Species | None = None,
+) -> CarriedFlight:
     """Move the wings and the body of a vehicle as they were filmed, and evaluate the loads.
 
     The body's motion is prescribed, not integrated. This motion needs a force in addition to the air loads F and
@@ -104,6 +116,7 @@ def carry(model: FlightModel, wingbeat: Wingbeat, path: Path, beats: int = 1, sa
     path : the prescribed motion of the body.
     beats : number of wingbeats.
     samples : samples per wingbeat.
+    species : what flies; drawings of the flight show its shape.
 
     Raises
     ------
@@ -114,4 +127,4 @@ def carry(model: FlightModel, wingbeat: Wingbeat, path: Path, beats: int = 1, sa
         faults.whole(name, value, 1, most)
     faults.raise_if_any()
     phase = np.arange(beats * samples + 1) / samples
-    return CarriedFlight(model, wingbeat, phase, path.states(phase), path.accelerations(phase))
+    return CarriedFlight(model, wingbeat, phase, path.states(phase), path.accelerations(phase), species)

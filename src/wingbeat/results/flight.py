@@ -19,8 +19,9 @@ from wingbeat.mechanics.flight_model import FlightModel, State, check_state
 from wingbeat.mechanics.flights import fly_torque_driven
 from wingbeat.nomenclature import NOMENCLATURE, attributes_of
 from wingbeat.results.dataset import evaluate, flight_dataset
-from wingbeat.results.record import vehicle_record, wingbeat_record
+from wingbeat.results.record import shape_attribute, vehicle_record, wingbeat_record
 from wingbeat.results.saving import Saveable
+from wingbeat.species import Species
 from wingbeat.winds import Wind
 
 if TYPE_CHECKING:
@@ -40,6 +41,7 @@ class Flight(Saveable):
         integrator gave up.
     wingbeats : the wingbeat of each beat.
     air : velocity of the air, forward and up [m/s], shape (K, 2); None for still air.
+    species : what flies, for drawings alone; None if it was not given.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
@@ -55,6 +57,7 @@ class Flight(Saveable):
     states: np.ndarray
     wingbeats: tuple[Wingbeat, ...]
     air: np.ndarray | None = None
+    species: Species | None = None
 
     @property
     def completed(self) -> bool:
@@ -77,6 +80,7 @@ class Flight(Saveable):
             "vehicle": json.dumps(vehicle_record(self.model.vehicle)),
             "air": json.dumps(vars(self.model.air)),
             "wingbeat": json.dumps(wingbeat_record(self.wingbeat)),
+            **shape_attribute(self.species),
             "version": __version__,
         }
         runs = [self._run(first, last, attributes) for first, last in self._alike()]
@@ -116,6 +120,7 @@ def simulate(
     *,
     wind: Wind | tuple[float, float] | None = None,
     controller: Controller | None = None,
+    species: Species | None = None,
 ) -> Flight:
     """Fly an initial state for a number of wingbeats with prescribed wings.
 
@@ -130,6 +135,7 @@ def simulate(
         `wingbeat.winds`. It must be smooth over a 64th of a beat. Loads of the air's own acceleration are left out.
     controller : function of the number of beats flown and the state at the top of the stroke; it returns the
         wingbeat of the next beat. Inputs of `linearise` change a wingbeat without a jump of the wing.
+    species : what flies; drawings of the flight show its shape. The flight itself does not depend on it.
 
     Raises
     ------
@@ -152,7 +158,7 @@ def simulate(
     faults.raise_if_any()
     check_state(state)
     flown = fly_beats(model, wingbeat, state, beats, samples, wind, controller)
-    return Flight(model, flown.wingbeats[0], flown.phase, flown.states, flown.wingbeats, flown.air)
+    return Flight(model, flown.wingbeats[0], flown.phase, flown.states, flown.wingbeats, flown.air, species)
 
 
 # The generalised coordinates and their rates, as a data set names them.

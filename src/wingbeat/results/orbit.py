@@ -22,7 +22,7 @@ from wingbeat.results.csv_table import frame_of
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.orbit_report import orbit_report
 from wingbeat.results.provenance import inputs_of, own_functions, problem_from
-from wingbeat.results.record import orbit_record
+from wingbeat.results.record import orbit_record, shape_attribute
 from wingbeat.results.saving import Saveable
 from wingbeat.results.storage import load_dataset, orbit_attributes, parse_attributes
 
@@ -52,7 +52,8 @@ def _series(flown: Callable[[], _Flown], inputs: dict[str, Any], record: dict[st
     """Return the time series of a simulated wingbeat, with record and inputs as attributes."""
     problem, wingbeat, certificate = flown()
     flight = problem.model, wingbeat, certificate.phase, certificate.states
-    return flight_dataset(*flight, evaluate(*flight), orbit_attributes(record, inputs))
+    attributes = orbit_attributes(record, inputs) | shape_attribute(problem.species)
+    return flight_dataset(*flight, evaluate(*flight), attributes)
 
 
 def _flown_by(solution: Solution) -> _Flown:

@@ -16,7 +16,8 @@ from wingbeat.orbits.problem.quantities import Quantity, named_objective, named_
 from wingbeat.results.aero_record import OWN, SET_ANEW, NotInFileError, aero_from, aero_inputs
 from wingbeat.results.record import vehicle_from, vehicle_record, wingbeat_record
 from wingbeat.species import Species
-from wingbeat.species_schema import Number, Range
+from wingbeat.species.shape import shape_from, shape_record
+from wingbeat.species_schema import Range, number_from
 from wingbeat.vehicle import Air
 
 
@@ -36,6 +37,7 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOpti
             "warnings": species.warnings,
             "numbers": species.numbers,
             "plausible": species.plausible,
+            **({} if species.shape is None else {"shape": shape_record(species.shape)}),
         },
         "vehicle": vehicle_record(problem.vehicle),
         "stock_wingbeat": wingbeat_record(species.wingbeat),
@@ -115,17 +117,13 @@ def species_from(inputs: dict[str, Any]) -> Species:
         guessed_bounds=frozenset(known["guessed_bounds"]),
         path_bounds=_pairs(known["path_bounds"]),
         reasons={},
-        numbers={path: _number(*number) for path, number in known["numbers"].items()},
+        numbers={path: number_from(*number) for path, number in known["numbers"].items()},
         alternatives={},
         # A file of a version that judged nothing has no ranges.
         plausible={name: _plausible_range(*one) for name, one in known.get("plausible", {}).items()},
         warnings=tuple(known["warnings"]),
+        shape=shape_from(known["shape"]) if "shape" in known else None,
     )
-
-
-def _number(value: Any, unit: str, source: str, plausible: list[float] | None) -> Number:
-    whole = tuple(value) if isinstance(value, list) else value
-    return Number(whole, unit, source, None if plausible is None else (plausible[0], plausible[1]))
 
 
 def _plausible_range(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 from wingbeat._jax.config import at_default
 from wingbeat._version import __version__
 from wingbeat.actuators import Motor, Muscle, Springs
-from wingbeat.datasets import at_station
+from wingbeat.datasets import SHAPE, at_station
 from wingbeat.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.beat import Beat, mean_positive
@@ -21,6 +22,7 @@ from wingbeat.orbits.status import Status
 from wingbeat.results.aero_record import aero_record
 from wingbeat.results.plausibility import plausibility
 from wingbeat.results.warnings import orbit_warnings
+from wingbeat.species import Species
 from wingbeat.vehicle import Body, Tail, Vehicle, Wing
 
 # Parts that a vehicle may lack.
@@ -56,6 +58,13 @@ def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
         for name, value in vars(wingbeat).items()
         if name not in left_out
     }
+
+
+def shape_attribute(species: Species | None) -> dict[str, str]:
+    """Return the attribute of a data set that says how the animal looks; nothing without a species."""
+    if species is None:
+        return {}
+    return {SHAPE: json.dumps({"kind": species.kind} | (species.shape.drawn() if species.shape else {}))}
 
 
 def orbit_record(solution: Solution) -> dict[str, Any]:

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
+from wingbeat.datasets import SHAPE
 from wingbeat.errors import FaultList
 from wingbeat.files import write_atomically
 from wingbeat.results.storage import save_dataset
@@ -25,10 +26,13 @@ _TEXTS = (
 def results_of(dataset: xr.Dataset) -> dict[str, Any]:
     """Return the attributes of an orbit, a flight, a curve or a polar as plain dictionaries and lists.
 
-    All inputs together stay one JSON text, from which the result can be computed again.
+    All inputs together stay one JSON text, from which the result can be computed again. The shape of the animal is
+    left out: only our drawings use it.
     """
     found = {}
     for name, value in dataset.attrs.items():
+        if name == SHAPE:
+            continue
         value = value.item() if hasattr(value, "item") else value
         found[name] = json.loads(value) if isinstance(value, str) and name not in _TEXTS else value
     return found

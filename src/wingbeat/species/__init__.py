@@ -4,6 +4,7 @@ from wingbeat.species.animals import bat, bird, robot
 from wingbeat.species.loading import load_species
 from wingbeat.species.record import Species
 from wingbeat.species.settings import parse_setting
+from wingbeat.species.shape import Shape
 from wingbeat.species.writing import species_text
 from wingbeat.species_schema import Alternative, Bound, Number, Range, json_schema, species_names, template
 
@@ -12,6 +13,7 @@ __all__ = [
     "Bound",
     "Number",
     "Range",
+    "Shape",
     "Species",
     "bat",
     "bird",

@@ -22,6 +22,7 @@ from wingbeat.species.building import (
     in_order,
 )
 from wingbeat.species.record import Species
+from wingbeat.species.shape import shape_of
 from wingbeat.species.warnings import find_warnings
 from wingbeat.species_schema import (
     KEYS,
@@ -92,6 +93,7 @@ def species_of(content: SpeciesText, faults: FaultList) -> Species:
     records = build_records(numbers, content.numbers, faults)
     for other in content.alternatives.values():
         build_records(other.numbers, other.numbers, faults)
+    shape = shape_of(content.shape, faults)
     faults.raise_if_any()
     complete_parts(numbers)
     for key in KEYS:
@@ -113,6 +115,7 @@ def species_of(content: SpeciesText, faults: FaultList) -> Species:
         alternatives=content.alternatives,
         plausible=content.plausible,
         warnings=(),
+        shape=shape,
         **records,
     )
     for other in content.alternatives.values():

@@ -28,6 +28,7 @@ from wingbeat.species.muscle_laws import muscle_numbers
 from wingbeat.species.plausibility import UNKNOWN, range_of
 from wingbeat.species.report import species_report
 from wingbeat.species.settings import plain, settable
+from wingbeat.species.shape import Shape
 from wingbeat.species.tail_laws import tail_numbers
 from wingbeat.species.warnings import find_warnings
 from wingbeat.species_schema import (
@@ -64,6 +65,7 @@ class Species(Reported):
     plausible : plausible ranges of numbers of the flown wingbeat, by their names in the record; see
         `plausible_range`.
     warnings : what looks wrong, such as a number outside its plausible range.
+    shape : how it looks, for drawings alone; None if the file does not say it.
 
     >>> from wingbeat.species import load_species
     >>> pigeon = load_species("pigeon")
@@ -90,6 +92,7 @@ class Species(Reported):
     alternatives: dict[str, Alternative]
     plausible: dict[str, Range]
     warnings: tuple[str, ...]
+    shape: Shape | None = None
 
     def plausible_range(self, name: str, speed: float) -> Range:
         """Return the plausible range of a number at a flight speed; both ends are None if nothing is known.
@@ -316,6 +319,7 @@ class Species(Reported):
             plain[record] = dataclasses.asdict(plain[record])
         plain["vehicle"] = {part: record for part, record in plain["vehicle"].items() if record is not None}
         plain["guessed_bounds"] = sorted(self.guessed_bounds)
+        plain["shape"] = self.shape and self.shape.drawn() | {"numbers": self.shape.numbers}
         return _jsonable(plain)
 
 

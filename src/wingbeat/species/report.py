@@ -33,6 +33,8 @@ def species_report(animal: Species) -> Report:
         blocks += [*_titled("plausible ranges"), _plausible(animal, sources)]
     for name, other in animal.alternatives.items():
         blocks += [*_titled(f"alternative {name}: {other.reason}"), _numbers(other.numbers, sources)]
+    if animal.shape:
+        blocks += [*_titled("shape, which only drawings use"), _numbers(animal.shape.numbers, sources)]
     blocks += [*_titled("sources"), *(Line(f"[{number}] {source}") for source, number in sources.items())]
     return [*blocks, *(Line(f"warning: {warning}", tone="warning") for warning in animal.warnings)]
 
@@ -70,7 +72,7 @@ def _numbers(numbers: Mapping[str, Number], sources: dict[str, int]) -> Table:
         value = shown.value if isinstance(shown.value, tuple) else (shown.value,)
         unit = "" if shown.unit == "1" else shown.unit
         name = name if path == "vehicle.mass" else name.removeprefix("vehicle.")  # as --set takes them
-        told = ", ".join(f"{each:g}" for each in value)
+        told = ", ".join(f"{each:g}" for each in value) if len(value) < 6 else f"{len(value)} stations"
         rows.append(Row((name, told, unit, limits, _mark(shown.source, sources))))
     return Table(tuple(rows), _NUMBERS, "nrlrr")
 

@@ -19,7 +19,7 @@ DERIVED = "derived: "  # begins the source of a number that a scaling law gave
 def find_warnings(species: Species) -> tuple[str, ...]:
     """Return one line for each thing that is possible but odd."""
     found = []
-    for path, number in species.numbers.items():
+    for path, number in (species.numbers | (species.shape.numbers if species.shape else {})).items():
         values = number.value if isinstance(number.value, tuple) else (number.value,)
         if number.range and not all(number.range[0] <= value <= number.range[1] for value in values):
             name, shown = display(path, number)

@@ -10,7 +10,8 @@ from collections.abc import Iterator, Mapping
 
 from wingbeat.species.building import BODY, WHOLE
 from wingbeat.species.record import Species
-from wingbeat.species_schema import Number, Range, display
+from wingbeat.species.shape import Shape
+from wingbeat.species_schema import COLOURS, Number, Range, display
 
 _HEAD = "# SI units; _deg means degrees. A source that begins with derived or guess was not measured."
 
@@ -40,6 +41,7 @@ def species_text(species: Species) -> str:
         lines += ["", "# Plausible ranges, with which every orbit is compared."]
     for name, known in species.plausible.items():
         lines += _plausible(name, known)
+    lines += _shape(species.shape)
     for name, other in species.alternatives.items():
         table = f"alternatives.{name if re.fullmatch('[A-Za-z0-9_-]+', name) else _quoted(name)}"
         lines += ["", f"[{table}]", f"reason = {_quoted(other.reason)}"]
@@ -60,6 +62,14 @@ def _tables(numbers: Mapping[str, Number], prefix: str, left_out: str) -> Iterat
             yield f"range = [{_digits(shown.range[0])}, {_digits(shown.range[1])}]"
         if shown.source:
             yield f"source = {_text(shown.source)}"
+
+
+def _shape(shape: Shape | None) -> Iterator[str]:
+    if shape is None:
+        return
+    yield from ("", "# How it looks. Only drawings use it.", "[shape]", f"cover = {_quoted(shape.cover)}")
+    yield from _tables(shape.numbers, "", "")
+    yield from ("", "[shape.colours]", *(f"{name} = {_quoted(shape.colours[name])}" for name in COLOURS))
 
 
 def _plausible(name: str, known: Range) -> Iterator[str]:

@@ -2,7 +2,7 @@
 
 from wingbeat.species_schema.box import packaged_text, species_names, template
 from wingbeat.species_schema.faults import check_value, shown, spoken
-from wingbeat.species_schema.keys import KEYS, PARTS, PLAUSIBLE, TAIL_PATHS, Key
+from wingbeat.species_schema.keys import COLOURS, COVERS, KEYS, LOOKS, PARTS, PLAUSIBLE, SHAPE, TAIL_PATHS, Key
 from wingbeat.species_schema.models import json_schema
 from wingbeat.species_schema.reading import (
     Alternative,
@@ -10,17 +10,23 @@ from wingbeat.species_schema.reading import (
     Number,
     Numbers,
     Range,
+    ShapeText,
     SpeciesText,
     display,
+    number_from,
     parse_toml,
     read_species_text,
     to_si,
 )
 
 __all__ = [
+    "COLOURS",
+    "COVERS",
     "KEYS",
+    "LOOKS",
     "PARTS",
     "PLAUSIBLE",
+    "SHAPE",
     "TAIL_PATHS",
     "Alternative",
     "Bound",
@@ -28,10 +34,12 @@ __all__ = [
     "Number",
     "Numbers",
     "Range",
+    "ShapeText",
     "SpeciesText",
     "check_value",
     "display",
     "json_schema",
+    "number_from",
     "packaged_text",
     "parse_toml",
     "read_species_text",

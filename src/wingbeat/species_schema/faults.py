@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from wingbeat.errors import FaultList, suggest
-from wingbeat.species_schema.keys import FREE, KEYS, PATH, PLAUSIBLE, Key
+from wingbeat.species_schema.keys import FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE, Key
 from wingbeat.species_schema.models import ADAPTERS, NUMBER_FIELDS, TABLE, TAGS, BoundTable, RangeTable, SpeciesFile
 
 MAX_FAULTS = 100
@@ -117,6 +117,8 @@ def rule_of(kind: str, value: Any, context: dict[str, Any]) -> tuple[str, str]:
             return "must be finite", ""
         case "string_type":
             return "must be a text", "put it in quotes"
+        case "string_pattern_mismatch":
+            return "must be a colour", 'write it as "#rrggbb", for example "#8a8f98"'
         case "string_too_short":
             return "must not be empty", ""
         case "bool_type":
@@ -145,7 +147,7 @@ def _known_keys(loc: tuple[Any, ...]) -> list[str]:
         return list(BoundTable.model_fields) if place[0] in ("free", "path") else NUMBER_FIELDS
     if len(place) == 2 and place[0] == "plausible":
         return list(RangeTable.model_fields)
-    paths = [path for key in (*KEYS, *FREE, *PLAUSIBLE, *PATH) for path in key.spellings]
+    paths = [path for key in (*KEYS, *SHAPE, *LOOKS, *FREE, *PLAUSIBLE, *PATH) for path in key.spellings]
     if not place:
         return list(SpeciesFile.model_fields)
     depth = len(place)

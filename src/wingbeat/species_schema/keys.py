@@ -15,7 +15,9 @@ class Key(NamedTuple):
     unit: str
     meaning: str
     required: bool = True
-    shape: str = "number"  # or "stations" (a number or a list), "vector" (three numbers), "list" (any count)
+    # or "stations" (a number or a list), "vector" (three numbers), "list" (any count), "edge" (at least two),
+    # "cover" and "colour" (texts)
+    shape: str = "number"
 
     @property
     def name(self) -> str:
@@ -93,6 +95,22 @@ FREE = (
         if key.path.startswith("wingbeat.") and key.path != "wingbeat.wrist" and key.shape == "number"
     ),
     *(_key(f"free.{name}") for name in HARMONIC_NAMES),
+)
+# How the animal looks. No model reads it.
+SHAPE = (
+    *(_key(f"shape.{name}", shape="edge") for name in ("leading_edge", "trailing_edge")),
+    *(_key(f"shape.{name}", False) for name in ("camber", "thickness")),
+    *(_key(f"shape.{name}") for name in ("body_length", "body_width", "body_depth")),
+    *(
+        _key(f"shape.{name}", False)
+        for name in ("head_length", "bill_length", "ear_length", "tail_length", "tail_width")
+    ),
+)
+COVERS = ("feathers", "membrane", "film")
+COLOURS = ("back", "breast", "head", "wing", "wing_tip", "bill")
+LOOKS = (
+    _key("shape.cover", shape="cover"),
+    *(_key(f"shape.colours.{name}", shape="colour") for name in COLOURS),
 )
 # What is read off a beat and judged beside the certificate. The ranges of frequency and flap amplitude stand with
 # their numbers, under wingbeat.

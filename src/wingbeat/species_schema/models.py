@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, TypeAdapter, create_model
 
-from wingbeat.species_schema.keys import FREE, KEYS, PARTS, PATH, PLAUSIBLE, Key
+from wingbeat.species_schema.keys import COVERS, FREE, KEYS, LOOKS, PARTS, PATH, PLAUSIBLE, SHAPE, Key
 
 _STRICT = ConfigDict(strict=True, extra="forbid")
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -32,6 +32,9 @@ _SHAPES: dict[str, Any] = {
     ],
     "vector": Annotated[list[_Finite], Field(min_length=3, max_length=3)],
     "list": list[_Finite],
+    "edge": Annotated[list[_Finite], Field(min_length=2)],
+    "cover": Literal[COVERS],
+    "colour": Annotated[str, Field(pattern="^#[0-9a-fA-F]{6}$")],
 }
 ADAPTERS = {shape: TypeAdapter(kind, config=ConfigDict(strict=True)) for shape, kind in _SHAPES.items()}
 
@@ -94,7 +97,7 @@ def _leaves(keys: Iterable[Key], kind_of: Callable[[Key], Any]) -> dict[str, Any
         kind = kind_of(key)
         for path in key.spellings:
             unit = "deg" if path != key.path else key.unit
-            text = f"{key.meaning} [{unit}]"
+            text = f"{key.meaning} [{unit}]" if unit else key.meaning
             fields[path.rsplit(".", 1)[1]] = (kind, Field(default=None, description=text))
     return fields
 
@@ -127,6 +130,20 @@ def _sections(complete: bool) -> dict[str, Any]:
     return sections | {part: _section(part, complete) for part in ("wingbeat", "air")}
 
 
+def _shape() -> Any:
+    """Return the field of the table that says how the animal looks; its texts stand alone, without a source."""
+    colours = [key for key in LOOKS if key.part == "colours"]
+    inner = {"colours": (_table("Colours", _leaves(colours, _bare), [key.name for key in colours]), None)}
+    own = _leaves([key for key in LOOKS if key not in colours], _bare)
+    numbers = _leaves(SHAPE, lambda key: _sourced(key.shape))
+    required = ["cover", *(key.name for key in SHAPE if key.required), "colours"]
+    return _table("Shape", own | numbers | inner, required), None
+
+
+def _bare(key: Key) -> Any:
+    return _SHAPES[key.shape]
+
+
 _Alternative = create_model(
     "Alternative",
     __config__=_STRICT,
@@ -144,6 +161,7 @@ SpeciesFile = _table(
         "free": (_table("Free", _leaves(FREE, _bounded), []), None),
         "path": (_table("Path", _leaves(PATH, _bounded), []), None),
         "plausible": (_table("Plausible", _leaves(PLAUSIBLE, lambda _: RangeTable), []), None),
+        "shape": _shape(),
         "alternatives": (dict[str, _Alternative], None),
     },
     ["vehicle", "wingbeat"],

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 from wingbeat.errors import Fault, FaultList, FileError
 from wingbeat.files import toml_tables
 from wingbeat.species_schema.faults import NOTHING, check_shape, dotted, has_shape, shown
-from wingbeat.species_schema.keys import FREE, KEYS, PARTS, PATH, PLAUSIBLE, Key
+from wingbeat.species_schema.keys import FREE, KEYS, LOOKS, PARTS, PATH, PLAUSIBLE, SHAPE, Key
 from wingbeat.species_schema.models import KINDS
 
 Value = float | tuple[float, ...]
@@ -23,6 +23,12 @@ class Number(NamedTuple):
     unit: str
     source: str = ""
     range: tuple[float, float] | None = None
+
+
+def number_from(value: Any, unit: str, source: str, limits: list[float] | None) -> Number:
+    """Return the number that JSON keeps as a list of these four."""
+    whole = tuple(value) if isinstance(value, list) else value
+    return Number(whole, unit, source, None if limits is None else (limits[0], limits[1]))
 
 
 class Bound(NamedTuple):
@@ -60,7 +66,7 @@ class Numbers(dict[str, Number]):
 
     def quote(self, fault: Fault) -> Fault:
         """Return a fault that a constructor found, with the path, value and unit that the file uses."""
-        where = fault.where if fault.where.startswith(("wingbeat.", "air.")) else f"vehicle.{fault.where}"
+        where = fault.where if fault.where.startswith(("wingbeat.", "air.", "shape.")) else f"vehicle.{fault.where}"
         for canonical, (path, value) in self.written.items():
             rest = where[len(canonical) :]
             if where.startswith(canonical) and rest[:1] in ("", "[", "."):
@@ -76,6 +82,13 @@ class Alternative(NamedTuple):
     numbers: Numbers
 
 
+class ShapeText(NamedTuple):
+    """How the animal looks: numbers by path, and texts by path (what covers the wing, and the colours)."""
+
+    numbers: Numbers
+    texts: dict[str, str]
+
+
 @dataclass
 class SpeciesText:
     """The content of a species file, before any check of its physics."""
@@ -88,6 +101,7 @@ class SpeciesText:
     free: dict[str, Bound] = field(default_factory=dict)
     path: dict[str, Bound] = field(default_factory=dict)
     plausible: dict[str, Range] = field(default_factory=dict)
+    shape: ShapeText | None = None
     alternatives: dict[str, Alternative] = field(default_factory=dict)
     written: dict[str, tuple[str, Any]] = field(default_factory=dict)  # each bound's path and pair
 
@@ -130,6 +144,7 @@ def read_species_text(text: str, label: str, name: str, faults: FaultList) -> Sp
     result.free = _bounds(raw, FREE, result.written, faults)
     result.path = _bounds(raw, PATH, result.written, faults)
     result.plausible = _plausible(raw, faults)
+    result.shape = _shape(raw, faults)
     alternatives = raw.get("alternatives")
     for other, content in (alternatives if isinstance(alternatives, dict) else {}).items():
         if isinstance(content, dict):
@@ -187,8 +202,16 @@ def _value(leaf: Any, name: str = "value") -> Any:
 
 
 def _numbers(raw: dict[str, Any], prefix: tuple[str, ...], faults: FaultList) -> Numbers:
+    numbers = _values(raw, KEYS, prefix, faults)
+    if "vehicle.mass" in numbers and "vehicle.body.mass" in numbers:
+        where, value = numbers.written["vehicle.body.mass"]
+        faults.add(where, value, "cannot be combined with vehicle.mass", "keep one: the other follows from it")
+    return numbers
+
+
+def _values(raw: dict[str, Any], keys: Iterable[Key], prefix: tuple[str, ...], faults: FaultList) -> Numbers:
     numbers = Numbers()
-    for key in KEYS:
+    for key in keys:
         for path, leaf in _spelt(raw, key, prefix, faults):
             where, value = dotted((*prefix, *path.split("."))), _value(leaf)
             table = leaf if isinstance(leaf, dict) else {}
@@ -197,10 +220,19 @@ def _numbers(raw: dict[str, Any], prefix: tuple[str, ...], faults: FaultList) ->
             if has_shape(key.shape, value):
                 number = Number(to_si(value, path), key.unit, _line(table.get("source")), limits)
                 numbers.put(key, number, where, value)
-    if "vehicle.mass" in numbers and "vehicle.body.mass" in numbers:
-        where, value = numbers.written["vehicle.body.mass"]
-        faults.add(where, value, "cannot be combined with vehicle.mass", "keep one: the other follows from it")
     return numbers
+
+
+def _shape(raw: dict[str, Any], faults: FaultList) -> ShapeText | None:
+    if not isinstance(raw.get("shape"), dict):
+        return None
+    for key in (*LOOKS, *SHAPE):
+        if key.required and _leaf(raw, key.path) is None:
+            faults.add(
+                key.path, NOTHING, "must be given", f"{key.meaning} [{key.unit}]" if key.unit else key.meaning
+            )
+    texts = {key.path: _leaf(raw, key.path) for key in LOOKS if has_shape(key.shape, _leaf(raw, key.path))}
+    return ShapeText(_values(raw, SHAPE, (), faults), texts)
 
 
 def _note_missing(raw: dict[str, Any], faults: FaultList) -> None:

@@ -78,7 +78,8 @@ def fly_gust(
     """
     controller = None if feedback is None else feedback.controller(noise, seed, late=late)
     model, beat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
-    flown = simulate(model, beat, start, beats, SAMPLES, wind=wind, controller=controller)
+    species = orbit.problem.species
+    flown = simulate(model, beat, start, beats, SAMPLES, wind=wind, controller=controller, species=species)
     path = simulate(model, beat, start, 1, SAMPLES).states[:-1, 2]
     pitch = flown.states[:, 2] - np.append(np.tile(path, beats), path[0])
     tops = flown.states[::SAMPLES]

@@ -140,7 +140,8 @@ class LinearFlight(Reported):
         disturbance = size * np.real(self.modes[index].disturbance)
         start = np.array(self.orbit.initial_state)
         start[2:] += disturbance
-        return simulate(self.orbit.problem.model, self.orbit.wingbeat, State(*start.tolist()), beats)
+        problem = self.orbit.problem
+        return simulate(problem.model, self.orbit.wingbeat, State(*start.tolist()), beats, species=problem.species)
 
     def to_control(self) -> control.StateSpace:
         """Return the linear flight as a state space of the library python-control; needs the extra ``control``.

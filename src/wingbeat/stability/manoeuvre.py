@@ -126,6 +126,7 @@ class Manoeuvre(ReportedManoeuvre):
             len(self.changes) + after,
             wind=wind,
             controller=self.controller(feedback),
+            species=orbit.problem.species,
         )
 
     def record(self) -> dict[str, Any]:

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from wingbeat.datasets import SHAPE
+from wingbeat.species_schema import COLOURS
 from wingbeat.vehicle import Body, Tail, Wing
 from wingbeat.viewer.shape import body_axes, tail_corners
 
@@ -29,7 +31,6 @@ class _Plan(NamedTuple):
 
 
 _BODY_PARTS = ("head_length", "bill_length", "ear_length", "tail_length", "tail_width")
-_COLOURS = ("back", "breast", "head", "wing", "wing_tip", "bill")
 _PLANS = {
     "bird": _Plan(
         *("feathers", 0.2, 4.0, 0.06, 0.04, (0.3, 0.1, 0.0, 0.5, 0.4)),
@@ -49,8 +50,9 @@ _PLANS = {
 def look_of(dataset: xr.Dataset) -> dict[str, Any]:
     """Return how the animal of a flight looks: JSON-able, lengths in m, span fractions from root to tip.
 
-    A flight that does not carry the shape of its species gets a schematic one from the numbers of its vehicle.
-    ``leading`` is ahead of the pitch axis, ``trailing`` behind it.
+    ``leading`` is the distance of the leading edge ahead of the pitch axis, ``trailing`` that of the trailing edge
+    behind it; a swept tip lies behind the axis, where ``leading`` is negative. A flight that does not carry the
+    shape of its species gets a schematic one from the numbers of its vehicle.
 
     Parameters
     ----------
@@ -58,18 +60,34 @@ def look_of(dataset: xr.Dataset) -> dict[str, Any]:
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
-    >>> flight = wb.simulate(wb.FlightModel(pigeon.vehicle, "su-fan"), pigeon.wingbeat, wb.State(u=10.0), beats=1)
+    >>> model = wb.FlightModel(pigeon.vehicle, "su-fan")
+    >>> flight = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0), species=pigeon)
     >>> shape = look_of(flight.dataset)
-    >>> shape["kind"], shape["cover"], shape["schematic"]
-    ('bird', 'feathers', True)
+    >>> shape["kind"], shape["cover"], round(shape["body"]["tail_length"], 3)
+    ('bird', 'feathers', 0.105)
     """
     vehicle, beat = (json.loads(dataset.attrs[name]) for name in ("vehicle", "wingbeat"))
-    return {**_schematic(vehicle, _kind(dataset, vehicle)), "wrist": beat.get("wrist", 0.5)}
+    known = json.loads(dataset.attrs.get(SHAPE, "{}"))
+    kind = known.get("kind") or _kind(dataset, vehicle)
+    found = _own(vehicle, known) if "cover" in known else _schematic(vehicle, kind)
+    return {"kind": kind, **found, "wrist": beat.get("wrist", 0.5)}
 
 
 def _kind(dataset: xr.Dataset, vehicle: dict[str, Any]) -> str:
+    """Return the kind of a flight that does not say it: that of its inputs, or a guess."""
     species = json.loads(dataset.attrs.get("inputs", "{}")).get("species", {})
     return species.get("kind") or ("robot" if "motor" in vehicle else "bird")
+
+
+def _own(vehicle: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
+    chord = Wing(**vehicle["wing"]).mean_chord
+    return {
+        **{name: known[name] for name in ("cover", "schematic", "camber", "thickness", "colours")},
+        "leading": [chord * place for place in known["leading_edge"]],
+        "trailing": [chord * place for place in known["trailing_edge"]],
+        "body": {name: known[f"body_{name}"] for name in ("length", "width", "depth")}
+        | {name: known[name] for name in _BODY_PARTS},
+    }
 
 
 def _schematic(vehicle: dict[str, Any], kind: str) -> dict[str, Any]:
@@ -83,7 +101,6 @@ def _schematic(vehicle: dict[str, Any], kind: str) -> dict[str, Any]:
         parts["tail_length"] = float(np.linalg.norm(0.5 * (left + right) - root))
         parts["tail_width"] = float(np.linalg.norm(left - right))
     return {
-        "kind": kind,
         "cover": plan.cover,
         "schematic": True,
         "leading": (0.25 * chord).tolist(),
@@ -91,7 +108,7 @@ def _schematic(vehicle: dict[str, Any], kind: str) -> dict[str, Any]:
         "camber": plan.camber,
         "thickness": plan.thickness,
         "body": {"length": length, "width": 2 * half_depth, "depth": 2 * half_depth, **parts},
-        "colours": dict(zip(_COLOURS, plan.colours, strict=True)),
+        "colours": dict(zip(COLOURS, plan.colours, strict=True)),
     }
 
 

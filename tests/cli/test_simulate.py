@@ -72,7 +72,12 @@ def test_every_variable_has_a_unit_and_a_name(run: Any, tmp_path: Path) -> None:
                 name
             )  # the axes have names, no numbers
         assert dataset.attrs["Conventions"].startswith("CF-")
-        assert wb.Wingbeat(**json.loads(dataset.attrs["wingbeat"])) == wb.load_species("pigeon").wingbeat
+        pigeon = wb.load_species("pigeon")
+        assert wb.Wingbeat(**json.loads(dataset.attrs["wingbeat"])) == pigeon.wingbeat
+        assert json.loads(dataset.attrs["shape"]) == {
+            "kind": "bird",
+            **json.loads(json.dumps(pigeon.shape.drawn())),
+        }
     assert [path.name for path in tmp_path.iterdir()] == ["flight.nc"]
     assert main(["show", str(tmp_path / "flight.nc")]) == 0
 

@@ -1,6 +1,7 @@
 """What is handed to the viewer, and what is refused."""
 
 import base64
+import dataclasses
 import json
 
 import numpy as np
@@ -84,13 +85,85 @@ def test_what_holds_no_flight_is_refused(bats):
         scene([("other", fallen)])
 
 
-def test_a_flight_without_a_shape_gets_a_schematic_one_of_its_own_size(pigeon_model):
-    pigeon, model = pigeon_model
-    data = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0), samples=16).dataset
-    shape = scene([("flight", data)])["flights"][0]["shape"]
-    assert shape["schematic"]
-    assert (shape["kind"], shape["cover"]) == ("bird", "feathers")
+def mean_chord(shape):
     chord = np.add(shape["leading"], shape["trailing"])
-    assert np.trapezoid(chord, dx=1 / (len(chord) - 1)) == pytest.approx(pigeon.vehicle.wing.chord, rel=1e-9)
-    assert chord[-1] == 0
-    assert shape["wrist"] == pigeon.wingbeat.wrist
+    return np.trapezoid(chord, dx=1 / (len(chord) - 1))
+
+
+def test_the_shape_of_the_species_is_shown_in_metres(bats, pigeon_model):
+    pigeon, model = pigeon_model
+    flown = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0), samples=16, species=pigeon)
+    bat = bats["su-fan"]
+    for data, species in ((bat.dataset, bat.problem.species), (flown.dataset, pigeon)):
+        shown, own = scene([("one", data)])["flights"][0]["shape"], species.shape
+        chord = species.vehicle.wing.mean_chord
+        assert (shown["kind"], shown["cover"], shown["schematic"]) == (species.kind, own.cover, True)
+        np.testing.assert_allclose(shown["leading"], chord * np.array(own.leading_edge), rtol=1e-12)
+        np.testing.assert_allclose(shown["trailing"], chord * np.array(own.trailing_edge), rtol=1e-12)
+        assert mean_chord(shown) == pytest.approx(chord, rel=2e-3)
+        assert (shown["camber"], shown["thickness"]) == (own.camber, own.thickness)
+        assert shown["wrist"] == species.wingbeat.wrist
+        body = {name: getattr(own, f"body_{name}") for name in ("length", "width", "depth")}
+        body |= {n: getattr(own, n) for n in ("head_length", "bill_length", "ear_length")}
+        assert shown["body"] == body | {"tail_length": own.tail_length, "tail_width": own.tail_width}
+        assert shown["colours"] == own.colours
+
+
+def test_a_shape_without_a_guess_is_not_schematic(pigeon_model):
+    pigeon, model = pigeon_model
+    measured = dataclasses.replace(pigeon.shape, numbers={})
+    species = dataclasses.replace(pigeon, shape=measured)
+    data = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0), samples=16, species=species).dataset
+    assert not scene([("flight", data)])["flights"][0]["shape"]["schematic"]
+
+
+@pytest.mark.parametrize("kind", ["bird", "bat", "robot", ""])
+def test_a_species_without_a_shape_gets_a_schematic_one_of_its_kind_and_size(kind):
+    size = {"mass": 0.3, "wing_span": 0.7, "wing_area": 0.08}
+    species = dataclasses.replace(getattr(wb, kind or "bird")(**size), kind=kind)
+    data = flight_of(species)
+    shown = scene([("flight", data)])["flights"][0]["shape"]
+    assert shown["schematic"]
+    assert shown["kind"] == (kind or "bird")
+    assert shown["cover"] == {"bat": "membrane", "robot": "film"}.get(kind, "feathers")
+    assert mean_chord(shown) == pytest.approx(species.vehicle.wing.mean_chord, rel=1e-9)
+    assert shown["leading"][-1] == shown["trailing"][-1] == 0
+    assert shown["body"]["length"] > shown["body"]["width"] > 0
+    whole = scene([("bat", flight_of(wb.load_species("bat")))])["flights"][0]["shape"]
+    assert shown.keys() == whole.keys()
+    assert shown["body"].keys() == whole["body"].keys()
+
+
+def test_a_schematic_bird_has_the_chords_and_the_tail_of_its_vehicle():
+    species = wb.bird(mass=0.3, wing_span=0.7, wing_area=0.08, tail=True, chord=[0.12, 0.1, 0.05])
+    shown = scene([("flight", flight_of(species))])["flights"][0]["shape"]
+    chord = np.add(shown["leading"], shown["trailing"])
+    np.testing.assert_allclose(chord[[0, 10, 20]], [0.12, 0.1, 0.05])
+    np.testing.assert_allclose(shown["leading"], 0.25 * chord)
+    tail = shown["body"]
+    assert 0.5 * tail["tail_length"] * tail["tail_width"] == pytest.approx(species.vehicle.tail.area)
+
+
+def test_files_of_versions_without_shapes_are_shown(bats, pigeon_model):
+    pigeon, model = pigeon_model
+    old = bats["su-fan"].dataset.copy()
+    del old.attrs["shape"]
+    shown = scene([("bat", old)])["flights"][0]["shape"]
+    assert (shown["kind"], shown["cover"], shown["schematic"]) == ("bat", "membrane", True)
+    flight = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0), samples=16).dataset
+    assert scene([("flight", flight)])["flights"][0]["shape"]["kind"] == "bird"
+
+
+def test_a_saved_orbit_flies_with_its_own_look_and_so_do_its_pushes(bats, tmp_path):
+    bats["su-fan"].save(tmp_path / "bat.nc")
+    again = wb.load_orbit(tmp_path / "bat.nc")
+    own = scene([("bat", bats["su-fan"].dataset)])["flights"][0]["shape"]
+    assert scene([("bat", again.dataset)])["flights"][0]["shape"] == own
+    assert again.problem.species.shape == bats["su-fan"].problem.species.shape
+    pushed = scene([("bat", again.dataset)], wb.fly_pushes(again, delay=None))["pushes"]
+    assert all(push["scene"]["flights"][0]["shape"] == own for push in pushed)
+
+
+def flight_of(species):
+    model = wb.FlightModel(species.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
+    return wb.simulate(model, species.wingbeat, wb.State(u=10.0), samples=16, species=species).dataset

@@ -17,10 +17,7 @@ _AREA = 0.02
 # Edges that stand in for a missing one, so that its fault does not hide others.
 _STAND_IN = {"leading_edge": (0.25, 0.25), "trailing_edge": (0.75, 0.75)}
 _LONGEST = 100.0  # m
-_LENGTHS = (
-    *("body_length", "body_width", "body_depth", "head_length"),
-    *("bill_length", "ear_length", "tail_length", "tail_width"),
-)
+_BODY = ("body_length", "body_width", "body_depth")
 
 
 @dataclass(frozen=True)
@@ -77,9 +74,10 @@ class Shape:
         self._check_edges(faults)
         for name in ("camber", "thickness"):
             faults.number(f"shape.{name}", getattr(self, name), at_least=0, at_most=0.5)
-        for name in _LENGTHS:
-            above = {"above": 0.0} if name.startswith("body_") else {"at_least": 0.0}
-            faults.number(f"shape.{name}", getattr(self, name), **above, at_most=_LONGEST, unit="m")
+        for name in _BODY:
+            faults.number(f"shape.{name}", getattr(self, name), above=0, at_most=_LONGEST, unit="m")
+        for name in ("head_length", "bill_length", "ear_length", "tail_length", "tail_width"):
+            faults.number(f"shape.{name}", getattr(self, name), at_least=0, at_most=_LONGEST, unit="m")
         if self.head_length and is_number(self.body_length) and self.head_length > self.body_length:
             faults.add("shape.head_length", self.head_length, "is longer than the body", "the head is a part of it")
         self._check_colours(faults)
@@ -154,7 +152,7 @@ def shape_of(text: ShapeText | None, faults: FaultList) -> Shape | None:
     if not _STAND_IN.keys() <= given.keys():
         given |= _STAND_IN
     colours = {name: text.texts.get(f"shape.colours.{name}", "#000000") for name in COLOURS}
-    missing = {name: _LONGEST for name in _LENGTHS[:3] if name not in given}
+    missing = {name: _LONGEST for name in _BODY if name not in given}
     values: dict[str, Any] = given | missing
     try:
         return Shape(

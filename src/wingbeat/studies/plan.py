@@ -246,9 +246,10 @@ def _base(
 
 
 def _decisive(recipe: Recipe) -> dict[str, Any]:
-    """Return the inputs that results depend on; whether the species is a bird or a bat is not among them."""
+    """Return the inputs that results depend on; the kind of the species and how it looks are not among them."""
     inputs = recipe.inputs()
-    return inputs | {"species": {key: value for key, value in inputs["species"].items() if key != "kind"}}
+    kept = {key: value for key, value in inputs["species"].items() if key not in ("kind", "shape")}
+    return inputs | {"species": kept}
 
 
 def _hashable(fault: Fault) -> Fault:

@@ -4,6 +4,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Animal } from "./animal.js";
 import { round } from "./colours.js";
+import { Shadow } from "./shadow.js";
 
 // From where each camera looks, in semi-spans: ahead, to the left, above.
 export const CAMERAS = {
@@ -24,10 +25,7 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enablePan = false;
     this.controls.addEventListener("change", () => this.draw());
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b4aa, 2.6));
-    const sun = new THREE.DirectionalLight(0xffffff, 1.5);
-    sun.position.set(1, 2, 4);
-    this.scene.add(sun);
+    this.shadow = new Shadow(this.renderer, this.scene);
     this.animals = [];
     this.body = new THREE.Vector3();
     this.follows = false;
@@ -46,6 +44,7 @@ export class Stage {
     const changed = span !== this.span;
     this.span = span;
     this.makeGround();
+    this.shadow.fit(span);
     if (this.ink) this.tint(this.ink);
     if (changed && this.view) this.setCamera(this.view);
   }
@@ -98,6 +97,7 @@ export class Stage {
       this.controls.update();
     }
     this.body.copy(body);
+    this.shadow.follow(body, -1.15 * this.span);
     this.draw();
   }
 
@@ -142,6 +142,7 @@ export class Stage {
     cancelAnimationFrame(this.due);
     for (const animal of this.animals) animal.dispose();
     this.ground.dispose();
+    this.shadow.dispose();
     this.controls.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();

@@ -1,0 +1,26 @@
+// One feather: a shaft with a vane on both sides.
+
+import { shaded } from "./paint.js";
+
+const ALONG = [0, 0.14, 0.3, 0.48, 0.64, 0.77, 0.87, 0.94, 0.98, 1];
+const ACROSS = [-1, -0.5, 0, 0.5, 1];
+const TILT = 0.16; // rise of the outer edge over half the width: it lies on the next feather outwards
+
+// Rows of points from base to tip. `path(s)`: [forward, out] of the shaft in metres; `half`: half the width [m];
+// `round`: share of the length that the rounded tip takes; `put(s, forward, out, up, colour)` makes a point at an
+// offset from the shaft; `tint(s)`: the colour. The tip of the shaft is the tip of the feather.
+export function vane({ path, half, round = 0.22, along = ALONG, tint, tilt = TILT }, put) {
+  return along.map((s) => {
+    const [here, before, after] = [path(s), path(Math.max(s - 0.02, 0)), path(Math.min(s + 0.02, 1))];
+    const [forward, out] = [after[0] - before[0], after[1] - before[1]];
+    const length = Math.hypot(forward, out) || 1;
+    const blunt = s < 1 - round ? 1 : Math.sqrt(Math.max(1 - ((s - 1 + round) / round) ** 2, 0));
+    const width = half * (0.45 + 0.55 * Math.min(s / 0.3, 1)) * blunt;
+    return ACROSS.map((q) => {
+      // The outer vane is the narrow one.
+      const off = width * q * (q > 0 ? 0.75 : 1.25);
+      const shade = q === 0 ? 0.8 : 1.06 - 0.12 * Math.abs(q) - (q === 1 ? 0.1 : 0);
+      return put(s, here, [(out / length) * off, (-forward / length) * off], tilt * q * width, shaded(tint(s), shade));
+    });
+  });
+}

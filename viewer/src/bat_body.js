@@ -25,18 +25,18 @@ export function batBody(shape) {
       ring(-0.42 * length, 0, 0.22 * width, 0.2 * depth, 0.2 * depth),
       ring(-0.5 * length, 0, 0.01 * width, 0.01 * depth, 0.01 * depth),
     ],
-    36,
+    28,
   );
   const tint = ({ x }, height) => {
     const trunk = mixed(tones.breast, tones.back, ramp(height, -0.3, 0.45));
     const face = mixed(tones.head, tones.wing, ramp(x, front - 0.28 * head, front - 0.05 * head));
     return mixed(trunk, face, ramp(x, front - 1.2 * head, front - 0.9 * head));
   };
-  const parts = [loft(rings, tint, 20)];
+  const parts = [loft(rings, tint, 16)];
   for (const side of [1, -1]) {
     parts.push(earOf({ front, head, skull, lift, ear }, side, tones));
     for (const [size, out, tone] of [[0.15, 0, colour("#120e0c")], [0.05, 0.12 * skull, colour("#ffffff")]]) {
-      const eye = new THREE.SphereGeometry(size * skull, 12, 8);
+      const eye = new THREE.SphereGeometry(size * skull, 8, 6);
       parts.push(painted(eye.translate(front - 0.32 * head + out * 0.5, side * (0.6 * skull + out), lift + 0.28 * skull + 0.5 * out), tone));
     }
   }
@@ -73,7 +73,7 @@ function rump(body, tones) {
   const end = [-0.5 * length - tail, 0, -0.02 * length];
   if (tail > 0) parts.push(tube([[-0.42 * length, 0, 0], end], [0.05 * width, 0.02 * width], shaded(tones.wing_tip, 1.1)));
   // From the left leg over the tail to the right leg, hollow between them.
-  const rows = steps(0, 1, 7).map((t) =>
+  const rows = steps(0, 1, 4).map((t) =>
     steps(-1, 1, 13).map((q) => {
       const share = Math.abs(q);
       const back = end[0] + (foot[0] - end[0]) * share + 0.3 * share * (1 - share) * 2 * Math.max(tail, 0.1 * length);

@@ -29,13 +29,13 @@ export function birdBody(shape, flight) {
     ring(-0.4 * length, 0.05 * depth, 0.24 * width, 0.2 * depth, 0.24 * depth),
     ring(rear, 0.07 * depth, 0.12 * width, 0.07 * depth, 0.08 * depth),
   ].filter(({ x }, i) => i < 6 || x < front - 1.15 * head);
-  const rings = smooth(stations, 40);
+  const rings = smooth(stations, 32);
   const bend = levelled(rings, front - 1.7 * head, front - 0.9 * head, flight);
   const tint = (at, height) => {
     const trunk = mixed(tones.breast, tones.back, ramp(height, -0.25, 0.5));
     return mixed(trunk, shaded(tones.head, 1 - 0.06 * height), ramp(at.was, front - 1.25 * head, front - 0.85 * head));
   };
-  const parts = [loft(rings, tint, 22)];
+  const parts = [loft(rings, tint, 16)];
   const nose = { x: front - 0.1 * head, z: 0.42 * neck };
   parts.push(...face(nose, { head, skull, bill, neck, front }, tones).map((part) => part.applyMatrix4(bend)));
   parts.push(...fan(shape.body, flight, { x: rear + 0.06 * length, z: 0.06 * depth }, tones));
@@ -72,13 +72,13 @@ function face(nose, { head, skull, bill, neck, front }, tones) {
       up: thick * [1, 0.95, 0.75, 0.5, 0.26, 0.02][i],
       down: thick * [0.9, 0.8, 0.6, 0.42, 0.3, 0.02][i],
     })).reverse();
-    parts.push(loft(smooth(stations, 16), (_, height) => shaded(tones.bill, 1 + 0.1 * height), 12));
+    parts.push(loft(smooth(stations, 8), (_, height) => shaded(tones.bill, 1 + 0.1 * height), 8));
   }
   const [dark, pale] = [colour("#15110e"), mixed(tones.head, colour("#ffffff"), 0.28)];
   for (const side of [1, -1]) {
     const at = [front - 0.4 * head, side * 0.84 * skull, 0.62 * neck + 0.22 * skull];
     const ball = (size, out, tone, ahead = 0, above = 0) =>
-      painted(new THREE.SphereGeometry(size * skull, 14, 10).translate(at[0] + ahead, at[1] + side * out, at[2] + above), tone);
+      painted(new THREE.SphereGeometry(size * skull, 9, 6).translate(at[0] + ahead, at[1] + side * out, at[2] + above), tone);
     parts.push(ball(0.25, -0.05 * skull, pale), ball(0.2, 0.04 * skull, dark));
     parts.push(ball(0.065, 0.19 * skull, colour("#ffffff"), 0.06 * skull, 0.1 * skull));
   }

@@ -5,6 +5,7 @@ import { batBody } from "./bat_body.js";
 import { birdBody } from "./bird_body.js";
 import { surface } from "./paint.js";
 import { robotBody } from "./robot_body.js";
+import { CASTS } from "./shadow.js";
 
 const MAKERS = { bird: birdBody, bat: batBody, robot: robotBody };
 
@@ -14,7 +15,7 @@ export class Body {
     const material = surface(opacity);
     for (const geometry of MAKERS[flight.shape.kind](flight.shape, flight)) {
       const mesh = new THREE.Mesh(geometry, material);
-      mesh.castShadow = mesh.receiveShadow = opacity === 1;
+      if (opacity === 1) mesh.layers.enable(CASTS);
       this.group.add(mesh);
     }
   }

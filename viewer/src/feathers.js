@@ -6,12 +6,13 @@ import { vane } from "./vane.js";
 import { Sheet } from "./wing_skin.js";
 
 const PRIMARIES = 10;
-const SECONDARIES = 12;
-const SHORT = [0, 0.4, 0.75, 0.93, 1];
+const HALF = 6; // points of the arm's section above, and below
+const SECONDARIES = 26; // in a whole span; a short arm has fewer
+const SHORT = [0, 0.6, 0.88, 1];
 
 export function feathers(planform) {
   const sheet = new Sheet();
-  const { semiSpan, wrist } = planform;
+  const { semiSpan } = planform;
   const paint = { wing: colour(planform.colours.wing), tip: colour(planform.colours.wing_tip) };
   const flight = flightFeathers(planform);
   flight.forEach((feather) => addFeather(sheet, planform, feather, paint));
@@ -22,7 +23,7 @@ export function feathers(planform) {
     coverts(planform, flight, row).forEach((feather) => addFeather(sheet, planform, feather, paint));
   }
   addArm(sheet, planform, shaded(paint.wing, 1.05), Math.min(0.12 * semiSpan, planform.body.width * 0.4));
-  return { sheet, wrist };
+  return { sheet, held: [0, 1], hollow: 0 };
 }
 
 // Share of the chord that the arm and the hand fill, from the leading edge.
@@ -41,10 +42,10 @@ function handEnd({ wrist }) {
 function flightFeathers(planform) {
   const { wrist, semiSpan } = planform;
   const found = [];
-  const inner = steps(0.02, wrist, SECONDARIES);
+  const inner = steps(0.02, wrist, Math.max(Math.round(SECONDARIES * wrist), 5));
   const apart = (inner[1] - inner[0]) * semiSpan;
   inner.forEach((eta, i) => {
-    const base = Math.max(eta - 0.02 * (i / SECONDARIES), 0);
+    const base = Math.max(eta - 0.02 * (i / inner.length), 0);
     found.push({
       base: [base, planform.at(base, 0.8 * fleshy(planform, base))],
       tip: [eta, -planform.behind(eta)],
@@ -55,15 +56,17 @@ function flightFeathers(planform) {
     });
   });
   const tips = planform.outline(wrist, PRIMARIES);
+  const gaps = tips.map((tip, i) => {
+    const before = i ? tips[i - 1] : [wrist, -planform.behind(wrist)];
+    return Math.hypot((tip[0] - before[0]) * semiSpan, tip[1] - before[1]);
+  });
   tips.forEach((tip, i) => {
     const share = (i + 1) / PRIMARIES;
     const base = wrist + (handEnd(planform) - wrist) * share ** 1.2;
-    const before = i ? tips[i - 1] : [wrist, -planform.behind(wrist)];
-    const gap = Math.hypot((tip[0] - before[0]) * semiSpan, tip[1] - before[1]);
     found.push({
       base: [base, planform.at(base, 0.6 * fleshy(planform, base) + 0.06)],
       tip,
-      half: Math.min(0.95 * gap, 1.3 * apart),
+      half: 0.95 * gaps[i],
       hand: share,
       follow: share ** 3,
       round: 0.26,
@@ -127,16 +130,16 @@ function addFeather(sheet, planform, feather, paint) {
 // Arm and hand: a closed section around the leading edge. It reaches into the body by `inwards` metres.
 function addArm(sheet, planform, tone, inwards) {
   const end = handEnd(planform);
-  const around = [...steps(1, 0, 8), ...steps(0, 1, 8).slice(1)];
+  const around = [...steps(1, 0, HALF), ...steps(0, 1, HALF).slice(1)];
   const row = (eta, out) => {
     const [deep, chord] = [fleshy(planform, eta), planform.chord(eta)];
     const thick = planform.thickness * chord * (1 + 0.8 * Math.exp(-eta / 0.06)) * Math.min(3 * (1 - eta / end) + 0.15, 1);
     return around.map((x, i) => {
       const share = deep * x * x;
       const ahead = planform.at(eta, share);
-      const bulge = 1.3 * thick * x * (1 - x ** 3) * (i < 8 ? 0.62 : -0.42);
-      return sheet.add(eta, ahead, planform.height(eta, ahead) + bulge, out, shaded(tone, i < 8 ? 1 : 1.12));
+      const bulge = 1.3 * thick * x * (1 - x ** 3) * (i < HALF ? 0.62 : -0.42);
+      return sheet.add(eta, ahead, planform.height(eta, ahead) + bulge, out, shaded(tone, i < HALF ? 1 : 1.12));
     });
   };
-  sheet.grid([row(0, -inwards), ...steps(0, end, 16).map((eta) => row(eta, 0))]);
+  sheet.grid([row(0, -inwards), ...steps(0, end, 11).map((eta) => row(eta, 0))]);
 }

@@ -5,21 +5,19 @@ import { addRod } from "./skeleton.js";
 import { Sheet } from "./wing_skin.js";
 
 const RIBS = [0.2, 0.4, 0.6, 0.8];
-const ACROSS = 10;
+const ACROSS = 7;
+const HOLLOW = 0.07; // of the trailing edge between two ribs, over their distance
 
 export function film(planform) {
   const [sheet, bones] = [new Sheet(), new Sheet()];
   const { semiSpan } = planform;
   const tone = colour(planform.colours.wing);
   const ends = [0, ...RIBS, 1];
-  const etas = ends.slice(1).flatMap((end, i) => steps(ends[i], end, 9).slice(i ? 1 : 0));
+  const etas = ends.slice(1).flatMap((end, i) => steps(ends[i], end, 5).slice(i ? 1 : 0));
   sheet.grid(
     etas.map((eta) => {
-      const i = Math.max(ends.findIndex((end) => end >= eta - 1e-9), 1);
-      const share = (eta - ends[i - 1]) / (ends[i] - ends[i - 1]);
-      // Pulled in between the ribs.
-      const trail = -planform.behind(eta) + 0.05 * planform.chord(eta) * 4 * share * (1 - share);
-      const lead = planform.ahead(eta);
+      const { behind, share } = planform.edge(eta, ends, HOLLOW);
+      const [lead, trail] = [planform.ahead(eta), -behind];
       return steps(0, 1, ACROSS).map((t) => {
         const ahead = trail + t * (lead - trail);
         return sheet.add(eta, ahead, planform.height(eta, ahead), 0, shaded(tone, 1 + 0.08 * share * (1 - share) * 4));
@@ -32,8 +30,8 @@ export function film(planform) {
     const ahead = planform.at(eta, share);
     return [eta, ahead, planform.height(eta, ahead)];
   };
-  const spar = steps(0, 1, 17);
-  addRod(bones, planform, spar.map((eta) => point(eta, 0.01)), spar.map((eta) => thick * (1.5 - eta)), dark, 8);
+  const spar = steps(0, 1, 11);
+  addRod(bones, planform, spar.map((eta) => point(eta, 0.01)), spar.map((eta) => thick * (1.5 - eta)), dark);
   const diagonal = steps(0, 1, 9);
   addRod(
     bones,
@@ -43,8 +41,8 @@ export function film(planform) {
     dark,
   );
   for (const eta of RIBS) {
-    const along = steps(0, 1, 7);
+    const along = steps(0, 1, 5);
     addRod(bones, planform, along.map((s) => point(eta, 0.01 + 0.98 * s)), along.map(() => 0.4 * thick), dark);
   }
-  return { sheet, bones };
+  return { sheet, bones, held: ends, hollow: HOLLOW };
 }

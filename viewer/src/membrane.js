@@ -5,7 +5,8 @@ import { colour, mixed, shaded, steps } from "./paint.js";
 import { addRod } from "./skeleton.js";
 import { Sheet } from "./wing_skin.js";
 
-const ACROSS = 14;
+const ACROSS = 9;
+const HOLLOW = 0.19; // depth of the trailing edge between two fingertips, over their distance
 
 export function membrane(planform) {
   const sheet = new Sheet();
@@ -13,7 +14,8 @@ export function membrane(planform) {
   const { wrist, semiSpan, body } = planform;
   const tips = fingertips(planform);
   const paint = { wing: colour(planform.colours.wing), tip: colour(planform.colours.wing_tip) };
-  addMembrane(sheet, planform, tips, paint);
+  const held = [0, ...tips.map(([eta]) => eta)];
+  addMembrane(sheet, planform, held, paint);
   const tone = mixed(paint.wing, colour(planform.colours.breast), 0.45);
   const thick = 0.011 * semiSpan;
   const point = (eta, share, up = 0.25) => {
@@ -24,19 +26,19 @@ export function membrane(planform) {
   addRod(bones, planform, [point(0, 0.25), point(0.5 * wrist, 0.36), hand], [1.5 * thick, 1.2 * thick, 0.9 * thick], tone);
   for (const [eta, ahead] of tips) {
     const straight = eta === 1;
-    const path = steps(0, 1, 9).map((s) => {
+    const path = steps(0, 1, 6).map((s) => {
       const at = wrist + s * (eta - wrist);
       // Fingers bow forward a little; the longest follows the leading edge.
       const line = hand[1] + s * (ahead - hand[1]) + 0.05 * s * (1 - s) * semiSpan;
       const along = straight ? planform.at(at, 0.03) : line;
       return [at, along, planform.height(at, along) + 0.25 * thick * (1 - s)];
     });
-    addRod(bones, planform, path, steps(0.75 * thick, 0.18 * thick, 9), tone);
+    addRod(bones, planform, path, steps(0.75 * thick, 0.18 * thick, 6), tone);
   }
   const thumb = [hand, [wrist + 0.025, hand[1] + 0.045 * semiSpan, hand[2] + thick]];
   addRod(bones, planform, thumb, [0.6 * thick, 0.2 * thick], tone);
   holdRoot(sheet, planform, body);
-  return { sheet, bones, wrist };
+  return { sheet, bones, held, hollow: HOLLOW };
 }
 
 // Fingertips on the outline, [span fraction, metres ahead], from the fifth digit to the third at the tip of the wing.
@@ -45,22 +47,11 @@ export function fingertips(planform) {
   return [wrist + 0.06 * (1 - wrist), wrist + 0.52 * (1 - wrist), 1].map((eta) => [eta, -planform.behind(eta)]);
 }
 
-// How far the trailing edge is hollow at a span fraction: nothing at the root and at fingertips.
-function hollow(planform, tips, eta) {
-  const ends = [0, ...tips.map(([at]) => at)];
-  const i = Math.max(ends.findIndex((end) => end >= eta), 1);
-  const share = (eta - ends[i - 1]) / (ends[i] - ends[i - 1]);
-  const gap = (ends[i] - ends[i - 1]) * planform.semiSpan;
-  return Math.min(0.75 * gap * share * (1 - share), 0.45 * planform.chord(eta));
-}
-
-function addMembrane(sheet, planform, tips, paint) {
-  const ends = [0, ...tips.map(([eta]) => eta)];
-  const etas = ends.slice(1).flatMap((end, i) => steps(ends[i], end, 13).slice(i ? 1 : 0));
+function addMembrane(sheet, planform, ends, paint) {
+  const etas = ends.slice(1).flatMap((end, i) => steps(ends[i], end, 8).slice(i ? 1 : 0));
   const rows = etas.map((eta) => {
-    const [lead, trail] = [planform.ahead(eta), -planform.behind(eta) + hollow(planform, tips, eta)];
-    const i = Math.max(ends.findIndex((end) => end >= eta - 1e-9), 1);
-    const share = (eta - ends[i - 1]) / (ends[i] - ends[i - 1]);
+    const { behind, share } = planform.edge(eta, ends, HOLLOW);
+    const [lead, trail] = [planform.ahead(eta), -behind];
     return steps(0, 1, ACROSS).map((t) => {
       const ahead = trail + t * (lead - trail);
       // Between the fingers the membrane is taut and thin, towards them it gathers.

@@ -23,6 +23,16 @@ export class Planform {
     return this.ahead(eta) - share * this.chord(eta);
   }
 
+  // Metres from the pitch axis back to the drawn edge, which a membrane or a film has hollow between its bones: the list
+  // `held` of span fractions at which the edge reaches the outline, and the depth of a hollow over its width.
+  edge(eta, held, depth) {
+    const i = Math.max(held.findIndex((end) => end >= eta - 1e-9), 1);
+    const share = (eta - held[i - 1]) / (held[i] - held[i - 1]);
+    const gap = (held[i] - held[i - 1]) * this.semiSpan;
+    const hollow = Math.min(4 * depth * gap * share * (1 - share), 0.45 * this.chord(eta));
+    return { behind: this.behind(eta) - hollow, share };
+  }
+
   // Height of the camber line: zero at both edges, which lie in the strip's plane.
   height(eta, ahead) {
     const chord = this.chord(eta);
@@ -31,8 +41,8 @@ export class Planform {
     return 4 * this.camber * chord * share * (1 - share);
   }
 
-  // The outline from the root's trailing edge to the tip's leading edge: points at equal distances along it, `from` to
-  // `until` being shares of its length beyond a span fraction.
+  // Points [span fraction, metres ahead] at equal distances along the outline, from the trailing edge at a span fraction
+  // to the tip and its leading edge.
   outline(eta, count) {
     const path = [];
     for (let i = 0; i <= 400; i++) {

@@ -1,7 +1,7 @@
 // Thin rods in a wing: bones of a bat, spars and ribs of a robot.
 
 // A rod through points [span fraction, metres ahead, metres up] with radii [m]; it keeps its thickness as the wing moves.
-export function addRod(sheet, planform, points, radii, tone, around = 6) {
+export function addRod(sheet, planform, points, radii, tone, around = 5) {
   const { semiSpan } = planform;
   const rows = points.map(([eta, ahead, up], i) => {
     const [before, after] = [points[Math.max(i - 1, 0)], points[Math.min(i + 1, points.length - 1)]];

@@ -25,7 +25,11 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enablePan = false;
     this.controls.addEventListener("change", () => this.draw());
-    this.shadow = new Shadow(this.renderer, this.scene);
+    this.scene.add(new THREE.HemisphereLight(0xf4f7ff, 0xa89a86, 1.7));
+    const sun = new THREE.DirectionalLight(0xfff4e2, 2.4);
+    sun.position.set(0.9, 1.4, 4);
+    this.scene.add(sun);
+    this.shadow = new Shadow(this.scene);
     this.animals = [];
     this.body = new THREE.Vector3();
     this.follows = false;
@@ -44,7 +48,6 @@ export class Stage {
     const changed = span !== this.span;
     this.span = span;
     this.makeGround();
-    this.shadow.fit(span);
     if (this.ink) this.tint(this.ink);
     if (changed && this.view) this.setCamera(this.view);
   }
@@ -97,7 +100,8 @@ export class Stage {
       this.controls.update();
     }
     this.body.copy(body);
-    this.shadow.follow(body, -1.15 * this.span);
+    const width = this.offsets ? 2 * Math.max(...this.offsets.values()) : 0;
+    this.shadow.place(body, -1.15 * this.span, this.span, width);
     this.draw();
   }
 
@@ -117,6 +121,7 @@ export class Stage {
     for (const animal of this.animals) animal.tint(ink);
     this.ground.material.color.set(ink);
     this.ground.material.opacity = 0.16;
+    this.shadow.tint(new THREE.Color(ink).getHSL({}).l > 0.5);
     this.draw();
   }
 
@@ -134,6 +139,7 @@ export class Stage {
   draw() {
     this.due ??= requestAnimationFrame(() => {
       this.due = undefined;
+      this.shadow.draw(this.renderer);
       this.renderer.render(this.scene, this.camera);
     });
   }

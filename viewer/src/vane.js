@@ -2,9 +2,10 @@
 
 import { shaded } from "./paint.js";
 
-const ALONG = [0, 0.14, 0.3, 0.48, 0.64, 0.77, 0.87, 0.94, 0.98, 1];
-const ACROSS = [-1, -0.5, 0, 0.5, 1];
-const TILT = 0.16; // rise of the outer edge over half the width: it lies on the next feather outwards
+// As few points as a rounded tip needs: software draws every face.
+const ALONG = [0, 0.25, 0.55, 0.78, 0.9, 0.97, 1];
+const ACROSS = [-1, 0, 1];
+const TILT = 0.07; // rise of the outer edge over half the width: it lies on the next feather outwards
 
 // Rows of points from base to tip. `path(s)`: [forward, out] of the shaft in metres; `half`: half the width [m];
 // `round`: share of the length that the rounded tip takes; `put(s, forward, out, up, colour)` makes a point at an
@@ -19,7 +20,7 @@ export function vane({ path, half, round = 0.22, along = ALONG, tint, tilt = TIL
     return ACROSS.map((q) => {
       // The outer vane is the narrow one.
       const off = width * q * (q > 0 ? 0.75 : 1.25);
-      const shade = q === 0 ? 0.8 : 1.06 - 0.12 * Math.abs(q) - (q === 1 ? 0.1 : 0);
+      const shade = q === 0 ? 0.9 : q > 0 ? 0.84 : 1.06;
       return put(s, here, [(out / length) * off, (-forward / length) * off], tilt * q * width, shaded(tint(s), shade));
     });
   });

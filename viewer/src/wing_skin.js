@@ -60,7 +60,6 @@ export class WingSkin {
       geometry.setIndex(index);
       const mesh = new THREE.Mesh(geometry, look);
       mesh.frustumCulled = false;
-      mesh.castShadow = mesh.receiveShadow = true;
       return mesh;
     });
   }

@@ -15,22 +15,33 @@ export function birdBody(shape, flight) {
   const skull = 0.36 * head; // half the height of the head
   const neck = 0.2 * depth;
   const ring = (x, z, wide, up, down = up) => ({ x, z, wide, up, down });
+  const [nape, breast] = [front - 0.9 * head, Math.min(0.06 * length, front - 1.5 * head)];
+  const throat = (share) => {
+    // Between the back of the head and the breast; the neck widens late, the throat early.
+    const mix = (one, two, way) => one + (two - one) * way;
+    const way = (share * share * (3 - 2 * share)) ** 1.2;
+    return ring(
+      mix(nape, breast, share),
+      mix(0.52 * neck, 0, share),
+      mix(0.95 * skull, 0.5 * width, way),
+      mix(0.98 * skull, 0.4 * depth, way),
+      mix(1.0 * skull, 0.58 * depth, 0.5 * (way + share)),
+    );
+  };
   const stations = [
-    ring(front, 0.4 * neck, 0.001 * skull, 0.001 * skull),
-    ring(front - 0.04 * head, 0.42 * neck, 0.42 * skull, 0.42 * skull, 0.4 * skull),
-    ring(front - 0.2 * head, 0.5 * neck, 0.72 * skull, 0.8 * skull, 0.74 * skull),
+    // Short feathers cover the base of the bill.
+    ring(front + 0.14 * Math.min(bill, 0.5 * head), 0.36 * neck, 0.06 * skull, 0.06 * skull, 0.12 * skull),
+    ring(front - 0.03 * head, 0.4 * neck, 0.44 * skull, 0.5 * skull, 0.46 * skull),
+    ring(front - 0.2 * head, 0.5 * neck, 0.74 * skull, 0.86 * skull, 0.76 * skull),
     ring(front - 0.48 * head, 0.56 * neck, 0.94 * skull, 1.04 * skull, 0.95 * skull),
-    ring(front - 0.8 * head, 0.5 * neck, 0.95 * skull, 1.0 * skull, 1.0 * skull),
-    ring(front - 1.12 * head, 0.3 * neck, Math.max(0.92 * skull, 0.28 * width), 0.95 * skull, 1.1 * skull),
-    ring(0.19 * length, 0, 0.42 * width, 0.36 * depth, 0.46 * depth),
-    ring(0.06 * length, 0, 0.5 * width, 0.4 * depth, 0.58 * depth),
+    ...[0, 0.25, 0.5, 0.75, 1].map(throat),
     ring(-0.1 * length, 0, 0.48 * width, 0.4 * depth, 0.56 * depth),
     ring(-0.26 * length, 0.02 * depth, 0.38 * width, 0.33 * depth, 0.4 * depth),
     ring(-0.4 * length, 0.05 * depth, 0.24 * width, 0.2 * depth, 0.24 * depth),
     ring(rear, 0.07 * depth, 0.12 * width, 0.07 * depth, 0.08 * depth),
-  ].filter(({ x }, i) => i < 6 || x < front - 1.15 * head);
+  ];
   const rings = smooth(stations, 32);
-  const bend = levelled(rings, front - 1.7 * head, front - 0.9 * head, flight);
+  const bend = levelled(rings, breast - 0.12 * length, front - 0.7 * head, flight);
   const tint = (at, height) => {
     const trunk = mixed(tones.breast, tones.back, ramp(height, -0.25, 0.5));
     return mixed(trunk, shaded(tones.head, 1 - 0.06 * height), ramp(at.was, front - 1.25 * head, front - 0.85 * head));
@@ -79,8 +90,8 @@ function face(nose, { head, skull, bill, neck, front }, tones) {
     const at = [front - 0.4 * head, side * 0.84 * skull, 0.62 * neck + 0.22 * skull];
     const ball = (size, out, tone, ahead = 0, above = 0) =>
       painted(new THREE.SphereGeometry(size * skull, 9, 6).translate(at[0] + ahead, at[1] + side * out, at[2] + above), tone);
-    parts.push(ball(0.25, -0.05 * skull, pale), ball(0.2, 0.04 * skull, dark));
-    parts.push(ball(0.065, 0.19 * skull, colour("#ffffff"), 0.06 * skull, 0.1 * skull));
+    parts.push(ball(0.25, -0.08 * skull, pale), ball(0.2, 0.005 * skull, dark));
+    parts.push(ball(0.055, 0.15 * skull, colour("#ffffff"), 0.05 * skull, 0.1 * skull));
   }
   return parts;
 }

@@ -44,6 +44,12 @@ function flightFeathers(planform) {
   const found = [];
   const inner = steps(0.02, wrist, Math.max(Math.round(SECONDARIES * wrist), 5));
   const apart = (inner[1] - inner[0]) * semiSpan;
+  // Tertials close the gap between the arm and the body.
+  for (const share of [0.3, 0.13]) {
+    const eta = (-share * planform.body.width) / semiSpan;
+    const tip = [eta, -(0.94 - 0.3 * share) * planform.behind(0)];
+    found.push({ base: [eta, planform.at(0, 0.3)], tip, half: 0.13 * planform.body.width, hand: 0, follow: 0, round: 0.3 });
+  }
   inner.forEach((eta, i) => {
     const base = Math.max(eta - 0.02 * (i / inner.length), 0);
     found.push({
@@ -119,10 +125,11 @@ function addFeather(sheet, planform, feather, paint) {
     return shaded(mixed(paint.wing, paint.tip, dark), shade);
   };
   const rows = vane({ path, half, round, tint, ...(along && { along }) }, (s, here, off, lift, tone) => {
-    const eta = here[1] / semiSpan;
+    // Inside the shoulder there is no strip: there a feather moves with the innermost one.
+    const eta = Math.max(here[1] / semiSpan, 0);
     const ahead = here[0] + off[0];
     const layer = up * planform.chord(Math.min(eta, 0.8)) * Math.min(2 * s, 1);
-    return sheet.add(eta, ahead, planform.height(eta, here[0]) + layer + lift, off[1], tone);
+    return sheet.add(eta, ahead, planform.height(eta, here[0]) + layer + lift, off[1] + Math.min(here[1], 0), tone);
   });
   sheet.grid(rows);
 }

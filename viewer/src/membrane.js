@@ -16,8 +16,8 @@ export function membrane(planform) {
   const paint = { wing: colour(planform.colours.wing), tip: colour(planform.colours.wing_tip) };
   const held = [0, ...tips.map(([eta]) => eta)];
   addMembrane(sheet, planform, held, paint);
-  const tone = mixed(paint.wing, colour(planform.colours.breast), 0.45);
-  const thick = 0.011 * semiSpan;
+  const tone = mixed(paint.wing, colour(planform.colours.breast), 0.22);
+  const thick = 0.009 * semiSpan;
   const point = (eta, share, up = 0.25) => {
     const ahead = planform.at(eta, share);
     return [eta, ahead, planform.height(eta, ahead) + up * thick];

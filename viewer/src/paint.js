@@ -31,6 +31,6 @@ export function surface(opacity) {
     side: THREE.DoubleSide,
     transparent: opacity < 1,
     opacity,
-    depthWrite: opacity === 1,
+    depthWrite: opacity > 0.5,
   });
 }

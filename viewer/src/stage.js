@@ -25,10 +25,10 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enablePan = false;
     this.controls.addEventListener("change", () => this.draw());
-    this.scene.add(new THREE.HemisphereLight(0xf4f7ff, 0xa89a86, 1.7));
+    this.sky = new THREE.HemisphereLight(0xf4f7ff, 0xa89a86);
     const sun = new THREE.DirectionalLight(0xfff4e2, 2.4);
     sun.position.set(0.9, 1.4, 4);
-    this.scene.add(sun);
+    this.scene.add(this.sky, sun);
     this.shadow = new Shadow(this.scene);
     this.animals = [];
     this.body = new THREE.Vector3();
@@ -121,7 +121,9 @@ export class Stage {
     for (const animal of this.animals) animal.tint(ink);
     this.ground.material.color.set(ink);
     this.ground.material.opacity = 0.16;
-    this.shadow.tint(new THREE.Color(ink).getHSL({}).l > 0.5);
+    const dark = new THREE.Color(ink).getHSL({}).l > 0.5;
+    this.sky.intensity = dark ? 2.4 : 1.7; // else a bat cannot be told from the night behind it
+    this.shadow.tint(dark);
     this.draw();
   }
 

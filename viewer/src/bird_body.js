@@ -111,7 +111,7 @@ function fan({ tail_length: reach, tail_width: wide }, flight, root, tones) {
     // The middle feathers lie on top.
     const layer = 0.035 * wide * (1 - turn * turn);
     const put = (s, here, off, up, tone) => ({ at: [here[0] + off[0], here[1] + off[1], Math.abs(turn) < 0.2 ? layer : layer - Math.sign(turn) * up], tone });
-    const rows = vane({ path, half, round: 0.16, tint, tilt: 0.1 }, put);
+    const rows = vane({ path, half: () => half, round: 0.16, tint, tilt: 0.1 }, put);
     const place = ([x, y, z]) => [
       root.x + Math.cos(tilt) * (x + inside) - Math.sin(tilt) * z,
       y,

@@ -2,7 +2,7 @@
 // itself as a thin aerofoil. Feathers keep their width, so that they overlap more when the span is retracted.
 
 import { colour, mixed, ramp, shaded, steps } from "./paint.js";
-import { vane } from "./vane.js";
+import { outerVane, vane } from "./vane.js";
 import { Sheet } from "./wing_skin.js";
 
 const PRIMARIES = 10;
@@ -110,11 +110,17 @@ function coverts(planform, flight, { reach, start, up, many, shade }) {
 }
 
 function addFeather(sheet, planform, feather, paint) {
-  const { base, tip, half, hand, follow, round, along, up = 0, shade = 1 } = feather;
+  const { base, tip, hand, follow, round, along, up = 0, shade = 1 } = feather;
   const { semiSpan } = planform;
   // Outer primaries run along the leading edge until they reach their tip.
   const straight = (s) => [base[1] + s * (tip[1] - base[1]), (base[0] + s * (tip[0] - base[0])) * semiSpan];
-  const edge = (s) => planform.ahead(straight(s)[1] / semiSpan) - 0.8 * half * (1 - s);
+  // Towards a pointed tip feathers are slender.
+  const half = (s) => Math.min(feather.half, 0.3 * planform.chord(straight(s)[1] / semiSpan));
+  const edge = (s) => {
+    const eta = straight(s)[1] / semiSpan;
+    const slope = (planform.ahead(eta + 0.02) - planform.ahead(eta - 0.02)) / (0.04 * semiSpan);
+    return planform.ahead(eta) - outerVane(s, half, round) * Math.hypot(1, slope);
+  };
   const miss = [edge(0) - base[1], edge(1) - tip[1]];
   const path = (s) => {
     const [ahead, out] = straight(s);

@@ -31,7 +31,9 @@ export function film(planform) {
     return [eta, ahead, planform.height(eta, ahead)];
   };
   const spar = steps(0, 1, 11);
-  addRod(bones, planform, spar.map((eta) => point(eta, 0.01)), spar.map((eta) => thick * (1.5 - eta)), dark);
+  const { width, depth } = planform.body;
+  const from = [0.5 * planform.ahead(0), 0.2 * width, 0.05 * depth];
+  addRod(bones, planform, spar.map((eta) => point(eta, 0.01)), spar.map((eta) => thick * (1.5 - eta)), dark, { from });
   const diagonal = steps(0, 1, 9);
   addRod(
     bones,
@@ -39,6 +41,7 @@ export function film(planform) {
     diagonal.map((s) => point(0.72 * s, 0.05 + 0.6 * (1 - s) ** 1.5)),
     diagonal.map(() => 0.5 * thick),
     dark,
+    { from: [-0.3 * planform.behind(0), 0.1 * width, 0] },
   );
   for (const eta of RIBS) {
     const along = steps(0, 1, 5);

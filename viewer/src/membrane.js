@@ -23,7 +23,9 @@ export function membrane(planform) {
     return [eta, ahead, planform.height(eta, ahead) + up * thick];
   };
   const hand = point(wrist, 0.04);
-  addRod(bones, planform, [point(0, 0.25), point(0.5 * wrist, 0.36), hand], [1.5 * thick, 1.2 * thick, 0.9 * thick], tone);
+  addRod(bones, planform, [point(0, 0.25), point(0.5 * wrist, 0.36), hand], [1.5 * thick, 1.2 * thick, 0.9 * thick], tone, {
+    from: [0.1 * body.length, 0.2 * body.width, 0.1 * body.depth],
+  });
   for (const [eta, ahead] of tips) {
     const straight = eta === 1;
     const path = steps(0, 1, 6).map((s) => {

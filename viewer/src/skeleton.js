@@ -1,7 +1,8 @@
 // Thin rods in a wing: bones of a bat, spars and ribs of a robot.
 
 // A rod through points [span fraction, metres ahead, metres up] with radii [m]; it keeps its thickness as the wing moves.
-export function addRod(sheet, planform, points, radii, tone, around = 5) {
+// It may begin at a place in the body [x, y, z], so that the wing hangs on it at every angle.
+export function addRod(sheet, planform, points, radii, tone, { around = 5, from } = {}) {
   const { semiSpan } = planform;
   const rows = points.map(([eta, ahead, up], i) => {
     const [before, after] = [points[Math.max(i - 1, 0)], points[Math.min(i + 1, points.length - 1)]];
@@ -13,5 +14,11 @@ export function addRod(sheet, planform, points, radii, tone, around = 5) {
       return sheet.add(eta, ahead + (out / length) * aside, up + above, (-forward / length) * aside, tone);
     });
   });
+  if (from) {
+    const [eta, ahead, up] = points[0];
+    const begin = rows[0].map(() => sheet.add(eta, ahead, up, 0, tone));
+    for (const point of begin) sheet.hold(point, from);
+    rows.unshift(begin);
+  }
   sheet.grid(rows.map((row) => row.reverse()));
 }

@@ -1,4 +1,4 @@
-// One flying animal: body, both wings as strips, trails and the forces on every strip. World axes: x forward, y left, z up.
+// One flying animal: body and wings, and over them strips, trails and forces. World axes: x forward, y left, z up.
 
 import * as THREE from "three";
 import { Arrows } from "./arrows.js";
@@ -6,6 +6,7 @@ import { Body } from "./body.js";
 import { ARROWS } from "./colours.js";
 import { Strips } from "./strips.js";
 import { Trails } from "./trails.js";
+import { Wings } from "./wings.js";
 
 const SIDES = { left: 1, right: -1 };
 
@@ -22,8 +23,9 @@ export class Animal {
       Object.entries(ARROWS).map(([name, colour]) => [name, new Arrows(flight.strips, colour, opacity)]),
     );
     this.body = new Body(flight, opacity);
+    this.wings = new Wings(flight, opacity);
     this.trails = new Trails(flight, opacity);
-    this.still.add(this.body.group, ...Object.values(this.strips).map((wing) => wing.mesh));
+    this.still.add(this.body.group, this.wings.group, ...Object.values(this.strips).map((wing) => wing.mesh));
     this.still.add(...Object.values(this.arrows).map((each) => each.group));
     this.group.add(this.trails.group);
     this.buffers = {
@@ -33,17 +35,23 @@ export class Animal {
     };
   }
 
-  // Draw the animal at a phase. `look`: which colours, which arrows, their scale, whether trails.
+  // Draw the animal at a phase. `look`: whether strips and which colours, which arrows, their scale, whether trails.
   show(phase, look) {
     const { flight, buffers } = this;
     const place = flight.locate(phase);
     const [pivotX, pivotZ] = flight.pivot(phase, place);
     this.group.position.set(-pivotX, look.offset, -pivotZ);
     this.still.position.set(flight.number("x", place), 0, flight.number("z", place));
-    this.body.show(flight.number("body_pitch", place));
+    const pitch = flight.number("body_pitch", place);
+    this.body.show(pitch);
     flight.read("corners", place, buffers.corners);
+    this.wings.show(buffers.corners, pitch);
+    this.wings.fade(look.strips);
     flight.read(look.colour, place, buffers.tint);
-    for (const wing of Object.values(this.strips)) wing.show(buffers.corners, buffers.tint, look.range);
+    for (const wing of Object.values(this.strips)) {
+      wing.show(buffers.corners, buffers.tint, look.range);
+      wing.mesh.visible = look.strips;
+    }
     for (const [name, arrows] of Object.entries(this.arrows)) {
       arrows.group.visible = look.arrows.has(name) && name in flight.arrays;
       if (arrows.group.visible) arrows.show(flight.read(name, place, buffers.vectors), buffers.corners, look);
@@ -63,6 +71,12 @@ export class Animal {
     const at = this.still.position;
     const corners = Array.from(geometry.getAttribute("position").array, (value, i) => value + [at.x, at.y, at.z][i % 3]);
     return { corners, normals: Array.from(geometry.getAttribute("normal").array) };
+  }
+
+  // Points of the left wing's skin in the world of its data, from [span fraction, metres ahead of the pitch axis].
+  skinPoints(points) {
+    const at = this.still.position.toArray();
+    return points.map(([eta, ahead]) => this.wings.frame.place(eta, ahead, 0).map((value, k) => value + at[k]));
   }
 
   dispose() {

@@ -45,6 +45,12 @@ export class Flight {
     return this.read(name, place, [0])[0];
   }
 
+  // The mean of an array of numbers over the flight.
+  mean(name) {
+    const values = this.arrays[name];
+    return values.reduce((sum, value) => sum + value, 0) / values.length;
+  }
+
   // The point that the picture moves with: the mean flight of a periodic orbit, the body of any other.
   pivot(phase, place) {
     const { x, z } = this.arrays;

@@ -4,6 +4,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Animal } from "./animal.js";
 import { round } from "./colours.js";
+import { Shadow } from "./shadow.js";
 
 // From where each camera looks, in semi-spans: ahead, to the left, above.
 export const CAMERAS = {
@@ -24,10 +25,11 @@ export class Stage {
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enablePan = false;
     this.controls.addEventListener("change", () => this.draw());
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb9b4aa, 2.6));
-    const sun = new THREE.DirectionalLight(0xffffff, 1.5);
-    sun.position.set(1, 2, 4);
-    this.scene.add(sun);
+    this.sky = new THREE.HemisphereLight(0xf4f7ff, 0xa89a86);
+    const sun = new THREE.DirectionalLight(0xfff4e2, 2.4);
+    sun.position.set(0.9, 1.4, 4);
+    this.scene.add(this.sky, sun);
+    this.shadow = new Shadow(this.scene);
     this.animals = [];
     this.body = new THREE.Vector3();
     this.follows = false;
@@ -98,6 +100,8 @@ export class Stage {
       this.controls.update();
     }
     this.body.copy(body);
+    const width = this.offsets ? 2 * Math.max(...this.offsets.values()) : 0;
+    this.shadow.place(body, -1.15 * this.span, this.span, width);
     this.draw();
   }
 
@@ -117,6 +121,9 @@ export class Stage {
     for (const animal of this.animals) animal.tint(ink);
     this.ground.material.color.set(ink);
     this.ground.material.opacity = 0.16;
+    const dark = new THREE.Color(ink).getHSL({}).l > 0.5;
+    this.sky.intensity = dark ? 2.4 : 1.7; // else a bat cannot be told from the night behind it
+    this.shadow.tint(dark);
     this.draw();
   }
 
@@ -134,6 +141,7 @@ export class Stage {
   draw() {
     this.due ??= requestAnimationFrame(() => {
       this.due = undefined;
+      this.shadow.draw(this.renderer);
       this.renderer.render(this.scene, this.camera);
     });
   }
@@ -142,6 +150,7 @@ export class Stage {
     cancelAnimationFrame(this.due);
     for (const animal of this.animals) animal.dispose();
     this.ground.dispose();
+    this.shadow.dispose();
     this.controls.dispose();
     this.renderer.dispose();
     this.renderer.forceContextLoss();

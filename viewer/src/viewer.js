@@ -24,7 +24,7 @@ let made = 0;
 export class Viewer {
   constructor(element, scene, { theme = "system", playing = true } = {}) {
     this.id = `wb${++made}`;
-    this.look = { colour: "alpha", arrows: new Set(["force"]), trails: true };
+    this.look = { strips: false, colour: "alpha", arrows: new Set(["force"]), trails: true };
     this.rate = 0.1;
     this.ghost = true;
     this.phase = 0;
@@ -71,7 +71,7 @@ export class Viewer {
         name,
       ),
     );
-    const tints = Object.entries(TINTS).map(([name, { label }]) => [name, label]);
+    const tints = [["off", "off"], ...Object.entries(TINTS).map(([name, { label }]) => [name, label])];
     const toggles = Object.entries(NAMES).map(([name, label]) =>
       this.toggle(label, this.look.arrows.has(name), ARROWS[name], (on) => {
         this.look.arrows[on ? "add" : "delete"](name);
@@ -93,8 +93,9 @@ export class Viewer {
     this.legend = make("div", { class: "wb-scale" });
     this.picture = make("div", { class: "wb-picture" }, this.canvas, this.heading, this.legend);
     this.side = make("div", { class: "wb-side" });
-    const tint = this.choice("Strips", tints, "alpha", (value) => {
-      this.look.colour = value;
+    const tint = this.choice("Strips", tints, "off", (value) => {
+      this.look.strips = value !== "off";
+      if (this.look.strips) this.look.colour = value;
       this.scaleTint();
       this.set(this.phase);
     });
@@ -193,11 +194,16 @@ export class Viewer {
     const largest = Math.max(...this.flights.map((flight) => flight.largest(this.look.colour)), 1e-12);
     const range = round(Math.min(largest, most) * scale, [1, 1.5, 2, 3, 4, 5, 6, 8, 10]);
     this.look.range = range / scale;
-    this.legend.replaceChildren(
+    const scaleBar = [
       make("div", { class: "wb-gradient", style: `background:${gradient()}` }),
       make("div", { class: "wb-ends" }, ...[-range, 0, range].map((value) => make("span", {}, written(value)))),
       make("div", {}, `${label} [${unit}]`),
+    ];
+    const schematic = this.flights.some((flight) => flight.shape.schematic);
+    this.legend.replaceChildren(
+      ...(this.look.strips ? scaleBar : []),
       make("div", {}, `squares of ${written(this.stage.cell)} m`),
+      ...(schematic ? [make("div", {}, "shape of the animal: schematic")] : []),
     );
   }
 
@@ -269,6 +275,11 @@ export class Viewer {
   // What is drawn of a flight's wing now, in the world of its data: corners [m] and normals of every strip, flat lists.
   drawn(flight = 0, side = "left") {
     return this.stage.animals[flight].drawn(side);
+  }
+
+  // Points of the left wing's skin [m], in the world of its data: given as [span fraction, metres ahead of the axis].
+  skinPoints(points, flight = 0) {
+    return this.stage.animals[flight].skinPoints(points);
   }
 
   corners(flight = 0, side = "left") {

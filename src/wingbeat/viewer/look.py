@@ -70,7 +70,7 @@ def look_of(dataset: xr.Dataset) -> dict[str, Any]:
     known = json.loads(dataset.attrs.get(SHAPE, "{}"))
     kind = known.get("kind") or _kind(dataset, vehicle)
     found = _own(vehicle, known) if "cover" in known else _schematic(vehicle, kind)
-    return {"kind": kind, **found, "wrist": beat["wrist"]}
+    return {"kind": kind, **found, "wrist": beat.get("wrist", 0.5)}
 
 
 def _kind(dataset: xr.Dataset, vehicle: dict[str, Any]) -> str:

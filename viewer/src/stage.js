@@ -3,11 +3,13 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Animal } from "./animal.js";
-import { round } from "./colours.js";
+import { themeOf } from "./colours.js";
+import { Ground } from "./ground.js";
+import { pixelsPerMetre } from "./scale_bar.js";
 
 // From where each camera looks, in semi-spans: ahead, to the left, above.
 export const CAMERAS = {
-  oblique: [2.3, 2.5, 1.1],
+  oblique: [2.3, 2.5, 0.8],
   side: [0, -4, 0],
   front: [4, 0, 0],
   top: [-0.001, 0, 4.2],
@@ -28,6 +30,8 @@ export class Stage {
     const sun = new THREE.DirectionalLight(0xffffff, 1.5);
     sun.position.set(1, 2, 4);
     this.scene.add(sun);
+    this.ground = new Ground();
+    this.scene.add(this.ground.group);
     this.animals = [];
     this.body = new THREE.Vector3();
     this.follows = false;
@@ -45,7 +49,7 @@ export class Stage {
     const span = Math.max(...flights.map((flight) => flight.semi_span));
     const changed = span !== this.span;
     this.span = span;
-    this.makeGround();
+    this.ground.fit(span);
     if (this.ink) this.tint(this.ink);
     if (changed && this.view) this.setCamera(this.view);
   }
@@ -68,28 +72,19 @@ export class Stage {
     this.setCamera(this.view);
   }
 
-  makeGround() {
-    if (this.ground) {
-      this.scene.remove(this.ground);
-      this.ground.dispose();
-    }
-    this.cell = round(0.3 * this.span);
-    const cells = 2 * Math.ceil((5 * this.span) / this.cell);
-    this.ground = new THREE.GridHelper(cells * this.cell, cells).rotateX(Math.PI / 2);
-    this.ground.material.transparent = true;
-    this.ground.material.vertexColors = false;
-    this.scene.add(this.ground);
-  }
-
   show(phase, look) {
+    // The wake ends at the ground.
+    const floor = look.ground ? [this.ground.height, 0.5 * this.span] : undefined;
     for (const animal of this.animals) {
-      animal.show(phase, { ...look, offset: this.offsets?.get(animal) ?? 0 });
+      animal.show(phase, { ...look, floor, offset: this.offsets?.get(animal) ?? 0 });
     }
     const flight = this.animals[0].flight;
     const place = flight.locate(phase);
     const [x, z] = flight.pivot(phase, place);
-    // The ground goes by; height is taken off, so that it stays in the picture in a climb.
-    this.ground.position.set(-(x - this.cell * Math.floor(x / this.cell)), 0, -1.15 * this.span);
+    // The ground passes; height is taken off, so that it stays in the picture in a climb.
+    this.ground.group.visible = look.ground;
+    const way = look.still ? 0 : flight.advance;
+    this.ground.show(look.still ? 0 : x + look.laps * way, (look.passing * way) / flight.last);
     const body = new THREE.Vector3(flight.number("x", place) - x, 0, flight.number("z", place) - z);
     if (this.follows) {
       const moved = body.clone().sub(this.body);
@@ -115,8 +110,7 @@ export class Stage {
   tint(ink) {
     this.ink = ink;
     for (const animal of this.animals) animal.tint(ink);
-    this.ground.material.color.set(ink);
-    this.ground.material.opacity = 0.16;
+    this.ground.tint(themeOf(ink));
     this.draw();
   }
 
@@ -135,7 +129,13 @@ export class Stage {
     this.due ??= requestAnimationFrame(() => {
       this.due = undefined;
       this.renderer.render(this.scene, this.camera);
+      this.onDraw?.();
     });
+  }
+
+  // Pixels of the page for one metre at the animal.
+  get perMetre() {
+    return pixelsPerMetre(this.camera, this.controls.target, this.renderer.domElement.clientHeight);
   }
 
   dispose() {

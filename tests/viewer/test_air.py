@@ -194,13 +194,14 @@ def test_a_wake_is_offered_only_where_the_flight_has_one(show, page_of_one, in_i
     assert page.evaluate(f"{ANIMAL}.wake.group.visible") is False
     box.check()
     assert page.evaluate(f"{ANIMAL}.wake.group.visible") is True
+    assert "wake: a sketch, not computed" in page.locator(".wb-measures").inner_text()
     frequency = json.loads(in_induced_flow.attrs["wingbeat"])["frequency"]
     forward, up = wake_of(in_induced_flow)["induced"]
     drift = page.evaluate(f"{ANIMAL}.wake.ribbons.map((each) => each.mesh.material.uniforms.drift.value.toArray())")
     np.testing.assert_allclose(
         drift, [[forward / frequency, 0.0, up / frequency]] * len(drift), rtol=1e-6, atol=1e-12
     )
-    # It begins at the wing tips, and at every end of a downstroke a ribbon leaves the trailing edge.
+    # It begins at the wing tips, and at every end of a downstroke a ribbon leaves the wings.
     path = ribbon_of(page, f"{ANIMAL}.wake.ribbons[0]").reshape(-1, 2, 3)[-257:, 0]
     corner = in_induced_flow["strip_corner"].values[:, -1]
     np.testing.assert_allclose(path, 0.75 * corner[:, 1] + 0.25 * corner[:, 2], rtol=0, atol=1e-6)

@@ -10,7 +10,8 @@ export class Measures {
     this.bar = new ScaleBar();
     this.trails = make("div", {});
     this.ground = make("div", {});
-    this.element = make("div", { class: "wb-measures" }, this.bar.element, this.trails, this.ground);
+    this.wake = make("div", {}, "wake: a sketch, not computed");
+    this.element = make("div", { class: "wb-measures" }, this.bar.element, this.trails, this.wake, this.ground);
   }
 
   // The largest force on the outer strips of any of the flights [N], the end of the trails' scale.
@@ -21,6 +22,7 @@ export class Measures {
   // The legends that belong to what is switched on.
   show(look, flight, cell) {
     this.trails.hidden = !look.trails;
+    this.wake.hidden = !look.wake;
     this.ground.hidden = !look.ground;
     const count = outerStrips(flight);
     this.trails.replaceChildren(

@@ -20,33 +20,25 @@ export function body(flight, { k, shift }) {
   return [flight.arrays.x[k] + shift.x, 0, flight.arrays.z[k] + shift.z];
 }
 
-// The quarter chord at a tip at a sample [m]: from leading-outer to trailing-outer of the last strip.
-export function tip(flight, sample, side) {
-  const at = 12 * (flight.strips * sample.k + flight.strips - 1);
+// The quarter chord at a span fraction from 0 to 1 at a sample [m].
+export function quarterChord(flight, sample, fraction, side) {
+  const along = fraction * flight.strips;
+  const strip = Math.min(Math.floor(along), flight.strips - 1);
+  const at = 12 * (flight.strips * sample.k + strip);
   const { corners } = flight.arrays;
   const mass = body(flight, sample);
   return [1, side, 1].map((sign, i) => {
-    const lead = corners[at + 3 + i];
-    return mass[i] + sign * (lead + 0.25 * (corners[at + 6 + i] - lead));
+    const [inner, outer] = [0, 3].map((lead) => {
+      const trail = 9 - lead; // corners: leading inner and outer, trailing outer and inner
+      return 0.75 * corners[at + lead + i] + 0.25 * corners[at + trail + i];
+    });
+    return mass[i] + sign * (inner + (along - strip) * (outer - inner));
   });
 }
 
-// The trailing edge from the left tip to the right tip at a sample, flat [m].
-export function trailingEdge(flight, sample) {
-  const { corners } = flight.arrays;
-  const mass = body(flight, sample);
-  const place = (strip, corner, side) => {
-    const at = 12 * (flight.strips * sample.k + strip) + 3 * corner;
-    return [1, side, 1].map((sign, i) => mass[i] + sign * corners[at + i]);
-  };
-  const half = (side) => [
-    ...place(0, 3, side),
-    ...Array.from({ length: flight.strips }, (_, strip) => place(strip, 2, side)).flat(),
-  ];
-  const [left, right] = [half(1), half(-1)];
-  const points = [];
-  for (let i = left.length - 3; i >= 0; i -= 3) points.push(...left.slice(i, i + 3));
-  return [...points, ...right];
+// The quarter chord at a tip at a sample [m].
+export function tip(flight, sample, side) {
+  return quarterChord(flight, sample, 1, side);
 }
 
 // How many strips at the tip count as the outer ones: a fifth of them, at least one.

@@ -20,7 +20,9 @@ void main() {
   colour = vec4(mix(shade, tone, toned), seen);
   vec4 eye = modelViewMatrix * vec4(moved, 1.0);
   vec3 way = cross((modelViewMatrix * vec4(along, 0.0)).xyz, normalize(eye.xyz));
-  eye.xyz += way / max(length(way), 1e-6) * side * slim * 0.5 * width * mix(1.0, spread, share);
+  // A path along the line of sight has no side to widen to: there the ribbon narrows.
+  way /= max(max(length(way), 0.25 * length(along)), 1e-9);
+  eye.xyz += way * side * slim * 0.5 * width * mix(1.0, spread, share);
   gl_Position = projectionMatrix * eye;
 }`;
 

@@ -178,6 +178,7 @@ export class Viewer {
     this.stage.onDraw = () => this.measures.follow(this.stage, this.look, this.flights[0]);
     this.pairing.hidden = this.flights.length < 2;
     this.wakeToggle.hidden = !this.flights.some((flight) => flight.wake);
+    if (this.wakeToggle.hidden) this.look.wake = this.wakeToggle.querySelector("input").checked = false;
     this.look.laps = 0;
     this.look.tipForce = Measures.tipForce(this.flights);
     this.plots = new Plots(scene.panels, this.flights, this.last, (phase) => {

@@ -1,12 +1,13 @@
-// A sketch of the wake, not a computation: vortex ribbons leave the wing tips, and at both ends of the downstroke the
-// trailing edge from tip to tip, and move with the induced velocity of the flight's air loads. Strong where the outer
-// wing carries much, they close to rings in hover.
+// A sketch of the wake, not a computation: vortex ribbons leave the wing tips, and at both ends of the downstroke one
+// leaves the wings from tip to tip. They move with the induced velocity of the flight's air loads and are strong where
+// the outer wing carries much; in hover they close to rings.
 
 import * as THREE from "three";
-import { outerForce, samples, tip, trailingEdge } from "./paths.js";
+import { body, outerForce, quarterChord, samples, tip } from "./paths.js";
 import { Ribbon } from "./ribbon.js";
 
 const BEATS = 3;
+const POINTS = 33; // of a ribbon from tip to tip
 const TONES = { light: "#1f6fb2", dark: "#a8d4ff" };
 
 export class Wake {
@@ -26,10 +27,14 @@ export class Wake {
       this.ribbons.push(new Ribbon({ ...common, points, shed, strengths, width: 0.16 * flight.semi_span }));
     }
     for (const sample of along.filter((_, nth) => reverses(flight, along, nth))) {
-      const points = trailingEdge(flight, sample);
-      const instants = new Array(points.length / 3).fill(flight.phase[sample.k] + sample.shift.phase);
-      const ribbon = { ...common, points, shed: instants, width: 0.12 * flight.semi_span, opacity: 0.45 * opacity };
-      this.ribbons.push(new Ribbon(ribbon));
+      const points = fromTipToTip(flight, sample);
+      const instants = new Array(POINTS).fill(flight.phase[sample.k] + sample.shift.phase);
+      const faint = instants.map((_, nth) => {
+        const fromEnd = Math.min(nth, POINTS - 1 - nth);
+        return Math.min(fromEnd / 3, 1) * (0.75 - (1.2 * fromEnd) / (POINTS - 1));
+      });
+      const width = 0.12 * flight.semi_span;
+      this.ribbons.push(new Ribbon({ ...common, points, shed: instants, strengths: faint, width }));
     }
     for (const ribbon of this.ribbons) this.group.add(ribbon.mesh);
   }
@@ -41,6 +46,14 @@ export class Wake {
   tint(theme) {
     for (const ribbon of this.ribbons) ribbon.tint(TONES[theme]);
   }
+}
+
+// A smooth line along both wings, faint in the middle, flat [m].
+function fromTipToTip(flight, sample) {
+  const half = (side) => [1, 0.75, 0.5].map((fraction) => quarterChord(flight, sample, fraction, side));
+  const knots = [...half(1), body(flight, sample), ...half(-1).reverse()];
+  const curve = new THREE.CatmullRomCurve3(knots.map((knot) => new THREE.Vector3(...knot)));
+  return curve.getPoints(POINTS - 1).flatMap((point) => point.toArray());
 }
 
 // Whether a downstroke begins or ends between this sample and the one before.

@@ -26,6 +26,10 @@ def wake_of(dataset: xr.Dataset) -> dict[str, list[float]] | None:
     Returns
     -------
     wake : ``{"induced": [forward, up]}`` [m/s], as at the wings; the far wake of an ideal disc moves twice as fast.
+
+    >>> import xarray as xr
+    >>> wake_of(xr.Dataset(attrs={"aero": '{"coefficients": "su-fan"}'})) is None
+    True
     """
     aero = json.loads(dataset.attrs.get("aero", "{}"))
     if aero.get("inflow", "none") == "none":

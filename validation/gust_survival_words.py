@@ -151,7 +151,7 @@ def draw(table: pd.DataFrame, path: Path) -> None:
         _draw_shares(panel, rows)
         panel.set_title(f"{animal}, {speed:g} m/s, model {model}", fontsize="medium")
         first = panel is panels[0]
-        dress(panel, "largest velocity of the gust [m/s]", "survived [%]" if first else "")
+        dress(panel, "largest gust [m/s]", "survived [%]" if first else "")
     letter_panels(panels)
     legend_below(figure, panels)
     save_figure(figure, path)

@@ -18,6 +18,7 @@ from wingbeat.aero.unsteady import added_inertia, added_mass, damping_couple, ro
 from wingbeat.measured_motion.strip_case import StripCase
 from wingbeat.measured_motion.strip_motion import strip_motion
 from wingbeat.mechanics.wing_points import CORNERS
+from wingbeat.plots import save_figure
 from wingbeat.style import (
     FIRST,
     PAGE,
@@ -90,10 +91,12 @@ def draw_parts(orbit: wb.Orbit) -> Any:
     """Return the figure of the unsteady parts over a beat of an orbit that was flown with them."""
     parts, phase = parts_of(case_of(orbit)), orbit.dataset["phase"].values[:-1]
     figure = new_figure(PAGE, 62.0)
-    figure.suptitle(f"Pigeon at {SPEED:g} m/s, least frequency: parts of the unsteady terms", fontsize=8.5)
+    figure.suptitle(
+        f"Pigeon at {SPEED:g} m/s, least frequency: parts of the unsteady terms", fontsize=8, x=0.01, ha="left"
+    )
     panels = figure.subplots(1, 2)
     names = (("rotation", "added mass"), ("damping couple", "couple of added mass"))
-    labels = ("upward force / weight [-]", "nose-up couple / (weight × chord) [-]")
+    labels = ("upward force / weight [-]", "couple / (weight × chord) [-]")
     for axes, group, label in zip(panels, names, labels, strict=True):
         shade_downstrokes(axes, 0.0, 1.0)
         for name, look in zip(group, (FIRST, SECOND), strict=True):
@@ -116,7 +119,7 @@ def least_frequency(problem_at: Callable[[float], wb.OrbitProblem], values: Iter
 def draw_along(title: str, label: str, values: Any, orbits: list[wb.Orbit]) -> Any:
     """Return the figure of frequency, power and largest Floquet multiplier of orbits along a number."""
     figure = new_figure(PAGE, 58.0)
-    figure.suptitle(title, fontsize=8.5)
+    figure.suptitle(title, fontsize=8, x=0.01, ha="left")
     records = [orbit.record() for orbit in orbits]
     series = {
         "frequency [Hz]": ([record["wingbeat"]["frequency"] for record in records], FIRST),
@@ -140,14 +143,14 @@ def main() -> None:
     pigeon = wb.load_species("pigeon")
     unsteady = wb.aero.BladeElement("su-fan", unsteady="thin-aerofoil")
     orbit = wb.solve_orbit(wb.OrbitProblem(pigeon, SPEED, aero=unsteady))
-    draw_parts(orbit).savefig(DOCS / "term_parts.png", dpi=200)
+    save_figure(draw_parts(orbit), DOCS / "term_parts.png")
 
     factors = np.linspace(1.0, 0.0, 6)
     shed = least_frequency(
         lambda f: wb.OrbitProblem(pigeon, SPEED, aero=wb.aero.BladeElement("su-fan", upstroke_factor=f)), factors
     )
     title = f"Pigeon at {SPEED:g} m/s, least frequency: less load where air meets the wing from above"
-    draw_along(title, "upstroke factor [-]", factors, shed).savefig(DOCS / "term_upstroke.png", dpi=200)
+    save_figure(draw_along(title, "upstroke factor [-]", factors, shed), DOCS / "term_upstroke.png")
 
     tailed = pigeon.with_tail()
     stock = tailed.vehicle.tail
@@ -161,7 +164,7 @@ def main() -> None:
     orbits = plain + least_frequency(with_area, areas)
     title = "Pigeon at 12 m/s, least frequency: tails of other areas"
     values = [0.0, *(1e4 * areas * stock.area)]
-    draw_along(title, "area of the tail [cm²]", values, orbits).savefig(DOCS / "term_tail.png", dpi=200)
+    save_figure(draw_along(title, "area of the tail [cm²]", values, orbits), DOCS / "term_tail.png")
 
 
 if __name__ == "__main__":

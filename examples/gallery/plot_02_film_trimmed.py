@@ -60,7 +60,7 @@ for (name, (phase, series, means)), color in zip(found.items(), (BLUE, VERMILION
         axes.plot(phase, values, color=color, label=name)
         axes.axhline(mean, color=color, linestyle="--", linewidth=1)
 for axes, direction in zip(panels, ("upward", "forward"), strict=True):
-    axes.set(xlabel="phase [beats]", ylabel=f"missing force {direction} / weight [1]")
+    axes.set(xlabel="phase [beats]", ylabel=f"missing force {direction} / weight [-]")
     axes.spines[["top", "right"]].set_visible(False)
 handles, labels = panels[0].get_legend_handles_labels()
 figure.legend(handles, labels, loc="outside upper center", ncols=2, frameon=False)

@@ -35,7 +35,7 @@ square_cm = 1e4 * areas
 panels[0].axhspan(0.9, 1.0, color="0.91", linewidth=0)
 panels[0].annotate("disturbances decay", (square_cm[-1], 0.91), ha="right", color="0.35")
 panels[0].plot(square_cm, radius, color=BLUE, marker="o")
-panels[0].set(xlabel="area of the tail [cm²]", ylabel="largest multiplier [1]", ylim=(0.9, None))
+panels[0].set(xlabel="area of the tail [cm²]", ylabel="largest multiplier [-]", ylim=(0.9, None))
 for (name, values), color, mark in zip(change.items(), (BLUE, VERMILION), "os", strict=True):
     panels[1].plot(square_cm, 100 * values, color=color, marker=mark, label=name)
 panels[1].set(xlabel="area of the tail [cm²]", ylabel="change [%]")

@@ -41,7 +41,7 @@ for place, slope in enumerate(ranked):
 axes.axvline(0, color="k", linewidth=0.8)
 axes.set_yticks(range(len(ranked)), [names.get(slope.parameter.path, slope.parameter.path) for slope in ranked])
 axes.invert_yaxis()
-axes.set(xlabel="linear change of the spectral radius [1]", ylabel="number of the animal")
+axes.set(xlabel="linear change of the spectral radius [-]", ylabel="number of the animal")
 axes.spines[["top", "right"]].set_visible(False)
 axes.legend(frameon=False, loc="lower right")
 

@@ -48,7 +48,7 @@ for row in rows:
 for name, (row, color, line) in looks.items():
     axes.plot(beats, about_mean(row.loads.fz), color=color, linestyle=line, label=name)
 axes.plot(beats, about_mean(found.case.forces["fz"]), color="k", linewidth=2, label="measured")
-axes.set(xlabel="time [beats]", ylabel="upward force about its mean / rms [1]")
+axes.set(xlabel="time [beats]", ylabel="upward force about its mean / rms [-]")
 axes.spines[["top", "right"]].set_visible(False)
 axes.legend(frameon=False, loc="lower center")
 

@@ -25,7 +25,7 @@ Columns = dict[str, list[float] | list[None]]
 def polar(
     model: Annotated[str, Parameter(help="Name of a model, or path of a table (.csv) or of a fit (.toml).")],
     *,
-    alpha: Annotated[str, Parameter(help="Angles of attack [deg], start:stop:step, or one angle.")] = "0:110:2",
+    alpha: Annotated[str, Parameter(help="Angles of attack [deg], start:stop:step, or one angle.")] = "-30:110:2",
     about: Annotated[float, Parameter(help="Axis of C_M, in chords from the leading edge.")] = 0.5,
     extension: Annotated[
         str,

@@ -11,7 +11,7 @@ from rich.console import Console
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
-from wingbeat.cli.options import SPECIES, Climb, Settings, Whole
+from wingbeat.cli.options import SPECIES, Climb, Settings, Whole, WithinPlausible
 from wingbeat.cli.progress import progress_bar
 from wingbeat.errors import InvalidInputError
 from wingbeat.orbits.problem.path_functions import check_quantities
@@ -41,6 +41,7 @@ def uncertainty(
             help=f"Quantities whose uncertainty to compute, as in `wingbeat orbit`; default {' '.join(_DEFAULT)}.",
         ),
     ] = None,
+    within_plausible: WithinPlausible = False,
     samples: Annotated[Whole, Parameter(help="Number of random samples to solve.")] = 2000,
     share: Annotated[
         float, Parameter(help="Fraction of every plausible range to sample, around the parameter's value.")
@@ -59,7 +60,8 @@ def uncertainty(
 
     Example: wingbeat uncertainty pigeon --speed 10 --samples 500 --share 0.3
     """
-    problem = model.problem(species, speed, set_, climb=climb, minimise=minimise)
+    bounds = "plausible" if within_plausible else {}
+    problem = model.problem(species, speed, set_, climb=climb, minimise=minimise, bounds=bounds)
     known = _known(problem, _DEFAULT if quantities is None else quantities)
     orbit = solve_orbit(problem, seed=seed)
     if orbit.status is not Status.CONVERGED:

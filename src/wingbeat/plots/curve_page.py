@@ -32,7 +32,9 @@ if TYPE_CHECKING:
 
 _HEIGHT = 150.0  # mm
 _BEST, _OTHER, _PUBLISHED, _SPEEDS = BLUE, "0.6", GREEN, VERMILION
-_DASHES = ((0, (1, 1)), (0, (3, 1, 1, 1)), (0, (6, 1.5)), (0, (6, 1.5, 1, 1.5)))
+_DASHES = ((0, (1, 1)), (0, (3, 1, 1, 1)), (0, (6, 1.5)), (0, (2, 2.5)))
+# Marks in a strip above the panel: kind, marker, its fill, height as a share of the panel's, and label.
+_STRIP = (("branch", "X", "k", 1.09, "change of branch"), ("bounds", "^", "w", 1.03, "other bounds active"))
 _NEEDED = ("frequency", "mean_positive_power", "objective_value", "family", "continued", "status")
 _NAMES = {"minimum_power": ("minimum power", "v"), "maximum_range": ("maximum range", "s")}
 _NAMES |= {"fastest_sustained": ("fastest sustained", ">"), "slowest_sustained": ("slowest sustained", "<")}
@@ -137,25 +139,25 @@ def _draw_optima(axes: Axes, dataset: xr.Dataset, marks: list[dict[str, Any]], n
 
 
 def _draw_marks(axes: Axes, marks: list[dict[str, Any]], gaps: list[float], speed: np.ndarray) -> None:
-    foot = {"transform": axes.get_xaxis_transform(), "linestyle": "", "clip_on": False, "zorder": 4}
-    for kind, marker, label in (("branch", "X", "change of branch"), ("bounds", "^", "other bounds active")):
+    # Above the panel: inside it, the marks of the lowest speeds look like measured points.
+    strip: dict[str, Any] = {
+        "transform": axes.get_xaxis_transform(),
+        "linestyle": "",
+        "clip_on": False,
+        "zorder": 4,
+    }
+    strip |= {"markersize": 5, "markeredgecolor": "k", "markeredgewidth": 0.6}
+    for kind, marker, fill, height, label in _STRIP:
         at = [0.5 * (m["lower_speed"] + m["upper_speed"]) for m in marks if m["kind"] == kind]
         if at:
-            look = {"marker": marker, "markersize": 5, "markeredgecolor": "k", "markeredgewidth": 0.6}
-            height = 0.03 if kind == "bounds" else 0.09
-            axes.plot(
-                at,
-                [height] * len(at),
-                markerfacecolor="w" if kind == "bounds" else "k",
-                label=label,
-                **look,
-                **foot,
-            )
-            if kind == "branch":
-                for u in at:
-                    axes.axvline(u, color="0.3", linewidth=0.5, linestyle=(0, (2, 2)), zorder=1)
+            look = {"marker": marker, "markerfacecolor": fill, "label": label}
+            axes.plot(at, [height] * len(at), **look, **strip)
+        if kind == "branch":
+            for u in at:
+                axes.axvline(u, color="0.3", linewidth=0.5, linestyle=(0, (2, 2)), zorder=1)
     if gaps:
-        axes.plot(gaps, [0.03] * len(gaps), "x", color=ALARM, label="nothing certified", **foot)
+        strip |= {"color": ALARM, "markeredgecolor": ALARM}
+        axes.plot(gaps, [_STRIP[-1][3]] * len(gaps), "x", label="nothing certified", **strip)
 
 
 def _draw_published(axes: Axes, published: Sequence[Published], name: str) -> None:

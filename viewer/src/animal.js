@@ -3,9 +3,10 @@
 import * as THREE from "three";
 import { Arrows } from "./arrows.js";
 import { Body } from "./body.js";
-import { ARROWS } from "./colours.js";
+import { ARROWS, themeOf } from "./colours.js";
 import { Strips } from "./strips.js";
 import { Trails } from "./trails.js";
+import { Wake } from "./wake.js";
 import { Wings } from "./wings.js";
 
 const SIDES = { left: 1, right: -1 };
@@ -27,7 +28,8 @@ export class Animal {
     this.trails = new Trails(flight, opacity);
     this.still.add(this.body.group, this.wings.group, ...Object.values(this.strips).map((wing) => wing.mesh));
     this.still.add(...Object.values(this.arrows).map((each) => each.group));
-    this.group.add(this.trails.group);
+    this.wake = new Wake(flight, opacity);
+    this.group.add(this.trails.group, this.wake.group);
     this.buffers = {
       corners: new Float64Array(flight.strips * 12),
       vectors: new Float64Array(flight.strips * 3),
@@ -35,7 +37,7 @@ export class Animal {
     };
   }
 
-  // Draw the animal at a phase. `look`: whether strips and which colours, which arrows, their scale, whether trails.
+  // Draw the animal at a phase. `look`: whether strips and which colours, which arrows, their scale, whether trails and wake.
   show(phase, look) {
     const { flight, buffers } = this;
     const place = flight.locate(phase);
@@ -57,12 +59,15 @@ export class Animal {
       if (arrows.group.visible) arrows.show(flight.read(name, place, buffers.vectors), buffers.corners, look);
     }
     this.trails.group.visible = look.trails;
-    if (look.trails) this.trails.show(phase, place);
+    if (look.trails) this.trails.show(phase, look.tipForce);
+    this.wake.group.visible = look.wake;
+    if (look.wake) this.wake.show(phase, look.floor);
   }
 
   tint(ink) {
     for (const wing of Object.values(this.strips)) wing.edges.material.color.set(ink);
     this.trails.tint(ink);
+    this.wake.tint(themeOf(ink));
   }
 
   // What is drawn of one wing's strips, in the world of its data: corners and normals of every strip.

@@ -14,6 +14,7 @@ export class Flight {
     this.phase = this.arrays.phase;
     this.samples = this.phase.length;
     this.last = this.phase[this.samples - 1];
+    this.advance = this.arrays.x[this.samples - 1] - this.arrays.x[0]; // m, from the start to the end
   }
 
   // Where a phase lies: the sample before it, and the share of the way to the next.

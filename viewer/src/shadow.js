@@ -39,9 +39,8 @@ export class Shadow {
     this.stale = true;
   }
 
-  // `dark`: whether the page is.
-  tint(dark) {
-    this.ground.material.opacity = dark ? 0.6 : 0.26;
+  tint(theme) {
+    this.ground.material.opacity = theme === "dark" ? 0.6 : 0.26;
   }
 
   // Draw the picture of the shadow where something moved since the last one.

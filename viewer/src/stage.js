@@ -3,12 +3,14 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Animal } from "./animal.js";
-import { round } from "./colours.js";
+import { themeOf } from "./colours.js";
+import { Ground } from "./ground.js";
+import { pixelsPerMetre } from "./scale_bar.js";
 import { Shadow } from "./shadow.js";
 
 // From where each camera looks, in semi-spans: ahead, to the left, above.
 export const CAMERAS = {
-  oblique: [2.3, 2.5, 1.1],
+  oblique: [2.3, 2.5, 0.8],
   side: [0, -4, 0],
   front: [4, 0, 0],
   top: [-0.001, 0, 4.2],
@@ -30,6 +32,8 @@ export class Stage {
     sun.position.set(0.9, 1.4, 4);
     this.scene.add(this.sky, sun);
     this.shadow = new Shadow(this.scene);
+    this.ground = new Ground();
+    this.scene.add(this.ground.group);
     this.animals = [];
     this.body = new THREE.Vector3();
     this.follows = false;
@@ -47,7 +51,7 @@ export class Stage {
     const span = Math.max(...flights.map((flight) => flight.semi_span));
     const changed = span !== this.span;
     this.span = span;
-    this.makeGround();
+    this.ground.fit(span);
     if (this.ink) this.tint(this.ink);
     if (changed && this.view) this.setCamera(this.view);
   }
@@ -70,28 +74,19 @@ export class Stage {
     this.setCamera(this.view);
   }
 
-  makeGround() {
-    if (this.ground) {
-      this.scene.remove(this.ground);
-      this.ground.dispose();
-    }
-    this.cell = round(0.3 * this.span);
-    const cells = 2 * Math.ceil((5 * this.span) / this.cell);
-    this.ground = new THREE.GridHelper(cells * this.cell, cells).rotateX(Math.PI / 2);
-    this.ground.material.transparent = true;
-    this.ground.material.vertexColors = false;
-    this.scene.add(this.ground);
-  }
-
   show(phase, look) {
+    // The wake ends at the ground.
+    const floor = look.ground ? [this.ground.height, 0.5 * this.span] : undefined;
     for (const animal of this.animals) {
-      animal.show(phase, { ...look, offset: this.offsets?.get(animal) ?? 0 });
+      animal.show(phase, { ...look, floor, offset: this.offsets?.get(animal) ?? 0 });
     }
     const flight = this.animals[0].flight;
     const place = flight.locate(phase);
     const [x, z] = flight.pivot(phase, place);
-    // The ground goes by; height is taken off, so that it stays in the picture in a climb.
-    this.ground.position.set(-(x - this.cell * Math.floor(x / this.cell)), 0, -1.15 * this.span);
+    // The ground passes; height is taken off, so that it stays in the picture in a climb.
+    this.ground.group.visible = look.ground;
+    const way = look.still ? 0 : flight.advance;
+    this.ground.show(look.still ? 0 : x + look.laps * way, (look.passing * way) / flight.last);
     const body = new THREE.Vector3(flight.number("x", place) - x, 0, flight.number("z", place) - z);
     if (this.follows) {
       const moved = body.clone().sub(this.body);
@@ -101,7 +96,8 @@ export class Stage {
     }
     this.body.copy(body);
     const width = this.offsets ? 2 * Math.max(...this.offsets.values()) : 0;
-    this.shadow.place(body, -1.15 * this.span, this.span, width);
+    this.shadow.place(body, this.ground.height, this.span, width);
+    this.shadow.ground.visible = look.ground;
     this.draw();
   }
 
@@ -119,11 +115,10 @@ export class Stage {
   tint(ink) {
     this.ink = ink;
     for (const animal of this.animals) animal.tint(ink);
-    this.ground.material.color.set(ink);
-    this.ground.material.opacity = 0.16;
-    const dark = new THREE.Color(ink).getHSL({}).l > 0.5;
-    this.sky.intensity = dark ? 2.4 : 1.7; // else a bat cannot be told from the night behind it
-    this.shadow.tint(dark);
+    const theme = themeOf(ink);
+    this.ground.tint(theme);
+    this.shadow.tint(theme);
+    this.sky.intensity = theme === "dark" ? 2.4 : 1.7; // else a bat cannot be told from the night behind it
     this.draw();
   }
 
@@ -143,7 +138,13 @@ export class Stage {
       this.due = undefined;
       this.shadow.draw(this.renderer);
       this.renderer.render(this.scene, this.camera);
+      this.onDraw?.();
     });
+  }
+
+  // Pixels of the page for one metre at the animal.
+  get perMetre() {
+    return pixelsPerMetre(this.camera, this.controls.target, this.renderer.domElement.clientHeight);
   }
 
   dispose() {

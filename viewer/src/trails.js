@@ -1,51 +1,55 @@
-// Paths of the body and of both wing tips through the last beat, in the world.
+// Paths of the body and of both wing tips through the last beat, in the world: ribbons that fade with age. Their
+// colour is the force on the outer strips of the wing, over the largest of the flights shown.
 
 import * as THREE from "three";
+import { sequential } from "./colours.js";
+import { body, outerForce, samples, tip } from "./paths.js";
+import { Ribbon } from "./ribbon.js";
 
 const BEATS = 1;
 
 export class Trails {
   constructor(flight, opacity) {
-    this.flight = flight;
-    const { x, z, corners } = flight.arrays;
-    const step = flight.strips * 12;
-    const tip = step - 12;
-    const paths = [[], [], []];
-    const before = flight.periodic ? 1 : 0;
-    const end = flight.samples - 1;
-    for (let beat = -before; beat <= 0; beat++) {
-      for (let k = 0; k < flight.samples; k++) {
-        const [px, pz] = [x[k] + beat * (x[end] - x[0]), z[k] + beat * (z[end] - z[0])];
-        // The quarter chord at the tip: from leading-outer to trailing-outer.
-        const at = [0, 1, 2].map((i) => {
-          const [lead, trail] = [corners[k * step + tip + 3 + i], corners[k * step + tip + 6 + i]];
-          return lead + 0.25 * (trail - lead);
-        });
-        paths[0].push(px, 0, pz);
-        paths[1].push(px + at[0], at[1], pz + at[2]);
-        paths[2].push(px + at[0], -at[1], pz + at[2]);
-      }
-    }
+    const along = samples(flight, 1);
+    const shed = along.map(({ k, shift }) => flight.phase[k] + shift.phase);
+    this.force = outerForce(flight);
+    this.along = along;
+    const common = { shed, life: BEATS, soft: 0.35 };
+    const wings = [1, -1].map((side) => {
+      const points = along.flatMap((sample) => tip(flight, sample, side));
+      const shades = new Array(points.length).fill(0);
+      return new Ribbon({ ...common, points, shades, width: 0.07 * flight.semi_span, spread: 0.3, opacity: 0.95 * opacity });
+    });
+    const points = along.flatMap((sample) => body(flight, sample));
+    const path = new Ribbon({ ...common, points, width: 0.016 * flight.semi_span, spread: 1, opacity: 0.5 * opacity });
+    [this.left, this.right, this.body] = [...wings, path];
     this.group = new THREE.Group();
-    for (const path of paths) {
-      const geometry = new THREE.BufferGeometry();
-      geometry.setAttribute("position", new THREE.Float32BufferAttribute(path, 3));
-      const line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ transparent: true, opacity: 0.55 * opacity }));
-      line.frustumCulled = false;
-      this.group.add(line);
+    for (const ribbon of this.ribbons) this.group.add(ribbon.mesh);
+  }
+
+  get ribbons() {
+    return [this.left, this.right, this.body];
+  }
+
+  // Colour the tips' ribbons: `most` is the force at the end of the scale [N].
+  scale(most) {
+    this.most = most;
+    for (const ribbon of [this.left, this.right]) {
+      const shade = ribbon.mesh.geometry.getAttribute("shade");
+      this.along.forEach(({ k }, nth) => {
+        const colour = sequential(most > 0 ? this.force[k] / most : 0);
+        for (const vertex of [2 * nth, 2 * nth + 1]) shade.setXYZ(vertex, ...colour);
+      });
+      shade.needsUpdate = true;
     }
   }
 
-  show(phase, place) {
-    const { flight } = this;
-    const first = flight.periodic ? flight.samples : 0;
-    const until = first + place.low + 1;
-    const back = flight.locate(Math.max(phase - BEATS, 0)).low;
-    const from = flight.periodic ? place.low + 1 : back;
-    for (const line of this.group.children) line.geometry.setDrawRange(from, Math.max(until - from, 0));
+  show(phase, most) {
+    if (most !== this.most) this.scale(most);
+    for (const ribbon of this.ribbons) ribbon.show(phase);
   }
 
   tint(ink) {
-    for (const line of this.group.children) line.material.color.set(ink);
+    this.body.tint(ink);
   }
 }

@@ -3,6 +3,7 @@
 import { ARROWS, gradient, round, written } from "./colours.js";
 import { make } from "./elements.js";
 import { Flight } from "./flight.js";
+import { Measures } from "./measures.js";
 import { Plots } from "./plots.js";
 import { Pushes } from "./pushes.js";
 import { CAMERAS, Stage } from "./stage.js";
@@ -18,13 +19,17 @@ const TINTS = {
   alpha: { label: "effective angle of attack", unit: "deg", scale: 180 / Math.PI, most: Math.PI / 3 },
   strip_lift: { label: "lift of a strip", unit: "N", scale: 1, most: Infinity },
 };
+const AIR = { trails: "trails", ground: "ground", wake: "wake (a sketch, not computed)" };
 const NAMES = { lift: "lift", drag: "drag", force: "resultant" };
 let made = 0;
 
 export class Viewer {
   constructor(element, scene, { theme = "system", playing = true } = {}) {
     this.id = `wb${++made}`;
-    this.look = { strips: false, colour: "alpha", arrows: new Set(["force"]), trails: true };
+    this.look = { strips: false, colour: "alpha", arrows: new Set(["force"]) };
+    Object.assign(this.look, { trails: true, ground: true, wake: false, laps: 0 });
+    this.calm = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.look.still = this.calm; // the ground does not pass where less motion is asked for
     this.rate = 0.1;
     this.ghost = true;
     this.phase = 0;
@@ -43,7 +48,6 @@ export class Viewer {
     this.replace(scene);
     this.watcher = new ResizeObserver(() => this.resize());
     this.watcher.observe(this.picture);
-    this.calm = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
     if (playing && !this.calm) this.play();
   }
 
@@ -78,10 +82,14 @@ export class Viewer {
         this.set(this.phase);
       }),
     );
-    const trails = this.toggle("trails", true, null, (on) => {
-      this.look.trails = on;
-      this.set(this.phase);
-    });
+    const [trails, ground, wake] = Object.entries(AIR).map(([name, label]) =>
+      this.toggle(label, this.look[name], null, (on) => {
+        this.look[name] = on;
+        this.measure();
+        this.set(this.phase);
+      }),
+    );
+    this.wakeToggle = wake;
     this.pairing = this.choice("Two flights", [["ghost", "second as ghost"], ["beside", "side by side"]], "ghost", (value) => {
       this.ghost = value === "ghost";
       this.arrange();
@@ -91,7 +99,10 @@ export class Viewer {
     );
     this.heading = make("div", { class: "wb-heading" });
     this.legend = make("div", { class: "wb-scale" });
-    this.picture = make("div", { class: "wb-picture" }, this.canvas, this.heading, this.legend);
+    this.measures = new Measures();
+    this.picture = make("div", { class: "wb-picture" }, this.canvas, this.heading);
+    const foot = make("div", { class: "wb-foot" }, this.legend, this.measures.element);
+    const frame = make("div", { class: "wb-frame" }, this.picture, foot);
     this.side = make("div", { class: "wb-side" });
     const tint = this.choice("Strips", tints, "off", (value) => {
       this.look.strips = value !== "off";
@@ -101,15 +112,16 @@ export class Viewer {
     });
     this.pushes = new Pushes(this.id, (scene, once) => this.demonstrate(scene, once));
     const cameras = make("div", { class: "wb-group", role: "group", "aria-label": "Camera" }, ...this.cameras);
+    const air = make("fieldset", { class: "wb-group" }, make("legend", {}, "Air"), trails, ground, wake);
     const forces = make("fieldset", { class: "wb-group" }, make("legend", {}, "Forces"), ...toggles);
     this.root.append(
       make(
         "div",
         { class: "wb-stage" },
         make("div", { class: "wb-bar" }, cameras),
-        this.picture,
+        frame,
         make("div", { class: "wb-bar wb-player" }, this.playButton, this.scrubber, this.readout, this.rates),
-        make("div", { class: "wb-bar" }, tint, forces, trails, this.pairing, this.theme),
+        make("div", { class: "wb-bar" }, tint, forces, air, this.pairing, this.theme),
         this.pushes.element,
       ),
       this.side,
@@ -165,7 +177,12 @@ export class Viewer {
     this.scrubber.max = this.last;
     if (this.stage) this.stage.setFlights(this.flights);
     else this.stage = new Stage(this.canvas, this.flights);
+    this.stage.onDraw = () => this.measures.follow(this.stage, this.look, this.flights[0]);
     this.pairing.hidden = this.flights.length < 2;
+    this.wakeToggle.hidden = !this.flights.some((flight) => flight.wake);
+    if (this.wakeToggle.hidden) this.look.wake = this.wakeToggle.querySelector("input").checked = false;
+    this.look.laps = 0;
+    this.look.tipForce = Measures.tipForce(this.flights);
     this.plots = new Plots(scene.panels, this.flights, this.last, (phase) => {
       this.pause();
       this.set(phase);
@@ -178,6 +195,7 @@ export class Viewer {
     this.look.scale = force > 0 ? (0.55 * this.stage.span) / force : 0;
     this.look.thickness = 0.009 * this.stage.span;
     this.scaleTint();
+    this.measure();
     this.tint();
     this.arrange();
     this.setCamera(this.stage.view);
@@ -202,9 +220,12 @@ export class Viewer {
     const schematic = this.flights.some((flight) => flight.shape.schematic);
     this.legend.replaceChildren(
       ...(this.look.strips ? scaleBar : []),
-      make("div", {}, `squares of ${written(this.stage.cell)} m`),
       ...(schematic ? [make("div", {}, "shape of the animal: schematic")] : []),
     );
+  }
+
+  measure() {
+    this.measures.show(this.look, this.flights[0], this.stage.ground.cell);
   }
 
   setCamera(name) {
@@ -232,7 +253,9 @@ export class Viewer {
     return this.clock !== undefined;
   }
 
-  set(phase) {
+  // `passing`: beats from one picture to the next while it plays.
+  set(phase, passing = 0) {
+    this.look.passing = passing;
     this.phase = Math.min(Math.max(phase, 0), this.last);
     this.frame += 1;
     this.stage.show(this.phase, this.look);
@@ -256,7 +279,8 @@ export class Viewer {
       const beats = (now - before) * 0.001 * this.rate * this.flights[0].frequency;
       before = now;
       const next = this.phase + Math.max(beats, 0);
-      this.set(this.once ? next : next % this.last);
+      if (!this.once) this.look.laps += Math.floor(next / this.last);
+      this.set(this.once ? next : next % this.last, beats);
       if (this.once && this.phase >= this.last) return this.pause();
       this.clock = requestAnimationFrame(tick);
     };
@@ -268,6 +292,7 @@ export class Viewer {
   pause() {
     cancelAnimationFrame(this.clock);
     this.clock = undefined;
+    if (this.look.passing) this.set(this.phase); // the ground is sharp again
     this.playButton.textContent = "▶";
     this.playButton.setAttribute("aria-label", "Play (space)");
   }

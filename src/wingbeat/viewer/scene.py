@@ -16,6 +16,7 @@ from wingbeat.vehicle import Body, Tail
 from wingbeat.viewer.look import look_of
 from wingbeat.viewer.pushes import Push
 from wingbeat.viewer.shape import body_axes, tail_corners
+from wingbeat.viewer.wake import wake_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -123,7 +124,9 @@ def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:
         "summary": _summary(dataset, beat["frequency"]),
         "strips": dataset.sizes["station"],
         "semi_span": wing["semi_span"],
+        "wake": wake_of(dataset),
         "frequency": beat["frequency"],
+        "weight": weight,
         "periodic": dataset.attrs[KIND] == "orbit" and dataset.attrs["status"] == "converged",
         "body_axes": body_axes(Body(**body)),
         "shape": look_of(dataset),

@@ -170,7 +170,7 @@ export class Viewer {
     this.last = Math.min(...this.flights.map((flight) => flight.last));
     this.scrubber.max = this.last;
     if (this.stage) this.stage.setFlights(this.flights);
-    else this.stage = new Stage(this.canvas, this.flights);
+    else this.makeStage();
     this.pairing.hidden = this.flights.length < 2;
     const kept = JSON.stringify(scene.panels) === this.panels ? this.plots.choices : [];
     this.panels = JSON.stringify(scene.panels);
@@ -191,6 +191,11 @@ export class Viewer {
     this.arrange();
     this.setCamera(this.stage.view);
     this.set(Math.min(this.phase, this.last));
+  }
+
+  makeStage() {
+    this.stage = new Stage(this.canvas, this.flights);
+    this.stage.controls.addEventListener("start", () => (this.eye = undefined));
   }
 
   arrange() {
@@ -224,7 +229,6 @@ export class Viewer {
     const { camera, controls, span } = this.stage;
     camera.position.set(...eye).multiplyScalar(span).add(controls.target);
     controls.update();
-    controls.addEventListener("start", () => (this.eye = undefined));
   }
 
   setTheme(theme) {

@@ -22,7 +22,8 @@ const NAMES = { lift: "lift", drag: "drag", force: "resultant" };
 let made = 0;
 
 export class Viewer {
-  constructor(element, scene, { theme = "system", playing = true } = {}) {
+  // With `compact` all but picture and player is folded; the page that holds the viewer sets its theme.
+  constructor(element, scene, { theme = "system", playing = true, compact = false } = {}) {
     this.id = `wb${++made}`;
     this.look = { colour: "alpha", arrows: new Set(["force"]), trails: true };
     this.rate = 0.1;
@@ -34,6 +35,7 @@ export class Viewer {
     this.root.viewer = this;
     this.canvas = make("canvas", { class: "wb-canvas", role: "img" });
     this.build();
+    if (compact) this.fold();
     element.append(this.root);
     this.root.addEventListener("keydown", (event) => this.key(event));
     this.setTheme(theme);
@@ -113,6 +115,14 @@ export class Viewer {
       ),
       this.side,
     );
+  }
+
+  fold() {
+    const bars = this.root.querySelectorAll(".wb-bar:not(.wb-player)");
+    const folded = make("details", { class: "wb-folded" }, make("summary", {}, "Views, forces and plots"), ...bars, this.side);
+    this.theme.remove();
+    this.root.dataset.compact = "";
+    this.root.append(folded);
   }
 
   choice(label, options, chosen, act) {
@@ -204,6 +214,14 @@ export class Viewer {
   setCamera(name) {
     this.stage.setCamera(name);
     for (const button of this.cameras) button.setAttribute("aria-pressed", String(button.textContent === name));
+  }
+
+  // Choose the rate at which a beat takes nearest to so many seconds.
+  setBeat(seconds) {
+    const away = ([rate]) => Math.abs(Math.log(seconds * rate * this.flights[0].frequency));
+    const [rate] = RATES.reduce((best, each) => (away(each) < away(best) ? each : best));
+    this.rate = rate;
+    this.rates.querySelector("select").value = rate;
   }
 
   setTheme(theme) {

@@ -13,6 +13,6 @@ globalThis.wingbeatExplorer = {
   // Build a viewer alone.
   mount: (element, scene, options = {}) => new Viewer(element, scene, options),
   // The static explorer: `open` is called by the catalogue of a folder, `hold` by each of its data files.
-  open: (element, catalogue) => (folder = new Folder(element, catalogue)),
+  open: (catalogue) => (folder = new Folder(document.querySelector("main"), catalogue)),
   hold: (animal, model, lattice) => folder.hold(animal, model, lattice),
 };

@@ -121,6 +121,7 @@ export class Viewer {
     const bars = this.root.querySelectorAll(".wb-bar:not(.wb-player)");
     const folded = make("details", { class: "wb-folded" }, make("summary", {}, "Views, forces and plots"), ...bars, this.side);
     this.theme.remove();
+    this.rates.querySelector("label").textContent = "Playback"; // the page's speed is that of the flight
     this.root.dataset.compact = "";
     this.root.append(folded);
   }

@@ -95,7 +95,9 @@ def sentence_of(record: dict[str, Any], title: str) -> str:
 
 
 def lights_of(record: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return the two lights: whether the flight closes, and whether an animal could fly it.
+    """Return the two lights: whether the flight closes, and whether its numbers are those of flying animals.
+
+    Each has name, good, known and text. What is not known is not good either, but no fault.
 
     Parameters
     ----------
@@ -104,13 +106,14 @@ def lights_of(record: dict[str, Any]) -> list[dict[str, Any]]:
     said = statements(record)
     certified = record["status"] == "converged"
     closes = f"flown again, it {said.closes}" if certified else f"{said.closes}. {record['message']}"
-    plausible = said.plausible.removeprefix("plausible: ")
+    # The statement is "plausible: yes", "plausible: no: frequency 12 above 10 Hz; ..." or "plausible: unknown: ...".
+    verdict, why = (*re.split("[:;] ", said.plausible.removeprefix("plausible: "), maxsplit=1), "")[:2]
+    words = f"every number is inside its plausible range{f'; {why}' if why else ''}" if verdict == "yes" else why
     if not certified:
-        plausible = "not judged: there is no certified wingbeat"
-    good = certified and plausible.startswith("yes")
+        verdict, words = "unknown", "there is no certified wingbeat to judge"
     return [
-        {"name": "closes", "good": certified, "text": _sentence(closes)},
-        {"name": "plausible", "good": good, "text": _sentence(plausible)},
+        {"name": "closes", "good": certified, "known": True, "text": _sentence(closes)},
+        {"name": "plausible", "good": verdict == "yes", "known": verdict != "unknown", "text": _sentence(words)},
     ]
 
 

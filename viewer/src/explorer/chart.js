@@ -76,8 +76,10 @@ export function measured(one, { x, y, height, width }, name, tell) {
   };
   const top = high ?? MARGIN.top;
   const bottom = low ?? height - MARGIN.bottom;
-  const across = Math.max(fast - slow, 7);
+  // Even one value is large enough to point at.
+  const across = Math.max(fast - slow, 10);
+  const tall = Math.max(bottom - top, 10);
   const left = Math.min((slow + fast - across) / 2, width - MARGIN.right - across);
-  const body = { x: left, y: top - 1, width: across, height: Math.max(bottom - top, 0) + 2, rx: 3 };
+  const body = { x: left, y: (top + bottom - tall) / 2, width: across, height: tall, rx: 3 };
   return draw("g", attributes, draw("rect", body));
 }

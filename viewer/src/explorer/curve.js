@@ -25,7 +25,7 @@ export class Curve {
     );
     const choice = make("div", { class: "wbx-pair", role: "group", "aria-label": "Curve shown" }, ...this.buttons);
     this.note = make("p", { class: "wbx-note" });
-    const head = make("div", { class: "wbx-row" }, make("h2", {}, "Drag the point to change the speed"), choice);
+    const head = make("div", { class: "wbx-row" }, make("h2", {}, "Drag the point to fly faster or slower"), choice);
     this.element = make("div", { class: "wbx-curve-box" }, head, this.svg, this.note);
     this.buildHandle();
     this.svg.addEventListener("pointerdown", (event) => this.take(event));
@@ -100,8 +100,10 @@ export class Curve {
     const { name } = this.quantity;
     const speeds = [...points.map((point) => point.speed), ...(this.data.range ?? [])];
     const [first, last] = speeds.length ? [Math.min(...speeds), Math.max(...speeds)] : [0, 20];
+    // Measured speeds are in the picture too, even where the point cannot go.
+    const all = [first, last, ...measured.flatMap(({ speed }) => ends(speed))];
     const room = Math.max(0.04 * (last - first), 0.2);
-    const [low, high] = [Math.max(first - room, 0), last + room];
+    const [low, high] = [Math.max(Math.min(...all) - room, 0), Math.max(...all) + room];
     const values = points.filter((point) => point.certified).map((point) => point[name]);
     const tops = measured.filter((one) => one[name] !== undefined).map((one) => ends(one[name])[1]);
     const top = 1.12 * Math.max(...values, ...tops, 1e-9);

@@ -36,12 +36,12 @@ export class Face {
     this.numbers = make("tbody");
     const table = make("table", {}, this.numbers);
     const folded = make("details", { class: "wbx-more" }, make("summary", {}, "More numbers"), table);
-    const side = [make("h2", {}, "Could an animal fly so?"), this.gauges.element, this.pins.element, folded];
-    const head = make("div", { class: "wbx-say" }, this.choices, this.verdict.sentence);
+    const judged = [make("h2", {}, "Could an animal fly so?"), this.gauges.element, this.pins.element, folded];
     this.root.append(
-      make("header", { class: "wbx-head" }, head, this.verdict.element, this.verdict.spoken),
+      make("header", { class: "wbx-say" }, this.choices, this.verdict.sentence, this.verdict.spoken),
+      // Beside the picture, or on a narrow page the verdict before it and the gauges after it.
+      make("div", { class: "wbx-side" }, this.verdict.element, make("div", { class: "wbx-judged" }, ...judged)),
       make("div", { class: "wbx-stage" }, this.picture, this.state, this.curve.element),
-      make("div", { class: "wbx-side" }, ...side),
     );
   }
 
@@ -106,14 +106,26 @@ export class Face {
     this.fly(this.pins.scene(answer), answer.species);
   }
 
+  // `whose`: the species.
   fly(scene, whose) {
-    if (this.viewer) {
-      this.viewer.ghost = this.pins.ghost;
-      this.viewer.replace(scene);
-    } else this.viewer = new Viewer(this.picture, scene, { theme: this.theme, compact: true });
+    const count = scene.flights.length;
+    if (this.viewer) this.replace(scene, whose === this.whose && count === this.count);
+    else this.viewer = new Viewer(this.picture, scene, { theme: this.theme, compact: true });
     // A beat takes about a second; of one animal the rate stays, so that one sees it beat faster or slower.
     if (whose !== this.whose) this.viewer.setBeat(1);
-    this.whose = whose;
+    [this.whose, this.count] = [whose, count];
+  }
+
+  // Show another scene; of the same animal the view stays as the reader turned it.
+  replace(scene, still) {
+    const { camera, controls } = this.viewer.stage;
+    const [eye, target] = [camera.position.clone(), controls.target.clone()];
+    this.viewer.ghost = this.pins.ghost;
+    this.viewer.replace(scene);
+    if (!still) return;
+    camera.position.copy(eye);
+    controls.target.copy(target);
+    controls.update();
   }
 
   destroy() {

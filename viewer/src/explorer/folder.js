@@ -8,9 +8,9 @@ export class Folder {
   constructor(element, catalogue) {
     this.catalogue = catalogue;
     this.lattices = new Map();
-    this.asked = { ...catalogue.start, ...this.fragment() };
+    const given = this.fragment();
+    this.asked = { ...catalogue.start, ...(given.animal ? { speed: undefined } : {}), ...given };
     this.face = new Face(element, {});
-    this.face.setChoices(catalogue, this.asked);
     this.face.onask = (asked) => this.ask(asked);
     this.ask(this.asked);
   }
@@ -25,8 +25,24 @@ export class Folder {
     return found;
   }
 
+  // The models with which an animal was computed.
+  models(animal) {
+    return this.catalogue.models.filter(({ name }) => this.catalogue.files.includes(`${animal}-${name}.js`));
+  }
+
   ask(asked) {
-    this.asked = asked;
+    const models = this.models(asked.animal);
+    const model = models.some(({ name }) => name === asked.model) ? asked.model : models[0].name;
+    // Another animal begins at a speed of its own; another model of the same animal keeps the speed.
+    const speed = asked.animal === this.asked.animal ? asked.speed : undefined;
+    this.asked = { ...asked, model, speed };
+    if (this.listed !== asked.animal) this.face.setChoices({ animals: this.catalogue.animals, models }, this.asked);
+    this.listed = asked.animal;
+    this.load();
+  }
+
+  load() {
+    const { asked } = this;
     const key = `${asked.animal}/${asked.model}`;
     if (this.lattices.has(key)) return this.show(this.lattices.get(key));
     this.face.say("Loading …");
@@ -46,8 +62,9 @@ export class Folder {
     const answer = lattice.answers.reduce((best, each) => (away(each) < away(best) ? each : best));
     if (this.shown !== lattice) this.face.showCurve(lattice.curve);
     this.shown = lattice;
-    this.face.showAnswer(answer);
     const { animal, model } = this.asked;
+    this.asked.speed = answer.speed;
+    this.face.showAnswer(answer);
     history.replaceState(null, "", `#${new URLSearchParams({ animal, model, speed: answer.speed })}`);
   }
 }

@@ -44,7 +44,7 @@ export class Pins {
   scene(answer) {
     if (!this.answer) return answer.scene;
     const [now, before] = [answer, this.answer].map((each) => ({ ...each.scene.flights[0], label: title(each) }));
-    return { flights: [now, before], panels: answer.scene.panels };
+    return { ...answer.scene, flights: [now, before] };
   }
 }
 

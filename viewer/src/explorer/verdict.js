@@ -3,7 +3,7 @@
 import { make } from "../elements.js";
 
 const NAMES = { closes: ["Closes", "Does not close"], plausible: ["Plausible", "Not plausible"] };
-const NUMBERS = /(\d[\d.,]*(?:e[+-]?\d+)?(?: m\/s| W| times a second)?)/;
+const NUMBERS = /(\d[\d.,]*(?:e[+-]?\d+)?(?: m\/s| W| times a second| times)?)/;
 
 export class Verdict {
   constructor() {
@@ -22,7 +22,7 @@ export class Verdict {
     const parts = answer.sentence.split(NUMBERS);
     this.sentence.replaceChildren(...parts.map((part, nth) => (nth % 2 ? make("b", {}, part) : part)));
     this.speak(answer.sentence);
-    this.lights.replaceChildren(...answer.lights.map((light) => this.light(light, answer.status === "converged")));
+    this.lights.replaceChildren(...answer.lights.map((light) => this.light(light)));
     const { warnings } = answer;
     this.warnings.classList.toggle("wbx-narrow", !warnings.length);
     const count = warnings.length === 1 ? "1 warning" : `${warnings.length} warnings`;
@@ -39,9 +39,9 @@ export class Verdict {
   }
 
   // Sign, word and colour say the same.
-  light({ name, good, text }, certified) {
-    const state = good ? "good" : name === "plausible" && !certified ? "open" : "bad";
-    const word = state === "open" ? "Not judged" : NAMES[name][good ? 0 : 1];
+  light({ name, good, known, text }) {
+    const state = good ? "good" : known === false ? "open" : "bad";
+    const word = state === "open" ? "Plausible? Not known" : NAMES[name][good ? 0 : 1];
     const sign = make("span", { class: "wbx-sign", "aria-hidden": "true" }, { good: "✓", bad: "!", open: "?" }[state]);
     const words = make("span", {}, make("strong", {}, word), " ", make("span", { class: "wbx-why" }, text));
     return make("li", { class: `wbx-light wbx-${state}`, "data-light": name }, sign, words);

@@ -10,7 +10,7 @@ export class Verdict {
     this.sentence = make("h1", { class: "wbx-sentence" });
     this.lights = make("ul", { class: "wbx-lights", "aria-label": "Verdict" });
     this.summary = make("summary");
-    this.list = make("ul");
+    this.list = make("ul", { tabindex: "0", "aria-label": "Warnings" });
     this.warnings = make("details", { class: "wbx-warnings" }, this.summary, this.list);
     this.warnings.open = window.matchMedia("(min-width: 900px)").matches;
     this.element = make("div", { class: "wbx-verdict" }, this.lights, this.warnings);

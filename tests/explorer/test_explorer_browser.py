@@ -69,7 +69,7 @@ def test_the_keyboard_moves_the_point(show, answers):
 def test_another_animal_is_loaded_and_its_link_opens_it(show, answers):
     page = show().page
     page.get_by_label("Animal").select_option("bat")
-    page.wait_for_function("document.querySelector('.wbx h1').textContent.includes('bat')")
+    page.locator(".wbx h1", has_text="bat").wait_for()
     assert sentence(page) in [answer["sentence"] for answer in answers["bat"]]
     page = show(fragment="#animal=bat&model=paper&speed=7.9").page
     assert sentence(page) == answers["bat"][1]["sentence"]

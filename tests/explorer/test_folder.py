@@ -11,6 +11,7 @@ import wingbeat as wb
 from wingbeat.cli.app import main
 from wingbeat.errors import InvalidInputError
 from wingbeat.explorer import default_speeds, measured_points, write_explorer
+from wingbeat.explorer.lattice import SPEEDS
 from wingbeat.explorer.thinning import thinned, unpacked
 
 
@@ -29,9 +30,9 @@ def test_the_folder_holds_all_it_needs_and_names_no_other_host(folder):
 
 
 def test_all_animals_by_both_models_fit_into_15_megabytes(folder):
-    """Nineteen flyers, two models, ten speeds; a flight of each lattice here takes the same room."""
+    """All flyers, two models, nine speeds; a flight of each lattice here takes the same room."""
     each = max(path.stat().st_size / len(lattice_in(path)[2]["answers"]) for path in (folder / "data").iterdir())
-    assert len(wb.species_names()) * 2 * 10 * each + (folder / "explorer.js").stat().st_size < 15e6
+    assert len(wb.species_names()) * 2 * SPEEDS * each + (folder / "explorer.js").stat().st_size < 15e6
 
 
 def test_a_data_file_holds_the_answers_and_the_curve(folder, answers):
@@ -71,7 +72,7 @@ def test_measured_points_are_those_of_the_package():
 def test_default_speeds_begin_in_hover_for_light_flyers_only():
     for name in wb.species_names():
         speeds = default_speeds(wb.load_species(name))
-        assert len(speeds) == 10
+        assert len(speeds) == SPEEDS
         assert (speeds[0] == 0.0) == (wb.load_species(name).vehicle.mass < 0.02)
         assert all(low < high for low, high in itertools.pairwise(speeds))
 

@@ -34,7 +34,7 @@ def explore(
         Parameter(
             consume_multiple=True,
             negative=(),
-            help="Speeds [m/s]: numbers, or start:stop:step; default: ten that suit the mass of each animal.",
+            help="Speeds [m/s]: numbers, or start:stop:step; default: nine that suit the mass of each animal.",
         ),
     ] = None,
     starts: Annotated[Whole | None, Parameter(help="Number of starts at each speed; default: as `orbit`.")] = None,

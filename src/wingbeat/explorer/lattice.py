@@ -17,7 +17,7 @@ from wingbeat.results.solving import solve_orbits
 from wingbeat.species import Species
 from wingbeat.species.scaling import CRUISE_BY_MASS
 
-SPEEDS = 10
+SPEEDS = 9
 # What speeds to show, as shares of the cruise of a bird of the same mass. Robots fly slower.
 _SHARES = {"robot": (0.25, 0.85)}
 _OTHERS = (0.35, 1.5)
@@ -54,8 +54,8 @@ def solve_lattice(
     """Find the wingbeats of an animal at several speeds, and return what the static explorer shows of them.
 
     The result is fit for JSON. It has species, title, model, the speed to begin with, the curve (points and what
-    was measured on animals) and the answers, one for each speed, from `face_of`. Speeds are solved as a series, so
-    that neighbours help each other.
+    was measured on animals), the sources of the plausible ranges and the answers, one for each speed, from
+    `face_of`. Speeds are solved as a series, so that neighbours help each other.
 
     Parameters
     ----------
@@ -91,14 +91,26 @@ def lattice_of(species: Species, model: str, orbits: Sequence[Orbit]) -> dict[st
     """
     answers = [face_of(orbit, model) for orbit in orbits]
     points = [point_of(answer) for answer in answers]
+    # The source of a range is long, and most often the same at all speeds.
+    sources = {gauge["name"]: gauge["source"] for gauge in answers[0]["gauges"]}
     return {
         "species": species.name,
         "title": species.common_name or species.name,
         "model": model,
         "speed": _first(points),
         "curve": {"points": points, "measured": measured_points(species)},
-        "answers": [answer | {"scene": thinned(answer["scene"])} for answer in answers],
+        "sources": sources,
+        "answers": [_small(answer, sources) for answer in answers],
     }
+
+
+def _small(answer: dict[str, Any], sources: dict[str, str]) -> dict[str, Any]:
+    """Return an answer with a thinned scene, and without the sources that all speeds share."""
+    gauges = [
+        {name: part for name, part in gauge.items() if name != "source" or part != sources[gauge["name"]]}
+        for gauge in answer["gauges"]
+    ]
+    return answer | {"gauges": gauges, "scene": thinned(answer["scene"])}
 
 
 def point_of(answer: dict[str, Any]) -> dict[str, Any]:

@@ -52,6 +52,7 @@ export class Folder {
   }
 
   hold(animal, model, lattice) {
+    for (const { gauges } of lattice.answers) for (const gauge of gauges) gauge.source ??= lattice.sources[gauge.name];
     this.lattices.set(`${animal}/${model}`, lattice);
     if (this.asked.animal === animal && this.asked.model === model) this.show(lattice);
   }

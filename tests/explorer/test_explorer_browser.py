@@ -22,7 +22,7 @@ def corners(page):
 
 
 def gauge(page, name):
-    return page.locator(f"[data-gauge={name}] output")
+    return page.locator(f"[data-gauge={name}] .wbx-value")
 
 
 def test_it_flies_at_once_and_asks_no_other_host(show, answers):
@@ -125,6 +125,24 @@ def test_a_gap_shows_no_line_and_no_number(show):
     assert page.locator(".wbx-curve").count() == 1  # from 10 to 12 m/s
     slider = page.get_by_role("slider", name="Speed")
     assert slider.get_attribute("aria-valuetext") == "8 m/s: no certified wingbeat"
+
+
+def test_an_uncertified_flight_is_told_in_words(show, answers):
+    page = show().page
+    page.evaluate(
+        """([answer, scene]) => {
+            const lights = answer.lights.map((light) => ({ ...light, good: false, known: light.name === "closes" }));
+            const face = document.querySelector(".wbx").face;
+            face.showAnswer({ ...answer, lights, scene, status: "infeasible", sentence: "It has no wingbeat." });
+        }""",
+        [answers["pigeon"][0], None],
+    )
+    assert sentence(page) == "It has no wingbeat."
+    lights = page.locator(".wbx-light strong").all_inner_texts()
+    assert lights == ["Does not close", "Plausible? Not known"]
+    assert page.locator(".wbx-picture").is_hidden()
+    assert "tumbles" in page.locator(".wbx-state").inner_text()
+    assert page.get_by_role("button", name="Pin this flight").is_disabled()
 
 
 def test_on_a_phone_the_animal_is_in_the_first_screen(show):

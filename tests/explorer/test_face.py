@@ -6,6 +6,8 @@ import math
 import pytest
 
 import wingbeat as wb
+from wingbeat.errors import FileError
+from wingbeat.explorer import face
 from wingbeat.explorer.face import lights_of, sentence_of
 from wingbeat.explorer.gauges import gauges_of
 
@@ -91,6 +93,16 @@ def test_what_is_not_known_is_neither_good_nor_a_fault(record):
 )
 def test_who_flies_and_how(record, title, speed, climb, start):
     assert sentence_of(record | {"speed": speed, "climb": climb}, title).startswith(start)
+
+
+def test_a_flight_that_tumbles_at_once_has_words_but_no_picture(orbits, monkeypatch):
+    def refuse(flights):
+        raise FileError("fewer than two samples")
+
+    monkeypatch.setattr(face, "scene", refuse)
+    answer = face.face_of(orbits["pigeon"][0], "paper")
+    assert answer["scene"] is None
+    assert answer["sentence"].startswith("A rock pigeon at 8 m/s")
 
 
 def test_the_face_has_the_record_s_numbers_in_the_units_of_readers(orbits, answers):

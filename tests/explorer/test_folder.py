@@ -90,7 +90,7 @@ def test_the_command_writes_a_folder(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["--models", "bird"], "--models: 'bird'"),
+        (["--models", "bird"], "--models = 'bird'"),
         (["--animals", ","], "names nothing"),
         (["--animals", "pigeo"], "pigeon"),
         (["--speeds", "9:4:1"], "reverse the sign"),

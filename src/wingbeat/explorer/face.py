@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from wingbeat.errors import FileError
 from wingbeat.explorer.gauges import gauges_of
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.results.orbit import Orbit
@@ -29,16 +30,13 @@ def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
 
     The keys are species, title, kind, model, speed and climb [m/s], status, power [W], frequency [Hz], sentence,
     lights, gauges, numbers, warnings and scene. Power is the mean of the positive part at the wing hinges. Gauges
-    and numbers are in the units that readers prefer.
+    and numbers are in the units that readers prefer. The scene is None if the flight tumbles before there is
+    anything to show; a certified flight never does.
 
     Parameters
     ----------
     orbit : certified or not.
     model : name of the model that made the problem, ``"animal"`` or ``"paper"``.
-
-    Raises
-    ------
-    FileError : a flight that tumbles so early that it has fewer than two samples to show.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -62,8 +60,15 @@ def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
         "gauges": gauges_of(record),
         "numbers": numbers_of(record),
         "warnings": [_sentence(text) for text in record["warnings"]],
-        "scene": scene([(title, orbit.dataset)]),
+        "scene": _scene_of(orbit, title),
     }
+
+
+def _scene_of(orbit: Orbit, title: str) -> dict[str, Any] | None:
+    try:
+        return scene([(title, orbit.dataset)])
+    except FileError:  # fewer than two samples before it tumbled
+        return None
 
 
 def sentence_of(record: dict[str, Any], title: str) -> str:

@@ -110,7 +110,8 @@ def _small(answer: dict[str, Any], sources: dict[str, str]) -> dict[str, Any]:
         {name: part for name, part in gauge.items() if name != "source" or part != sources[gauge["name"]]}
         for gauge in answer["gauges"]
     ]
-    return answer | {"gauges": gauges, "scene": thinned(answer["scene"])}
+    scene = answer["scene"]
+    return answer | {"gauges": gauges, "scene": None if scene is None else thinned(scene)}
 
 
 def point_of(answer: dict[str, Any]) -> dict[str, Any]:

@@ -103,7 +103,9 @@ export class Face {
     this.curve.pin(pinned?.status === "converged" ? pinned : undefined);
     this.numbers.replaceChildren(...rows(answer, pinned));
     this.root.dataset.status = answer.status;
-    this.fly(this.pins.scene(answer), answer.species);
+    this.picture.hidden = !answer.scene;
+    if (answer.scene) this.fly(this.pins.scene(answer), answer.species);
+    else this.say("This flight tumbles before there is anything to show.");
   }
 
   // `whose`: the species.

@@ -25,7 +25,8 @@ export class Gauges {
 class Row {
   constructor() {
     this.label = make("span", { class: "wbx-label" });
-    this.value = make("output", { class: "wbx-value" });
+    // No <output>: browsers take a click on it for one on a control, and would not unfold the source.
+    this.value = make("span", { class: "wbx-value" });
     this.word = make("span", { class: "wbx-word" });
     this.band = make("span", { class: "wbx-band" });
     this.mark = make("span", { class: "wbx-mark" });

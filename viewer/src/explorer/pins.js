@@ -19,6 +19,7 @@ export class Pins {
   // The answer on the page, which the button pins.
   now(answer) {
     this.current = answer;
+    this.button.disabled = !answer.scene && !this.answer;
   }
 
   toggle() {

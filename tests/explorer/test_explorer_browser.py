@@ -131,7 +131,7 @@ def test_an_uncertified_flight_is_told_in_words(show, answers):
     page = show().page
     page.evaluate(
         """([answer, scene]) => {
-            const lights = answer.lights.map((light) => ({ ...light, good: false, known: light.name === "closes" }));
+            const lights = answer.lights.map((one) => ({ ...one, good: false, known: one.name === "closes" }));
             const face = document.querySelector(".wbx").face;
             face.showAnswer({ ...answer, lights, scene, status: "infeasible", sentence: "It has no wingbeat." });
         }""",

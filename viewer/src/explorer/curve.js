@@ -77,9 +77,11 @@ export class Curve {
     if (!width || !height) return;
     const { name } = this.quantity;
     const { points } = this.data;
-    this.scale = this.scales(width, height);
+    // The speed of minimum power has no value; it belongs to the curve of power.
+    const ofCurve = (one) => name === "power" && one.frequency === undefined;
+    const shown = this.data.measured.filter((one) => one[name] !== undefined || ofCurve(one));
+    this.scale = this.scales(width, height, shown);
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    const shown = this.data.measured.filter((one) => one[name] !== undefined || (name === "power" && one.frequency === undefined));
     const tell = (words) => (this.note.textContent = words || this.legend(shown));
     const focused = document.activeElement === this.handle;
     this.svg.replaceChildren(
@@ -95,8 +97,8 @@ export class Curve {
     this.place(this.speed);
   }
 
-  scales(width, height) {
-    const { points, measured } = this.data;
+  scales(width, height, measured) {
+    const { points } = this.data;
     const { name } = this.quantity;
     const speeds = [...points.map((point) => point.speed), ...(this.data.range ?? [])];
     const [first, last] = speeds.length ? [Math.min(...speeds), Math.max(...speeds)] : [0, 20];

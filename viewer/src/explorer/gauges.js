@@ -46,7 +46,7 @@ class Row {
     this.value.textContent = value === null ? "–" : withUnit(value, unit);
     this.value.dataset.exact = value;
     this.word.textContent = word(gauge);
-    this.element.className = gauge.inside === false ? "wbx-outside" : "";
+    this.element.className = { true: "wbx-inside", false: "wbx-outside" }[gauge.inside] ?? "";
     this.range.textContent = known ? `Plausible: ${range(gauge)}` : "No plausible range is known.";
     this.source.textContent = known ? `Source: ${source}` : "";
     const most = high !== null ? ROOM * high : 2.5 * low;

@@ -33,6 +33,7 @@ extensions = [
     "mathml",
     "reference_pages",
     "live_animal",
+    "static_explorer",
 ]
 exclude_patterns = ["_extensions", "sg_execution_times.rst", "gallery/*.ipynb", "gallery/*.zip", "gallery/*.py"]
 templates_path = ["_templates"]

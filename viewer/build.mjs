@@ -1,24 +1,33 @@
-// Bundles the viewer into the Python package; `npm ci && npm run build` in this folder.
-// A digest of all that goes in stands in the first line, so that a test can tell a bundle that is out of date.
+// Bundles the viewer and the explorer into the Python package; `npm ci && npm run build` in this folder.
+// A digest of all that goes in stands in the first lines, so that a test can tell a bundle that is out of date.
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
 import { readFileSync, readdirSync } from "node:fs";
 
 const here = new URL(".", import.meta.url);
-const inputs = ["build.mjs", "package.json", ...readdirSync(new URL("src", here)).sort().map((name) => `src/${name}`)];
+const sources = readdirSync(new URL("src", here), { recursive: true }).filter((name) => /\.\w+$/.test(name));
+const inputs = ["build.mjs", "package.json", ...sources.sort().map((name) => `src/${name}`)];
 const digest = createHash("sha256");
 for (const name of inputs) digest.update(`${name}\n`).update(readFileSync(new URL(name, here)));
+const sha256 = digest.digest("hex");
 
-await build({
-  entryPoints: ["src/index.js"],
-  absWorkingDir: here.pathname,
-  outfile: process.argv[2] ?? "../src/wingbeat/viewer/viewer.js",
-  bundle: true,
-  minify: true,
-  format: "esm",
-  target: "es2022",
-  loader: { ".css": "text" },
-  legalComments: "inline",
-  banner: { js: `// wingbeat viewer, made by viewer/build.mjs; sources sha256:${digest.digest("hex")}` },
-  logLevel: "warning",
-});
+const folder = process.argv[2] ?? "../src/wingbeat/viewer";
+// The explorer is a classic script: a page that opens from disk may load no module.
+for (const [entry, name, format] of [
+  ["src/index.js", "viewer", "esm"],
+  ["src/explorer.js", "explorer", "iife"],
+]) {
+  await build({
+    entryPoints: [entry],
+    absWorkingDir: here.pathname,
+    outfile: `${folder}/${name}.js`,
+    bundle: true,
+    minify: true,
+    format,
+    target: "es2022",
+    loader: { ".css": "text" },
+    legalComments: "inline",
+    banner: { js: `// wingbeat ${name}, made by viewer/build.mjs; sources sha256:${sha256}` },
+    logLevel: "warning",
+  });
+}

@@ -14,21 +14,25 @@ from tests.helpers.browsers import NODE_MODULES
 SOURCES = NODE_MODULES.parent
 
 
-def test_the_bundle_is_made_from_the_sources_beside_it():
-    names = ["build.mjs", "package.json", *sorted(f"src/{path.name}" for path in (SOURCES / "src").iterdir())]
+BUNDLES = [wb.viewer.bundle_path(), wb.viewer.bundle_path("explorer")]
+
+
+@pytest.mark.parametrize("bundle", BUNDLES, ids=lambda path: path.stem)
+def test_the_bundle_is_made_from_the_sources_beside_it(bundle):
+    paths = (path for path in (SOURCES / "src").rglob("*") if path.is_file())
+    names = ["build.mjs", "package.json", *sorted(path.relative_to(SOURCES).as_posix() for path in paths)]
     digest = hashlib.sha256()
     for name in names:
         digest.update(f"{name}\n".encode() + (SOURCES / name).read_bytes())
-    first = wb.viewer.bundle_path().read_text("utf-8").split("\n", 1)[0]
+    first = bundle.read_text("utf-8").split("\n", 1)[0]
     assert first.endswith(f"sha256:{digest.hexdigest()}"), "run `npm ci && npm run build` in the folder viewer"
 
 
 def test_the_same_sources_give_the_same_bundle(tmp_path):
     if shutil.which("node") is None or not (NODE_MODULES / "esbuild").exists():
         pytest.skip("needs node and the packages of viewer/package.json: npm ci in the folder viewer")
-    made = tmp_path / "viewer.js"
-    subprocess.run(["node", "build.mjs", str(made)], cwd=SOURCES, check=True, timeout=120)
-    assert made.read_bytes() == wb.viewer.bundle_path().read_bytes()
+    subprocess.run(["node", "build.mjs", str(tmp_path)], cwd=SOURCES, check=True, timeout=120)
+    assert all((tmp_path / path.name).read_bytes() == path.read_bytes() for path in BUNDLES)
 
 
 def test_the_bundle_is_small_and_a_page_too(page_of_one):

@@ -1,10 +1,12 @@
 // A flight as it is handed over from Python: arrays over the samples of a flight, read at any phase.
 
-const KINDS = { f4: Float32Array, f8: Float64Array };
+const KINDS = { f4: Float32Array, f8: Float64Array, i2: Int16Array };
 
-function unpacked({ kind, data }) {
+// Whole numbers of 16 bits come with the size of one step.
+function unpacked({ kind, data, scale }) {
   const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
-  return new KINDS[kind](bytes.buffer);
+  const values = new KINDS[kind](bytes.buffer);
+  return scale === undefined ? values : Float32Array.from(values, (value) => value * scale);
 }
 
 export class Flight {

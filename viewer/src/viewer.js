@@ -30,7 +30,8 @@ let made = 0;
 const slug = (label) => label.toLowerCase().replace(/\W+/g, "-");
 
 export class Viewer {
-  constructor(element, scene, { theme = "system", playing = true, share = {} } = {}) {
+  // With `compact` all but picture and player is folded; the page that holds the viewer sets its theme.
+  constructor(element, scene, { theme = "system", playing = true, compact = false, share = {} } = {}) {
     this.id = `wb${++made}`;
     this.look = { strips: false, colour: "alpha", arrows: new Set(["force"]) };
     Object.assign(this.look, { trails: true, ground: true, wake: false, laps: 0 });
@@ -46,6 +47,7 @@ export class Viewer {
     this.canvas = make("canvas", { class: "wb-canvas", role: "img" });
     this.share = new Share(this, share);
     this.build();
+    if (compact) this.fold();
     element.append(this.root);
     this.root.addEventListener("keydown", (event) => this.key(event));
     this.setTheme(theme);
@@ -133,6 +135,15 @@ export class Viewer {
       ),
       this.side,
     );
+  }
+
+  fold() {
+    const bars = this.root.querySelectorAll(".wb-bar:not(.wb-player)");
+    const folded = make("details", { class: "wb-folded" }, make("summary", {}, "Views, forces and plots"), ...bars, this.side);
+    this.theme.remove();
+    this.rates.querySelector("label").textContent = "Playback"; // the page's speed is that of the flight
+    this.root.dataset.compact = "";
+    this.root.append(folded);
   }
 
   choice(label, options, chosen, act) {
@@ -257,6 +268,14 @@ export class Viewer {
     const { camera, controls, span } = this.stage;
     camera.position.set(...eye).multiplyScalar(span).add(controls.target);
     controls.update();
+  }
+
+  // Choose the rate at which a beat takes nearest to so many seconds.
+  setBeat(seconds) {
+    const away = ([rate]) => Math.abs(Math.log(seconds * rate * this.flights[0].frequency));
+    const [rate] = RATES.reduce((best, each) => (away(each) < away(best) ? each : best));
+    this.rate = rate;
+    this.rates.querySelector("select").value = rate;
   }
 
   setTheme(theme) {

@@ -47,6 +47,7 @@ COMMANDS = {
     "compare": "Compare the air loads of a saved orbit with those of a vortex lattice.",
     "export": "Write the gait of a saved orbit for robots, MATLAB, motion capture or MuJoCo.",
     "view": "Show a saved flight in motion, in a page or an animated picture.",
+    "explore": "Write an explorer that needs no server: drag along the power curve, and the animal flies.",
     "app": "Open the explorer in a browser: choose a problem, move sliders, and see the animal fly.",
     "paper": "Draw the figures of Su et al. and judge their claims.",
     "bench": "Measure how fast this machine solves.",

@@ -45,9 +45,18 @@ _PAGE = """<!doctype html>
 """
 
 
-def bundle_path() -> Path:
-    """Return the path of the viewer's JavaScript: an ES module with `mount(element, scene, options)`."""
-    return Path(__file__).with_name("viewer.js")
+def bundle_path(name: str = "viewer") -> Path:
+    """Return the path of a bundle of JavaScript.
+
+    Parameters
+    ----------
+    name : ``"viewer"`` for an ES module with ``mount(element, scene, options)``, or ``"explorer"`` for a classic
+        script that sets ``globalThis.wingbeatExplorer``, with ``explore(element, options)`` and ``mount``.
+
+    >>> bundle_path("explorer").name
+    'explorer.js'
+    """
+    return Path(__file__).with_name(f"{name}.js")
 
 
 def write_page(

@@ -1,0 +1,57 @@
+"""The static explorer of the site: four flyers with both models, solved when the site is built, and then kept."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import wingbeat as wb
+from wingbeat.explorer import solve_lattice, write_explorer
+from wingbeat.files import write_atomically
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+
+# One start at each speed, and the neighbours' results, keep the build short; the command has more starts.
+STARTS = 1
+FLYERS = {
+    "pigeon": (6.0, 8.0, 10.0, 12.0, 13.0, 14.0, 16.0, 18.0),
+    "bat": (3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0),
+    "annas-hummingbird": (0.0, 1.0, 2.0, 4.0, 6.0, 8.0, 10.0, 12.0),
+    "robofalcon2": (4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0),
+}
+
+
+def lattices(kept: Path) -> Iterator[dict[str, Any]]:
+    """Yield each flyer by each model, read from the folder `kept` if the same program has solved it."""
+    kept.mkdir(exist_ok=True)
+    for name, speeds in FLYERS.items():
+        for model in ("animal", "paper"):
+            path = kept / f"{name}-{model}-{_program()}.json"
+            if not path.exists():
+                found = solve_lattice(wb.load_species(name), model, speeds, starts=STARTS)
+                write_atomically(path, json.dumps(found).encode())
+            yield json.loads(path.read_text("utf-8"))
+
+
+def _program() -> str:
+    """Return a digest of all of wingbeat's Python and data, without which a kept result could be out of date."""
+    digest = hashlib.sha256(Path(__file__).read_bytes())
+    source = Path(wb.__file__).parent
+    for path in sorted([*source.rglob("*.py"), *source.rglob("*.toml")]):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def write_page(app: Sphinx) -> None:
+    """Write the explorer beside the front page's animal, from where Sphinx copies it."""
+    write_explorer(Path(app.srcdir) / "_live" / "explorer", lattices(Path(app.srcdir) / "_explorer"))
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Write the explorer before Sphinx copies it."""
+    app.connect("builder-inited", write_page, priority=100)
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,93 @@
+"""``wingbeat explore``: the static explorer, a folder of plain files that needs no server."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+
+from wingbeat.cli.app import EXIT_GOOD
+from wingbeat.cli.options import Seed, Whole
+from wingbeat.cli.progress import progress_bar
+from wingbeat.cli.ranges import parse_range
+from wingbeat.errors import FaultList
+from wingbeat.explorer import default_speeds, solve_lattice, write_explorer
+from wingbeat.models import MODELS
+from wingbeat.species import Species, load_species, species_names
+
+_MOST_SPEEDS = 200
+
+
+def explore(
+    *,
+    static: Annotated[Path, Parameter(help="The folder to write; index.html in it opens from disk.")],
+    animals: Annotated[
+        str | None,
+        Parameter(help="Species, or paths of species files, with commas between them; default: all built-in ones."),
+    ] = None,
+    models: Annotated[str, Parameter(help="Models, with commas between them.")] = "animal,paper",
+    speeds: Annotated[
+        list[str] | None,
+        Parameter(
+            consume_multiple=True,
+            negative=(),
+            help="Speeds [m/s]: numbers, or start:stop:step; default: nine that suit the mass of each animal.",
+        ),
+    ] = None,
+    starts: Annotated[Whole | None, Parameter(help="Number of starts at each speed; default: as `orbit`.")] = None,
+    seed: Seed = 0,
+) -> int:
+    """Write an explorer that needs no server: drag along the power curve, and the animal flies at that speed.
+
+    The folder holds a page, the viewer, and a file for each animal and model. It opens from disk or from any web
+    server, and makes no request to another host. Each animal and model takes seconds to minutes to solve.
+
+    Examples: wingbeat explore --static explorer --animals pigeon,bat;
+    wingbeat explore --static explorer --animals mine.toml --models paper --speeds 4:16:1
+    """
+    faults = FaultList()
+    names = _listed(faults, "--animals", animals, species_names())
+    chosen = _listed(faults, "--models", models, MODELS)
+    for name in chosen:
+        faults.choice("--models", name, MODELS)
+    row = sorted({float(one) for text in speeds or [] for one in parse_range(text, "--speeds")})
+    if len(row) > _MOST_SPEEDS:
+        faults.add("--speeds", len(row), f"are more than {_MOST_SPEEDS} speeds", "take a larger step")
+    if static.exists() and not static.is_dir():
+        faults.add("--static", str(static), "is not a folder", "name a folder, which need not exist")
+    faults.raise_if_any()
+    species = [load_species(name) for name in names]
+    tasks = [(one, model) for one in species for model in chosen]
+    with progress_bar("flights") as progress:
+        written = write_explorer(static, _solved(tasks, row, starts, seed, progress))
+    size = sum(path.stat().st_size for path in written)
+    print(f"wrote {static / 'index.html'} and {len(written) - 1} other files, {size / 1e6:.1f} MB", file=sys.stderr)
+    return EXIT_GOOD
+
+
+def _listed(faults: FaultList, option: str, text: str | None, default: Sequence[str]) -> list[str]:
+    if text is None:
+        return list(default)
+    names = [name.strip() for name in text.split(",") if name.strip()]
+    if not names:
+        faults.add(option, text, "names nothing", f"for example {option} {','.join(default[:2])}")
+    return list(dict.fromkeys(names))
+
+
+def _solved(
+    tasks: list[tuple[Species, str]], row: list[float], starts: int | None, seed: int, progress: Any
+) -> Iterator[dict[str, Any]]:
+    """Yield the lattice of each animal and model; progress counts speeds over all of them."""
+    speeds = [row or default_speeds(species) for species, _ in tasks]
+    done, total = 0, sum(map(len, speeds))
+    for (species, model), each in zip(tasks, speeds, strict=True):
+        before = done
+
+        def tell(count: int, _: int, before: int = before) -> None:
+            progress(before + count, total)
+
+        yield solve_lattice(species, model, each, starts, seed, tell if progress else None)
+        done += len(each)

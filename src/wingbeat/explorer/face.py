@@ -1,0 +1,166 @@
+"""The face of an orbit: a sentence, two lights, gauges, numbers, warnings and the scene of the viewer."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from wingbeat.errors import FileError
+from wingbeat.explorer.gauges import gauges_of
+from wingbeat.nomenclature import NOMENCLATURE, for_people
+from wingbeat.results.orbit import Orbit
+from wingbeat.results.plausibility import statements
+from wingbeat.results.rows import mass_of
+from wingbeat.viewer import scene
+
+# Numbers of the record that are listed, and how they are called; those that a record lacks are left out.
+_LISTED = {
+    "mean_positive_power": "mechanical power at the wing hinges, mean of the positive part",
+    "metabolic_power": "metabolic power of the flight muscles",
+    "electrical_power": "electrical power",
+    "cost_of_transport": "cost of transport",
+    "reduced_frequency": "reduced frequency",
+    "body_pitch_range": "range of body pitch within a beat",
+}
+_MUSCLE = "positive_power_per_mass"
+
+
+def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
+    """Return what the explorer shows of an orbit, fit for JSON.
+
+    The keys are species, title, kind, model, speed and climb [m/s], status, power [W], frequency [Hz], sentence,
+    lights, gauges, numbers, warnings and scene. Power is the mean of the positive part at the wing hinges. Gauges
+    and numbers are in the units that readers prefer. The scene is None if the flight tumbles before there is
+    anything to show; a certified flight never does.
+
+    Parameters
+    ----------
+    orbit : certified or not.
+    model : name of the model that made the problem, ``"animal"`` or ``"paper"``.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> face_of(orbit, "paper")["sentence"]
+    'A rock pigeon at 12 m/s beats 9.5 times a second and needs 56 W, twice what its muscle gives.'
+    """
+    record, species = orbit.record(), orbit.problem.species
+    title = species.common_name or species.name
+    return {
+        "species": species.name,
+        "title": title,
+        "kind": species.kind,
+        "model": model,
+        "speed": record["speed"],
+        "climb": record["climb"],
+        "status": record["status"],
+        "power": record["mean_positive_power"],
+        "frequency": record["wingbeat"]["frequency"],
+        "sentence": sentence_of(record, title),
+        "lights": lights_of(record),
+        "gauges": gauges_of(record),
+        "numbers": numbers_of(record),
+        "warnings": [_sentence(text) for text in record["warnings"]],
+        "scene": _scene_of(orbit, title),
+    }
+
+
+def _scene_of(orbit: Orbit, title: str) -> dict[str, Any] | None:
+    try:
+        return scene([(title, orbit.dataset)])
+    except FileError:  # fewer than two samples before it tumbled
+        return None
+
+
+def sentence_of(record: dict[str, Any], title: str) -> str:
+    """Return one sentence on an orbit: who flies how fast, how often it beats, what it needs, and what is amiss.
+
+    Parameters
+    ----------
+    record : from `Orbit.record`.
+    title : the animal's name.
+    """
+    who = f"{_article(title)} {title} {_place(record)}"
+    if record["status"] == "infeasible":
+        return f"In this model, {who[0].lower()}{who[1:]} has no wingbeat that closes."
+    if record["status"] != "converged":
+        return f"No wingbeat that closes was found for {who[0].lower()}{who[1:]}."
+    beats, power = _short(record["wingbeat"]["frequency"]), _short(record["mean_positive_power"])
+    sentence = f"{who} beats {beats} times a second and needs {power} W"
+    judged = {one["name"]: one for one in record.get("plausibility") or []}
+    limit = judged.get(_MUSCLE, {}).get("high")
+    if limit is not None:
+        share = judged[_MUSCLE]["value"] / limit
+        times = f"{share:.2g}"
+        over = "more than" if share < 1.05 else "twice" if times == "2" else f"{times} times"
+        sentence += ", within what its muscle gives" if share <= 1 else f", {over} what its muscle gives"
+    amiss = [one["label"] for one in gauges_of(record) if one["inside"] is False and one["name"] != _MUSCLE]
+    if amiss and (limit is None or judged[_MUSCLE]["within"]):
+        sentence += f", but its {_lower(amiss[0])} is implausible"
+    return f"{sentence}."
+
+
+def lights_of(record: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the two lights: whether the flight closes, and whether its numbers are those of flying animals.
+
+    Each has name, good, known and text. What is not known is not good either, but no fault.
+
+    Parameters
+    ----------
+    record : from `Orbit.record`.
+    """
+    said = statements(record)
+    certified = record["status"] == "converged"
+    closes = f"flown again, it {said.closes}" if certified else f"{said.closes}. {record['message']}"
+    # The statement is "plausible: yes", "plausible: no: frequency 12 above 10 Hz" or "plausible: unknown: ...".
+    verdict, why = (*re.split("[:;] ", said.plausible.removeprefix("plausible: "), maxsplit=1), "")[:2]
+    words = f"every number is inside its plausible range{f'; {why}' if why else ''}" if verdict == "yes" else why
+    if not certified:
+        verdict, words = "unknown", "there is no certified wingbeat to judge"
+    return [
+        {"name": "closes", "good": certified, "known": True, "text": _sentence(closes)},
+        {"name": "plausible", "good": verdict == "yes", "known": verdict != "unknown", "text": _sentence(words)},
+    ]
+
+
+def numbers_of(record: dict[str, Any]) -> list[list[str]]:
+    """Return label, value and unit of the main numbers, as texts; a number without a value is left out.
+
+    Parameters
+    ----------
+    record : from `Orbit.record`.
+    """
+    mass, beat = mass_of(record["vehicle"]), record["wingbeat"]
+    rows = [["mass", f"{1e3 * mass:.4g}", "g"], ["wingbeat frequency", f"{beat['frequency']:.4g}", "Hz"]]
+    for name, label in _LISTED.items():
+        if record.get(name) is not None:
+            factor, unit = for_people(NOMENCLATURE[name].unit)
+            rows.append([label, f"{factor * record[name]:.4g}", unit])
+    if record.get("stable") is not None:
+        rows.append(["a small disturbance", "decays" if record["stable"] else "grows", ""])
+    return rows
+
+
+def _place(record: dict[str, Any]) -> str:
+    climb = record["climb"]
+    where = f"at {record['speed']:g} m/s" if record["speed"] else "in hover"
+    return where + (f", {'climbing' if climb > 0 else 'sinking'} {abs(climb):g} m/s," if climb else "")
+
+
+def _article(title: str) -> str:
+    """Return A or An; a European bird begins with the sound of y."""
+    return "An" if re.match(r"(?i)[aeio]|u(?!ni)", title) and not re.match(r"(?i)eu", title) else "A"
+
+
+def _short(value: float) -> str:
+    """Return a number with two digits, or three from 100 on, without an exponent."""
+    digits = 2 if abs(value) < 100 else 3
+    return f"{float(f'{value:.{digits}g}'):g}"
+
+
+def _lower(label: str) -> str:
+    """Return a label within a sentence; names of people keep their capital."""
+    return label if label.startswith(("Strouhal", "Reynolds")) else f"{label[:1].lower()}{label[1:]}"
+
+
+def _sentence(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:]}" + ("" if text.endswith(".") else ".")

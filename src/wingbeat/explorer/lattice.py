@@ -1,0 +1,138 @@
+"""The flights of one animal with one model at several speeds, ready for a page without a server."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from wingbeat.explorer.face import face_of
+from wingbeat.explorer.measured import measured_points
+from wingbeat.explorer.thinning import thinned
+from wingbeat.models import model_of
+from wingbeat.orbits.solve import Progress
+from wingbeat.results.orbit import Orbit
+from wingbeat.results.solving import solve_orbits
+from wingbeat.species import Species
+from wingbeat.species.scaling import CRUISE_BY_MASS
+
+SPEEDS = 9
+# What speeds to show, as shares of the cruise of a bird of the same mass. Robots fly slower.
+_SHARES = {"robot": (0.25, 0.85)}
+_OTHERS = (0.35, 1.5)
+_HOVERS = 0.02  # kg; lighter vehicles are also shown in hover
+
+
+def default_speeds(species: Species, count: int = SPEEDS) -> list[float]:
+    """Return speeds at which an animal or a robot of this mass may fly, in steps of at least 0.5 m/s.
+
+    Parameters
+    ----------
+    species : the animal or robot.
+    count : how many at most.
+
+    >>> import wingbeat as wb
+    >>> default_speeds(wb.load_species("pigeon"), 6)
+    [5.0, 8.0, 11.0, 14.0, 17.5, 20.5]
+    """
+    mass = species.vehicle.mass
+    slow, fast = _SHARES.get(species.kind, _OTHERS)
+    cruise = float(CRUISE_BY_MASS.number(mass).value)  # pyright: ignore[reportArgumentType]
+    low = 0.0 if mass < _HOVERS else slow * cruise
+    return np.unique(np.round(2.0 * np.linspace(low, fast * cruise, count)) / 2.0).tolist()
+
+
+def solve_lattice(
+    species: Species,
+    model: str,
+    speeds: Sequence[float],
+    starts: int | None = None,
+    seed: int = 0,
+    progress: Progress | None = None,
+) -> dict[str, Any]:
+    """Find the wingbeats of an animal at several speeds, and return what the static explorer shows of them.
+
+    The result is fit for JSON. It has species, title, model, the speed to begin with, the curve (points and what
+    was measured on animals), the sources of the plausible ranges and the answers, one for each speed, from
+    `face_of`. Speeds are solved as a series, so that neighbours help each other.
+
+    Parameters
+    ----------
+    species : the animal or robot.
+    model : ``"animal"`` or ``"paper"``.
+    speeds : increasing [m/s].
+    starts, seed : as in `solve_orbits`.
+    progress : called with (speeds done, speeds in all).
+
+    Raises
+    ------
+    InvalidInputError : a speed, a model or a number of starts out of range.
+
+    >>> import wingbeat as wb
+    >>> lattice = solve_lattice(wb.load_species("pigeon"), "paper", [11.0, 12.0], starts=1)
+    >>> lattice["speed"], [point["certified"] for point in lattice["curve"]["points"]]
+    (11.0, [True, True])
+    """
+    chosen = model_of(model, species)
+    problems = [chosen.problem(species, speed=float(speed)) for speed in speeds]
+    orbits = solve_orbits(problems, starts, seed, in_order=True, progress=progress)
+    return lattice_of(species, model, orbits)
+
+
+def lattice_of(species: Species, model: str, orbits: Sequence[Orbit]) -> dict[str, Any]:
+    """Return what the static explorer shows of orbits that are solved already; `solve_lattice` says what it is.
+
+    Parameters
+    ----------
+    species : the animal or robot.
+    model : name of the model of all orbits.
+    orbits : in increasing order of speed.
+    """
+    answers = [face_of(orbit, model) for orbit in orbits]
+    points = [point_of(answer) for answer in answers]
+    # The source of a range is long, and most often the same at all speeds.
+    sources = {gauge["name"]: gauge["source"] for gauge in answers[0]["gauges"]}
+    return {
+        "species": species.name,
+        "title": species.common_name or species.name,
+        "model": model,
+        "speed": _first(points),
+        "curve": {"points": points, "measured": measured_points(species)},
+        "sources": sources,
+        "answers": [_small(answer, sources) for answer in answers],
+    }
+
+
+def _small(answer: dict[str, Any], sources: dict[str, str]) -> dict[str, Any]:
+    """Return an answer with a thinned scene, and without the sources that all speeds share."""
+    gauges = [
+        {name: part for name, part in gauge.items() if name != "source" or part != sources[gauge["name"]]}
+        for gauge in answer["gauges"]
+    ]
+    scene = answer["scene"]
+    return answer | {"gauges": gauges, "scene": None if scene is None else thinned(scene)}
+
+
+def point_of(answer: dict[str, Any]) -> dict[str, Any]:
+    """Return a point of the curve: speed [m/s], power [W], frequency [Hz], whether certified and plausible.
+
+    A point is plausible unless one of its numbers is known to be outside its range.
+
+    Parameters
+    ----------
+    answer : from `face_of`.
+    """
+    closes, plausible = answer["lights"]
+    numbers = {name: answer[name] for name in ("speed", "power", "frequency")}
+    fine = plausible["good"] or not plausible["known"]
+    return numbers | {"certified": closes["good"], "plausible": closes["good"] and fine}
+
+
+def _first(points: Sequence[dict[str, Any]]) -> float:
+    """Return the speed to begin with: of least power among the plausible flights, or else the certified ones."""
+    for kind in ("plausible", "certified"):
+        fit = [point for point in points if point[kind]]
+        if fit:
+            return min(fit, key=lambda point: point["power"])["speed"]
+    return points[0]["speed"]

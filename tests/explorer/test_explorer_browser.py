@@ -1,0 +1,164 @@
+"""The explorer in a browser: the point on the curve changes speed and animal, by pointer and by keyboard."""
+
+import itertools
+
+import pytest
+
+from tests.helpers.browsers import AXE
+
+ACROSS = """speed => {
+    const { curve } = document.querySelector(".wbx").face;
+    const box = curve.svg.getBoundingClientRect();
+    return [box.left + curve.scale.x(speed), box.top + box.height / 2];
+}"""
+
+
+def sentence(page):
+    return page.locator(".wbx h1").inner_text()
+
+
+def corners(page):
+    return page.evaluate("document.querySelector('.wb-viewer').viewer.corners()")
+
+
+def gauge(page, name):
+    return page.locator(f"[data-gauge={name}] .wbx-value")
+
+
+def test_it_flies_at_once_and_asks_no_other_host(show, answers):
+    page, complaints, requests = show()
+    first = min(answers["pigeon"], key=lambda answer: answer["power"])
+    assert sentence(page) == first["sentence"]
+    assert complaints == []
+    assert all(url.startswith(("file:", "data:", "blob:")) for url in requests)
+    assert page.locator(".wbx-light").all_inner_texts()[0].startswith("✓")
+
+
+def test_dragging_changes_the_speed_the_numbers_and_the_animal(show, answers):
+    page = show().page
+    page.mouse.move(*page.evaluate(ACROSS, 8.2))
+    page.mouse.down()
+    seen = [corners(page)]
+    for speed, answer in ((9.8, answers["pigeon"][1]), (11.7, answers["pigeon"][2]), (14.4, answers["pigeon"][3])):
+        page.mouse.move(*page.evaluate(ACROSS, speed))
+        assert sentence(page) == answer["sentence"]
+        exact = gauge(page, "frequency").get_attribute("data-exact")
+        assert float(exact) == answer["frequency"]
+        seen.append(corners(page))
+    page.mouse.up()
+    assert all(one != other for one, other in itertools.pairwise(seen))
+    assert "speed=14" in page.evaluate("location.hash")
+    slider = page.get_by_role("slider", name="Speed")
+    assert slider.get_attribute("aria-valuenow") == "14"
+
+
+def test_the_keyboard_moves_the_point(show, answers):
+    page = show(fragment="#animal=pigeon&model=paper&speed=10").page
+    slider = page.get_by_role("slider", name="Speed")
+    slider.focus()
+    for key, nth in (("ArrowRight", 2), ("ArrowLeft", 1), ("End", 3), ("ArrowUp", 3), ("Home", 0)):
+        page.keyboard.press(key)
+        answer = answers["pigeon"][nth]
+        assert sentence(page) == answer["sentence"]
+        told = slider.get_attribute("aria-valuetext")
+        assert told.startswith(f"{answer['speed']:g} m/s: {answer['power']:.3g} W")
+        assert told.endswith("certified, not plausible")
+    assert page.evaluate("document.activeElement.getAttribute('role')") == "slider"
+
+
+def test_another_animal_is_loaded_and_its_link_opens_it(show, answers):
+    page = show().page
+    page.get_by_label("Animal").select_option("bat")
+    page.locator(".wbx h1", has_text="bat").wait_for()
+    assert sentence(page) in [answer["sentence"] for answer in answers["bat"]]
+    page = show(fragment="#animal=bat&model=paper&speed=7.9").page
+    assert sentence(page) == answers["bat"][1]["sentence"]
+
+
+def test_gauges_say_in_words_where_the_number_lies(show, answers):
+    page = show(fragment="#speed=12").page
+    words = {one["name"]: one for one in answers["pigeon"][2]["gauges"]}
+    for name, one in words.items():
+        row = page.locator(f"[data-gauge={name}]")
+        assert row.locator(".wbx-word").inner_text() == ("inside" if one["inside"] else "above")
+        assert float(gauge(page, name).get_attribute("data-exact")) == one["value"]
+    row = page.locator("[data-gauge=strouhal]")
+    row.locator("summary").click()
+    assert "Taylor, Nudds and Thomas 2003" in row.inner_text()
+    assert "0.2 to 0.4" in row.inner_text()
+
+
+def test_measurements_say_their_source_on_focus(show):
+    page = show().page
+    page.get_by_role("button", name="Wingbeats").click()
+    mark = page.locator(".wbx-measured").first
+    mark.focus()
+    assert "Usherwood et al. 2005" in page.locator(".wbx-note").inner_text()
+
+
+def test_a_pinned_flight_stays_as_ghost(show, answers):
+    page = show(fragment="#speed=8").page
+    page.get_by_role("button", name="Pin this flight").click()
+    page.get_by_role("slider", name="Speed").focus()
+    page.keyboard.press("End")
+    flights = page.evaluate("document.querySelector('.wb-viewer').viewer.flights.map((flight) => flight.frequency)")
+    assert flights == [answers["pigeon"][3]["frequency"], answers["pigeon"][0]["frequency"]]
+    assert "rock pigeon at 8 m/s" in page.locator(".wbx-pins").inner_text()
+    assert page.locator(".wbx-pin").count() == 1
+    page.get_by_role("button", name="Remove the comparison").click()
+    assert page.evaluate("document.querySelector('.wb-viewer').viewer.flights.length") == 1
+
+
+def test_a_gap_shows_no_line_and_no_number(show):
+    """A curve with a speed that is not certified, handed over as the server's page does."""
+    page = show().page
+    page.evaluate(
+        """() => {
+            const { face } = document.querySelector(".wbx");
+            const numbers = { power: 9, frequency: 6 };
+            const point = (speed, certified) => ({ speed, ...numbers, certified, plausible: certified });
+            face.showCurve({ points: [point(6, true), point(8, false), point(10, true), point(12, true)] });
+            face.curve.mark(8);
+        }"""
+    )
+    assert page.locator(".wbx-gap").count() == 1
+    assert page.locator(".wbx-curve").count() == 1  # from 10 to 12 m/s
+    slider = page.get_by_role("slider", name="Speed")
+    assert slider.get_attribute("aria-valuetext") == "8 m/s: no certified wingbeat"
+
+
+def test_an_uncertified_flight_is_told_in_words(show, answers):
+    page = show().page
+    page.evaluate(
+        """([answer, scene]) => {
+            const lights = answer.lights.map((one) => ({ ...one, good: false, known: one.name === "closes" }));
+            const face = document.querySelector(".wbx").face;
+            face.showAnswer({ ...answer, lights, scene, status: "infeasible", sentence: "It has no wingbeat." });
+        }""",
+        [answers["pigeon"][0], None],
+    )
+    assert sentence(page) == "It has no wingbeat."
+    lights = page.locator(".wbx-light strong").all_inner_texts()
+    assert lights == ["Does not close", "Plausible? Not known"]
+    assert page.locator(".wbx-picture").is_hidden()
+    assert "tumbles" in page.locator(".wbx-state").inner_text()
+    assert page.get_by_role("button", name="Pin this flight").is_disabled()
+
+
+def test_on_a_phone_the_animal_is_in_the_first_screen(show):
+    page = show(width=390, height=844).page
+    box = page.locator(".wbx canvas").bounding_box()
+    assert box["y"] + box["height"] < 844
+    assert box["height"] >= 250
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+@pytest.mark.parametrize(("theme", "width"), [("light", 390), ("dark", 1280)])
+def test_axe_finds_no_fault(show, theme, width):
+    if not AXE.exists():
+        pytest.skip("needs axe-core: npm ci in the folder viewer")
+    page = show(width=width, color_scheme=theme, bypass_csp=True).page
+    page.add_script_tag(content=AXE.read_text())
+    found = page.evaluate("axe.run()")
+    assert {fault["id"]: [node["html"] for node in fault["nodes"]] for fault in found["violations"]} == {}
+    assert len(found["passes"]) > 10

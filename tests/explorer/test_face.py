@@ -1,0 +1,119 @@
+"""The words, lights and gauges of an orbit."""
+
+import copy
+import math
+
+import pytest
+
+import wingbeat as wb
+from wingbeat.errors import FileError
+from wingbeat.explorer import face
+from wingbeat.explorer.face import lights_of, sentence_of
+from wingbeat.explorer.gauges import gauges_of
+
+
+@pytest.fixture
+def record(orbits):
+    """A plausible flight: the pigeon's at 12 m/s, with its judged numbers put inside their ranges."""
+    found = copy.deepcopy(orbits["pigeon"][2].record())
+    found["mean_positive_power"] = 9.14
+    found["wingbeat"]["frequency"] = 5.62
+    for one in found["plausibility"]:
+        one["value"] = one["low"] if one["high"] is None else one["high"]
+        one["within"] = True
+    return found
+
+
+def judged(record, name):
+    return next(one for one in record["plausibility"] if one["name"] == name)
+
+
+def test_the_sentence_of_a_plausible_flight(record):
+    told = "A rock pigeon at 12 m/s beats 5.6 times a second and needs 9.1 W, within what its muscle gives."
+    assert sentence_of(record, "rock pigeon") == told
+    assert [(light["good"], light["known"]) for light in lights_of(record)] == [(True, True), (True, True)]
+
+
+@pytest.mark.parametrize(
+    ("share", "words"),
+    [(1.02, "more than what its muscle gives."), (2.0, "twice what"), (3.14, "3.1 times what")],
+)
+def test_the_sentence_says_how_much_is_more_than_the_muscle_gives(record, share, words):
+    power = judged(record, "positive_power_per_mass")
+    power |= {"value": share * power["high"], "within": False}
+    assert words in sentence_of(record, "rock pigeon")
+    assert [light["good"] for light in lights_of(record)] == [True, False]
+
+
+def test_the_sentence_names_what_else_is_not_plausible(record):
+    amplitude = judged(record, "flap_amplitude")
+    amplitude |= {"value": 1.5, "within": False}
+    assert sentence_of(record, "rock pigeon").endswith(
+        "within what its muscle gives, but its flap amplitude is implausible."
+    )
+    assert lights_of(record)[1]["text"] == "Flap amplitude 85.9 above 61 deg."
+
+
+@pytest.mark.parametrize(
+    ("status", "words"),
+    [
+        ("infeasible", "In this model, a rock pigeon at 12 m/s has no wingbeat that closes."),
+        ("not-converged", "No wingbeat that closes was found for a rock pigeon at 12 m/s."),
+    ],
+)
+def test_a_flight_without_a_certificate_has_no_numbers_in_its_sentence(record, status, words):
+    record |= {"status": status, "message": "the lift fails"}
+    assert sentence_of(record, "rock pigeon") == words
+    closes, plausible = lights_of(record)
+    assert not closes["good"]
+    assert "the lift fails." in closes["text"]
+    assert (plausible["good"], plausible["known"]) == (False, False)
+
+
+def test_what_is_not_known_is_neither_good_nor_a_fault(record):
+    for one in record["plausibility"]:
+        one |= {"low": None, "high": None}
+    assert lights_of(record)[1] == {
+        "name": "plausible",
+        "good": False,
+        "known": False,
+        "text": "No range is known.",
+    }
+    assert "muscle" not in sentence_of(record, "RoboFalcon2.0 robot")
+    assert {gauge["inside"] for gauge in gauges_of(record)} == {None}
+
+
+@pytest.mark.parametrize(
+    ("title", "speed", "climb", "start"),
+    [
+        ("Anna's hummingbird", 0.0, 0.0, "An Anna's hummingbird in hover beats"),
+        ("European herring gull", 9.5, 0.0, "A European herring gull at 9.5 m/s beats"),
+        ("common swift", 8.0, -1.0, "A common swift at 8 m/s, sinking 1 m/s, beats"),
+    ],
+)
+def test_who_flies_and_how(record, title, speed, climb, start):
+    assert sentence_of(record | {"speed": speed, "climb": climb}, title).startswith(start)
+
+
+def test_a_flight_that_tumbles_at_once_has_words_but_no_picture(orbits, monkeypatch):
+    def refuse(flights):
+        raise FileError("fewer than two samples")
+
+    monkeypatch.setattr(face, "scene", refuse)
+    answer = face.face_of(orbits["pigeon"][0], "paper")
+    assert answer["scene"] is None
+    assert answer["sentence"].startswith("A rock pigeon at 8 m/s")
+
+
+def test_the_face_has_the_record_s_numbers_in_the_units_of_readers(orbits, answers):
+    record, answer = orbits["pigeon"][2].record(), answers["pigeon"][2]
+    gauges = {gauge["name"]: gauge for gauge in answer["gauges"]}
+    assert list(gauges) == ["positive_power_per_mass", "frequency", "flap_amplitude", "strouhal", "reynolds"]
+    assert gauges["frequency"]["value"] == answer["frequency"] == record["wingbeat"]["frequency"]
+    amplitude = gauges["flap_amplitude"]
+    assert amplitude["value"] == pytest.approx(math.degrees(record["wingbeat"]["flap_amplitude"]))
+    assert (amplitude["unit"], amplitude["inside"]) == ("deg", False)
+    assert answer["power"] == record["mean_positive_power"]
+    assert len(answer["warnings"]) == len(record["warnings"])
+    assert ["mass", "316", "g"] in answer["numbers"]
+    assert answer["title"] == wb.load_species("pigeon").common_name

@@ -1,0 +1,113 @@
+"""The folder of the static explorer: its files, what they hold, and the command that writes it."""
+
+import itertools
+import json
+import re
+
+import numpy as np
+import pytest
+
+import wingbeat as wb
+from wingbeat.cli.app import main
+from wingbeat.errors import InvalidInputError
+from wingbeat.explorer import default_speeds, measured_points, write_explorer
+from wingbeat.explorer.lattice import SPEEDS
+from wingbeat.explorer.thinning import thinned, unpacked
+
+
+def lattice_in(path):
+    called = re.fullmatch(r"wingbeatExplorer\.hold\((.*)\);\n", path.read_text("utf-8"), re.DOTALL)
+    return json.loads(f"[{called[1]}]")
+
+
+def test_the_folder_holds_all_it_needs_and_names_no_other_host(folder):
+    names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
+    assert names == ["catalogue.js", "data/bat-paper.js", "data/pigeon-paper.js", "explorer.js", "index.html"]
+    page = (folder / "index.html").read_text("utf-8")
+    assert "default-src 'none'" in page
+    for text in (page, (folder / "catalogue.js").read_text("utf-8")):
+        assert "//" not in text
+
+
+def test_all_animals_by_both_models_fit_into_15_megabytes(folder):
+    """All flyers, two models, nine speeds; a flight of each lattice here takes the same room."""
+    each = max(path.stat().st_size / len(lattice_in(path)[2]["answers"]) for path in (folder / "data").iterdir())
+    assert len(wb.species_names()) * 2 * SPEEDS * each + (folder / "explorer.js").stat().st_size < 15e6
+
+
+def test_a_data_file_holds_the_answers_and_the_curve(folder, answers):
+    species, model, lattice = lattice_in(folder / "data" / "pigeon-paper.js")
+    assert (species, model) == ("pigeon", "paper")
+    assert [one["sentence"] for one in lattice["answers"]] == [one["sentence"] for one in answers["pigeon"]]
+    for point, answer in zip(lattice["curve"]["points"], answers["pigeon"], strict=True):
+        assert (point["speed"], point["power"]) == (answer["speed"], answer["power"])
+        assert (point["certified"], point["plausible"]) == (True, False)
+    cheapest = min(answers["pigeon"], key=lambda answer: answer["power"])
+    assert lattice["speed"] == cheapest["speed"]
+
+
+def test_thinning_keeps_the_flight(answers):
+    whole = answers["pigeon"][0]["scene"]["flights"][0]["arrays"]
+    small = thinned(answers["pigeon"][0]["scene"])["flights"][0]["arrays"]
+    count = len(unpacked(whole["phase"]))
+    assert len(unpacked(small["phase"])) == 65
+    assert set(whole) - set(small) == {"lift", "drag"}
+    for name, packed in small.items():
+        exact = unpacked(whole[name]).reshape(count, -1)[:: (count - 1) // 64].ravel()
+        np.testing.assert_allclose(unpacked(packed), exact, rtol=1e-6, atol=2e-5 * np.abs(exact).max())
+
+
+def test_measured_points_are_those_of_the_package():
+    pigeon = wb.load_species("pigeon")
+    points = measured_points(pigeon)
+    measured = wb.read_measured_flights("pigeon").measurements
+    power = next(one for one in measured if one.quantity == "positive_power_per_mass")
+    shown = next(one for one in points if "power" in one)
+    assert shown["power"] == [pigeon.vehicle.mass * value for value in power.values]
+    assert shown["source"] == power.source
+    assert {one["basis"] for one in points} == {"measured", "law", "estimated"}
+    assert measured_points(wb.load_species("robofalcon2")) == []
+
+
+def test_default_speeds_begin_in_hover_for_light_flyers_only():
+    for name in wb.species_names():
+        speeds = default_speeds(wb.load_species(name))
+        assert len(speeds) == SPEEDS
+        assert (speeds[0] == 0.0) == (wb.load_species(name).vehicle.mass < 0.02)
+        assert all(low < high for low, high in itertools.pairwise(speeds))
+
+
+def test_the_command_writes_a_folder(tmp_path, capsys):
+    words = ["--animals", "pigeon", "--models", "paper", "--speeds", "11", "12", "--starts", "1"]
+    assert main(["explore", "--static", str(tmp_path / "new"), *words]) == 0
+    assert re.search(r"index.html and 3 other files, \d\.\d MB", capsys.readouterr().err)
+    assert [one["speed"] for one in lattice_in(tmp_path / "new" / "data" / "pigeon-paper.js")[2]["answers"]] == [
+        11,
+        12,
+    ]
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--models", "bird"], "--models = 'bird'"),
+        (["--animals", ","], "names nothing"),
+        (["--animals", "pigeo"], "pigeon"),
+        (["--speeds", "9:4:1"], "reverse the sign"),
+    ],
+)
+def test_the_command_says_what_is_wrong_before_it_solves(tmp_path, capsys, words, told):
+    assert main(["explore", "--static", str(tmp_path / "new"), *words]) == 2
+    assert told in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
+
+
+def test_a_file_is_no_folder(tmp_path, capsys):
+    (tmp_path / "file").write_text("")
+    assert main(["explore", "--static", str(tmp_path / "file")]) == 2
+    assert "is not a folder" in capsys.readouterr().err
+
+
+def test_nothing_to_show_is_refused(tmp_path):
+    with pytest.raises(InvalidInputError, match="nothing to show"):
+        write_explorer(tmp_path, [])

@@ -1,0 +1,85 @@
+// What the power curve is drawn with: scales, ticks, lines between neighbours, marks, and measured ranges behind.
+
+import { round } from "../colours.js";
+import { draw } from "../elements.js";
+import { ends, short } from "./numbers.js";
+
+export const MARGIN = { left: 46, right: 16, top: 14, bottom: 38 };
+
+// Round numbers from 0 or `low` to at least `high`, about `count` of them.
+export function ticks(low, high, count) {
+  const step = round((high - low) / count);
+  const first = Math.ceil(low / step - 1e-9);
+  const last = Math.floor(high / step + 1e-9);
+  return Array.from({ length: last - first + 1 }, (_, nth) => Number(((first + nth) * step).toPrecision(12)));
+}
+
+export function axes(scale, quantity) {
+  const { x, y, width, height, xTicks, yTicks } = scale;
+  const bottom = height - MARGIN.bottom;
+  const text = (at, to, anchor, words, kind = "wbx-tick") =>
+    draw("text", { x: at, y: to, "text-anchor": anchor, class: kind }, words);
+  return draw(
+    "g",
+    { "aria-hidden": "true" },
+    ...yTicks.flatMap((value) => [
+      draw("line", { class: "wbx-grid", x1: MARGIN.left, x2: width - MARGIN.right, y1: y(value), y2: y(value) }),
+      text(MARGIN.left - 7, y(value) + 4, "end", short(value)),
+    ]),
+    ...xTicks.map((value) => text(x(value), bottom + 16, "middle", short(value))),
+    draw("line", { class: "wbx-axis", x1: MARGIN.left, x2: width - MARGIN.right, y1: bottom, y2: bottom }),
+    text(width - MARGIN.right, bottom + 31, "end", "speed [m/s]"),
+    text(MARGIN.left + 2, MARGIN.top - 3, "start", `${quantity.label} [${quantity.unit}]`),
+  );
+}
+
+// Lines between neighbours that are both certified; dashed where one of them is not plausible.
+export function lines(points, { x, y }, name) {
+  const found = [];
+  for (let nth = 1; nth < points.length; nth++) {
+    const [before, after] = [points[nth - 1], points[nth]];
+    if (!before.certified || !after.certified) continue;
+    const kind = before.plausible && after.plausible ? "wbx-curve" : "wbx-curve wbx-dashed";
+    const at = { x1: x(before.speed), y1: y(before[name]), x2: x(after.speed), y2: y(after[name]) };
+    found.push(draw("line", { class: kind, ...at }));
+  }
+  return draw("g", {}, ...found);
+}
+
+export function dots(points, { x, y, height }, name) {
+  const found = points.map((point) => {
+    const at = x(point.speed);
+    if (!point.certified) return cross(at, height - MARGIN.bottom - 9);
+    return draw("circle", { class: point.plausible ? "wbx-dot" : "wbx-dot wbx-hollow", cx: at, cy: y(point[name]), r: 4 });
+  });
+  return draw("g", {}, ...found);
+}
+
+function cross(x, y) {
+  return draw("path", { class: "wbx-gap", d: `M${x - 4} ${y - 4}l8 8m0-8l-8 8` });
+}
+
+// One measured value or range. `tell` is called with its words while it is pointed at or focused, and with nothing after.
+export function measured(one, { x, y, height, width }, name, tell) {
+  const [slow, fast] = ends(one.speed).map(x);
+  const [low, high] = one[name] === undefined ? [] : ends(one[name]).map(y);
+  const words = `${one.label}. Source: ${one.source}`;
+  const attributes = {
+    class: `wbx-measured wbx-${one.basis ?? "measured"}`,
+    tabindex: "0",
+    role: "img",
+    "aria-label": words,
+    onpointerenter: () => tell(words),
+    onpointerleave: () => tell(""),
+    onfocus: () => tell(words),
+    onblur: () => tell(""),
+  };
+  const top = high ?? MARGIN.top;
+  const bottom = low ?? height - MARGIN.bottom;
+  // Even one value is large enough to point at.
+  const across = Math.max(fast - slow, 10);
+  const tall = Math.max(bottom - top, 10);
+  const left = Math.min((slow + fast - across) / 2, width - MARGIN.right - across);
+  const body = { x: left, y: (top + bottom - tall) / 2, width: across, height: tall, rx: 3 };
+  return draw("g", attributes, draw("rect", body));
+}

@@ -1,0 +1,228 @@
+// The curve against speed, which is the speed control: a point on it that one drags or moves with the keyboard.
+
+import { draw, make } from "../elements.js";
+import { axes, dots, lines, MARGIN, measured, ticks } from "./chart.js";
+import { ends, judged, short } from "./numbers.js";
+
+const QUANTITIES = [
+  { name: "power", label: "Power", unit: "W" },
+  { name: "frequency", label: "Wingbeats", unit: "Hz" },
+];
+const KEYS = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: 3, PageDown: -3 };
+const STEP = 0.5; // m/s, of a key, where the point may rest between computed speeds
+
+export class Curve {
+  // `act` is called with a speed that the reader chooses. With `snap` only computed speeds can be chosen.
+  constructor(act, snap) {
+    this.act = act;
+    this.snap = snap;
+    this.quantity = QUANTITIES[0];
+    this.data = { points: [], measured: [] };
+    this.speed = 0;
+    this.svg = draw("svg", { class: "wbx-chart" });
+    this.buttons = QUANTITIES.map((each) =>
+      make("button", { type: "button", "aria-pressed": "false", onclick: () => this.choose(each) }, each.label),
+    );
+    const choice = make("div", { class: "wbx-pair", role: "group", "aria-label": "Curve shown" }, ...this.buttons);
+    this.note = make("p", { class: "wbx-note" });
+    const head = make("div", { class: "wbx-row" }, make("h2", {}, "Drag the point to fly faster or slower"), choice);
+    this.element = make("div", { class: "wbx-curve-box" }, head, this.svg, this.note);
+    this.buildHandle();
+    this.svg.addEventListener("pointerdown", (event) => this.take(event));
+    this.svg.addEventListener("pointermove", (event) => this.dragging && this.drag(event));
+    for (const end of ["pointerup", "pointercancel"]) this.svg.addEventListener(end, () => this.release());
+    this.watcher = new ResizeObserver(() => this.draw());
+    this.watcher.observe(this.svg);
+    this.choose(QUANTITIES[0]);
+  }
+
+  buildHandle() {
+    this.guide = draw("line", { class: "wbx-guide" });
+    this.knob = draw("circle", { class: "wbx-knob", r: 9 });
+    this.tag = draw("text", { class: "wbx-tag", "text-anchor": "middle" });
+    const about = { role: "slider", tabindex: "0", "aria-label": "Speed", "aria-orientation": "horizontal" };
+    this.handle = draw("g", { class: "wbx-handle", ...about }, this.guide, this.knob, this.tag);
+    this.handle.addEventListener("keydown", (event) => this.key(event));
+  }
+
+  choose(quantity) {
+    this.quantity = quantity;
+    this.buttons.forEach((button, nth) => button.setAttribute("aria-pressed", String(QUANTITIES[nth] === quantity)));
+    this.draw();
+  }
+
+  // `range` [m/s] is what the point can reach where nothing is computed yet.
+  show({ points, measured = [], range }) {
+    this.data = { points: [...points].sort((one, other) => one.speed - other.speed), measured, range };
+    this.draw();
+  }
+
+  // Place the point at the speed of the answer on the page.
+  mark(speed) {
+    if (this.dragging) return;
+    this.speed = speed;
+    this.place(speed);
+  }
+
+  // Mark a certified answer for comparison; without one the mark goes.
+  pin(point) {
+    this.pinned = point;
+    this.draw();
+  }
+
+  // Drawing -------------------------------------------------------------------------------------------------------
+
+  draw() {
+    const { clientWidth: width, clientHeight: height } = this.svg;
+    if (!width || !height) return;
+    const { name } = this.quantity;
+    const { points } = this.data;
+    // The speed of minimum power has no value; it belongs to the curve of power.
+    const ofCurve = (one) => name === "power" && one.frequency === undefined;
+    const shown = this.data.measured.filter((one) => one[name] !== undefined || ofCurve(one));
+    this.scale = this.scales(width, height, shown);
+    this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    const tell = (words) => (this.note.textContent = words || this.legend(shown));
+    const focused = document.activeElement === this.handle;
+    this.svg.replaceChildren(
+      axes(this.scale, this.quantity),
+      ...shown.map((one) => measured(one, this.scale, name, tell)),
+      lines(points, this.scale, name),
+      dots(points, this.scale, name),
+      ...this.drawPin(name),
+      this.handle,
+    );
+    if (focused) this.handle.focus();
+    tell("");
+    this.place(this.speed);
+  }
+
+  scales(width, height, measured) {
+    const { points } = this.data;
+    const { name } = this.quantity;
+    const speeds = [...points.map((point) => point.speed), ...(this.data.range ?? [])];
+    const [first, last] = speeds.length ? [Math.min(...speeds), Math.max(...speeds)] : [0, 20];
+    // Measured speeds are in the picture too, even where the point cannot go.
+    const all = [first, last, ...measured.flatMap(({ speed }) => ends(speed))];
+    const room = Math.max(0.04 * (last - first), 0.2);
+    const [low, high] = [Math.max(Math.min(...all) - room, 0), Math.max(...all) + room];
+    const values = points.filter((point) => point.certified).map((point) => point[name]);
+    const tops = measured.filter((one) => one[name] !== undefined).map((one) => ends(one[name])[1]);
+    const top = 1.12 * Math.max(...values, ...tops, 1e-9);
+    const x = (speed) => MARGIN.left + ((speed - low) / (high - low)) * (width - MARGIN.left - MARGIN.right);
+    const y = (value) => height - MARGIN.bottom - (value / top) * (height - MARGIN.bottom - MARGIN.top);
+    const speedAt = (px) => low + ((px - MARGIN.left) / (width - MARGIN.left - MARGIN.right)) * (high - low);
+    const xTicks = ticks(low, high, width < 500 ? 5 : 10);
+    return { x, y, width, height, speedAt, first, last, xTicks, yTicks: ticks(0, top, 4) };
+  }
+
+  drawPin(name) {
+    if (!this.pinned) return [];
+    const { x, y } = this.scale;
+    const [at, to] = [x(this.pinned.speed), y(this.pinned[name])];
+    return [draw("path", { class: "wbx-pin", d: `M${at} ${to - 8}l8 8l-8 8l-8 -8z` })];
+  }
+
+  legend(shown) {
+    const { points } = this.data;
+    const parts = [];
+    if (points.some((point) => point.certified && !point.plausible)) parts.push("dashed: not plausible");
+    if (points.some((point) => !point.certified)) parts.push("cross: no certified wingbeat");
+    if (shown.length) parts.push("bars behind: real animals (point at one for its source)");
+    return parts.join("; ");
+  }
+
+  // Put the point at a speed, on the line if there is one.
+  place(speed) {
+    if (!this.scale) return;
+    const { x, y, height, first, last } = this.scale;
+    const { name, unit } = this.quantity;
+    const at = x(Math.min(Math.max(speed, first), last));
+    const value = this.valueAt(speed, name);
+    const base = height - MARGIN.bottom;
+    const to = value === undefined ? base - 9 : y(value);
+    for (const [key, number] of Object.entries({ x1: at, x2: at, y1: to, y2: base })) this.guide.setAttribute(key, number);
+    this.knob.setAttribute("cx", at);
+    this.knob.setAttribute("cy", to);
+    this.tag.setAttribute("x", at);
+    this.tag.setAttribute("y", to < MARGIN.top + 20 ? to + 26 : to - 16);
+    const point = this.nearest(speed);
+    const exact = point && Math.abs(point.speed - speed) < 1e-9 ? point : undefined;
+    this.tag.textContent = exact?.certified && !this.dragging ? `${short(exact[name])} ${unit}` : "";
+    this.handle.setAttribute("aria-valuemin", first);
+    this.handle.setAttribute("aria-valuemax", last);
+    this.handle.setAttribute("aria-valuenow", speed);
+    const told = exact?.certified ? `${short(exact.power)} W, ${short(exact.frequency)} Hz, ` : "";
+    this.handle.setAttribute("aria-valuetext", `${short(speed)} m/s` + (exact ? `: ${told}${judged(exact)}` : ""));
+  }
+
+  // What the drawn line has at a speed; only the place of the point, never a number on the page, follows from it.
+  valueAt(speed, name) {
+    const { points } = this.data;
+    const after = points.findIndex((point) => point.speed >= speed - 1e-9);
+    if (after < 0) return undefined;
+    const [high, low] = [points[after], points[after - 1]];
+    if (Math.abs(high.speed - speed) < 1e-9) return high.certified ? high[name] : undefined;
+    if (!low?.certified || !high.certified) return undefined;
+    const share = (speed - low.speed) / (high.speed - low.speed);
+    return low[name] + share * (high[name] - low[name]);
+  }
+
+  // Moving --------------------------------------------------------------------------------------------------------
+
+  nearest(speed) {
+    const away = (point) => Math.abs(point.speed - speed);
+    return this.data.points.reduce((best, point) => (best && away(best) <= away(point) ? best : point), undefined);
+  }
+
+  take(event) {
+    if (event.button !== 0 || !this.scale) return;
+    this.dragging = true;
+    this.svg.setPointerCapture(event.pointerId);
+    this.handle.focus({ preventScroll: true });
+    this.drag(event);
+  }
+
+  drag(event) {
+    const { first, last, speedAt } = this.scale;
+    const across = event.clientX - this.svg.getBoundingClientRect().left;
+    const speed = Math.min(Math.max(speedAt(across), first), last);
+    this.place(speed);
+    this.ask(this.snap ? this.nearest(speed)?.speed : Math.round(10 * speed) / 10);
+  }
+
+  release() {
+    if (!this.dragging) return;
+    this.dragging = false;
+    this.place(this.speed);
+  }
+
+  key(event) {
+    const by = KEYS[event.key];
+    const end = { Home: "first", End: "last" }[event.key];
+    if ((!by && !end) || event.ctrlKey || event.metaKey || event.altKey || !this.scale) return;
+    event.preventDefault();
+    event.stopPropagation();
+    if (end) this.ask(this.scale[end]);
+    else if (this.snap) this.ask(this.beside(by));
+    else this.ask(Math.min(Math.max(this.speed + by * STEP, this.scale.first), this.scale.last));
+    this.place(this.speed);
+  }
+
+  // The computed speed that lies so many places further.
+  beside(by) {
+    const { points } = this.data;
+    const now = points.indexOf(this.nearest(this.speed));
+    return points[Math.min(Math.max(now + by, 0), points.length - 1)]?.speed;
+  }
+
+  ask(speed) {
+    if (speed === undefined || speed === this.speed) return;
+    this.speed = speed;
+    this.act(speed);
+  }
+
+  destroy() {
+    this.watcher.disconnect();
+  }
+}

@@ -1,0 +1,150 @@
+// The explorer's face: sentence and verdict, the flying animal, the curve that is the speed control, and the gauges.
+
+import { make } from "../elements.js";
+import { Viewer } from "../viewer.js";
+import { Curve } from "./curve.js";
+import { Gauges } from "./gauges.js";
+import { Pins } from "./pins.js";
+import styles from "./style.css";
+import { Verdict } from "./verdict.js";
+
+let made = 0;
+
+export class Face {
+  // With `snap` the point rests on computed speeds only; without, the page can ask for any speed.
+  constructor(element, { theme = "system", snap = true } = {}) {
+    this.onask = () => {};
+    this.theme = theme;
+    this.id = `wbx${++made}`;
+    this.verdict = new Verdict();
+    this.curve = new Curve((speed) => this.ask({ speed }), snap);
+    this.gauges = new Gauges();
+    this.pins = new Pins(() => this.show());
+    this.root = make("section", { class: "wbx", "aria-label": "Explorer" }, make("style", {}, styles));
+    this.root.face = this;
+    this.build();
+    this.setTheme(theme);
+    element.append(this.root);
+  }
+
+  build() {
+    this.animal = this.choice("Animal", (animal) => this.ask({ animal }));
+    this.model = this.choice("Model", (model) => this.ask({ model }));
+    this.choices = make("div", { class: "wbx-choices" }, this.animal.element, this.model.element);
+    this.state = make("p", { class: "wbx-state", role: "status" });
+    this.picture = make("div", { class: "wbx-picture" });
+    this.numbers = make("tbody");
+    const table = make("table", {}, this.numbers);
+    const folded = make("details", { class: "wbx-more" }, make("summary", {}, "More numbers"), table);
+    const judged = [make("h2", {}, "Could an animal fly so?"), this.gauges.element, this.pins.element, folded];
+    this.root.append(
+      make("header", { class: "wbx-say" }, this.choices, this.verdict.sentence, this.verdict.spoken),
+      // Beside the picture, or on a narrow page the verdict before it and the gauges after it.
+      make("div", { class: "wbx-side" }, this.verdict.element, make("div", { class: "wbx-judged" }, ...judged)),
+      make("div", { class: "wbx-stage" }, this.picture, this.state, this.curve.element),
+    );
+  }
+
+  choice(label, act) {
+    const id = `${this.id}-${label}`;
+    const select = make("select", { id, onchange: () => act(select.value) });
+    return { select, element: make("span", { class: "wbx-choice" }, make("label", { for: id }, label), select) };
+  }
+
+  // What the page hands over ----------------------------------------------------------------------------------------
+
+  setChoices({ animals, models }, { animal, model }) {
+    this.asked = { speed: this.asked?.speed, animal, model };
+    for (const [{ select }, options, chosen] of [[this.animal, animals, animal], [this.model, models, model]]) {
+      select.replaceChildren(...options.map(({ name, title }) => make("option", { value: name }, title)));
+      select.value = chosen;
+    }
+  }
+
+  showCurve(data) {
+    this.curve.show(data);
+  }
+
+  showAnswer(answer) {
+    this.answer = answer;
+    this.asked = { animal: answer.species, model: answer.model, speed: answer.speed };
+    this.animal.select.value = answer.species;
+    this.model.select.value = answer.model;
+    this.pins.now(answer);
+    this.say("");
+    this.show();
+  }
+
+  // Say what the reader waits for, or what went wrong; an empty text says nothing.
+  say(text) {
+    this.state.textContent = text;
+  }
+
+  setTheme(theme) {
+    this.theme = theme;
+    this.root.dataset.theme = theme;
+    this.viewer?.setTheme(theme);
+  }
+
+  // Inside ----------------------------------------------------------------------------------------------------------
+
+  ask(change) {
+    this.asked = { ...this.asked, ...change };
+    this.onask({ ...this.asked });
+  }
+
+  show() {
+    const { answer } = this;
+    if (!answer) return;
+    const pinned = this.pins.answer;
+    this.verdict.show(answer);
+    this.gauges.show(answer.gauges, pinned?.gauges);
+    this.curve.mark(answer.speed);
+    this.curve.pin(pinned?.status === "converged" ? pinned : undefined);
+    this.numbers.replaceChildren(...rows(answer, pinned));
+    this.root.dataset.status = answer.status;
+    this.picture.hidden = !answer.scene;
+    if (answer.scene) this.fly(this.pins.scene(answer), answer.species);
+    else this.say("This flight tumbles before there is anything to show.");
+  }
+
+  // `whose`: the species.
+  fly(scene, whose) {
+    const count = scene.flights.length;
+    if (this.viewer) this.replace(scene, whose === this.whose && count === this.count);
+    else this.viewer = new Viewer(this.picture, scene, { theme: this.theme, compact: true });
+    // A beat takes about a second; of one animal the rate stays, so that one sees it beat faster or slower.
+    if (whose !== this.whose) this.viewer.setBeat(1);
+    [this.whose, this.count] = [whose, count];
+  }
+
+  // Show another scene; of the same animal the view stays as the reader turned it.
+  replace(scene, still) {
+    const { camera, controls } = this.viewer.stage;
+    const [eye, target] = [camera.position.clone(), controls.target.clone()];
+    this.viewer.ghost = this.pins.ghost;
+    this.viewer.replace(scene);
+    if (!still) return;
+    camera.position.copy(eye);
+    controls.target.copy(target);
+    controls.update();
+  }
+
+  destroy() {
+    this.curve.destroy();
+    this.viewer?.destroy();
+    this.root.remove();
+  }
+}
+
+
+function rows(answer, pinned) {
+  const before = new Map((pinned?.numbers ?? []).map(([label, value]) => [label, value]));
+  const found = answer.numbers.map(([label, value, unit]) => {
+    const cells = [make("td", {}, value), ...(pinned ? [make("td", {}, before.get(label) ?? "–")] : [])];
+    return make("tr", {}, make("th", { scope: "row" }, label), ...cells, make("td", {}, unit));
+  });
+  if (!pinned) return found;
+  const heads = ["", "now", "pinned", ""].map((text) => make("th", { scope: "col" }, text));
+  return [make("tr", {}, ...heads), ...found];
+}

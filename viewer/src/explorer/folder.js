@@ -1,0 +1,71 @@
+// The static explorer: a folder with a catalogue and a file of data for each animal and model. Each is a script that calls
+// `open` or `hold`, because a page that opens from disk may not fetch.
+
+import { make } from "../elements.js";
+import { Face } from "./face.js";
+
+export class Folder {
+  constructor(element, catalogue) {
+    this.catalogue = catalogue;
+    this.lattices = new Map();
+    const given = this.fragment();
+    this.asked = { ...catalogue.start, ...(given.animal ? { speed: undefined } : {}), ...given };
+    this.face = new Face(element, {});
+    this.face.onask = (asked) => this.ask(asked);
+    this.ask(this.asked);
+  }
+
+  // Choices in the page's address, so that a link shows the same flight; unknown ones are left out.
+  fragment() {
+    const given = new URLSearchParams(location.hash.slice(1));
+    const found = {};
+    if (this.catalogue.animals.some(({ name }) => name === given.get("animal"))) found.animal = given.get("animal");
+    if (this.catalogue.models.some(({ name }) => name === given.get("model"))) found.model = given.get("model");
+    if (Number.isFinite(parseFloat(given.get("speed")))) found.speed = parseFloat(given.get("speed"));
+    return found;
+  }
+
+  // The models with which an animal was computed.
+  models(animal) {
+    return this.catalogue.models.filter(({ name }) => this.catalogue.files.includes(`${animal}-${name}.js`));
+  }
+
+  ask(asked) {
+    const models = this.models(asked.animal);
+    const model = models.some(({ name }) => name === asked.model) ? asked.model : models[0].name;
+    // Another animal begins at a speed of its own; another model of the same animal keeps the speed.
+    const speed = asked.animal === this.asked.animal ? asked.speed : undefined;
+    this.asked = { ...asked, model, speed };
+    if (this.listed !== asked.animal) this.face.setChoices({ animals: this.catalogue.animals, models }, this.asked);
+    this.listed = asked.animal;
+    this.load();
+  }
+
+  load() {
+    const { asked } = this;
+    const key = `${asked.animal}/${asked.model}`;
+    if (this.lattices.has(key)) return this.show(this.lattices.get(key));
+    this.face.say("Loading …");
+    const src = `data/${asked.animal}-${asked.model}.js`;
+    const failed = () => this.face.say(`The file ${src} could not be read.`);
+    document.head.append(make("script", { src, onerror: failed }));
+  }
+
+  hold(animal, model, lattice) {
+    for (const { gauges } of lattice.answers) for (const gauge of gauges) gauge.source ??= lattice.sources[gauge.name];
+    this.lattices.set(`${animal}/${model}`, lattice);
+    if (this.asked.animal === animal && this.asked.model === model) this.show(lattice);
+  }
+
+  // Show the answer that is nearest in speed.
+  show(lattice) {
+    const away = ({ speed }) => Math.abs(speed - (this.asked.speed ?? lattice.speed));
+    const answer = lattice.answers.reduce((best, each) => (away(each) < away(best) ? each : best));
+    if (this.shown !== lattice) this.face.showCurve(lattice.curve);
+    this.shown = lattice;
+    const { animal, model } = this.asked;
+    this.asked.speed = answer.speed;
+    this.face.showAnswer(answer);
+    history.replaceState(null, "", `#${new URLSearchParams({ animal, model, speed: answer.speed })}`);
+  }
+}

@@ -1,0 +1,19 @@
+// Numbers as the explorer writes them, and the words for what is known of a point.
+
+export function short(value, digits = 3) {
+  return Number(value.toPrecision(digits)).toString();
+}
+
+export function withUnit(value, unit, digits = 3) {
+  return unit ? `${short(value, digits)} ${unit}` : short(value, digits);
+}
+
+// The two ends of a number that may be one value or a range.
+export function ends(value) {
+  return Array.isArray(value) ? value : [value, value];
+}
+
+export function judged(point) {
+  if (!point.certified) return "no certified wingbeat";
+  return `certified, ${point.plausible ? "plausible" : "not plausible"}`;
+}

@@ -1,0 +1,54 @@
+// Comparison: one answer is pinned, and stays beside those that follow.
+
+import { make } from "../elements.js";
+import { short } from "./numbers.js";
+
+export class Pins {
+  // `act` is called when the pinned answer or the way to show it changes.
+  constructor(act) {
+    this.answer = undefined;
+    this.ghost = true;
+    this.act = act;
+    this.button = make("button", { type: "button", onclick: () => this.toggle() });
+    this.way = make("button", { type: "button", onclick: () => this.turn() });
+    this.words = make("p");
+    this.element = make("div", { class: "wbx-pins" }, this.button, this.way, this.words);
+    this.tell();
+  }
+
+  // The answer on the page, which the button pins.
+  now(answer) {
+    this.current = answer;
+    this.button.disabled = !answer.scene && !this.answer;
+  }
+
+  toggle() {
+    this.answer = this.answer ? undefined : this.current;
+    this.tell();
+    this.act();
+  }
+
+  turn() {
+    this.ghost = !this.ghost;
+    this.tell();
+    this.act();
+  }
+
+  tell() {
+    this.button.textContent = this.answer ? "Remove the comparison" : "Pin this flight to compare";
+    this.way.textContent = this.ghost ? "Show side by side" : "Show as a ghost";
+    this.way.hidden = this.words.hidden = !this.answer;
+    this.words.textContent = this.answer ? `Pinned: ${title(this.answer)}.` : "";
+  }
+
+  // The scene of the answer on the page, with the pinned flight as the second.
+  scene(answer) {
+    if (!this.answer) return answer.scene;
+    const [now, before] = [answer, this.answer].map((each) => ({ ...each.scene.flights[0], label: title(each) }));
+    return { ...answer.scene, flights: [now, before] };
+  }
+}
+
+export function title({ title, speed, model }) {
+  return `${title} at ${short(speed)} m/s, model ${model}`;
+}

@@ -110,7 +110,7 @@ export class Viewer {
     this.legend = make("div", { class: "wb-scale" });
     this.measures = new Measures();
     this.picture = make("div", { class: "wb-picture" }, this.canvas, this.heading);
-    const foot = make("div", { class: "wb-foot" }, this.legend, this.measures.element);
+    const foot = make("div", { class: "wb-legends" }, this.legend, this.measures.element);
     const frame = make("div", { class: "wb-frame" }, this.picture, foot);
     this.side = make("div", { class: "wb-side" });
     const tint = this.choice("Strips", tints, "off", (value) => {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -16,7 +17,7 @@ from tests.helpers.species_texts import MINIMAL, faults_of
 from wingbeat.errors import InvalidInputError
 from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.results.provenance import inputs_of, species_from
-from wingbeat.species import Shape, json_schema, load_species, species_names, species_text
+from wingbeat.species import Shape, json_schema, load_species, species_names, species_text, template
 from wingbeat.species_schema import COLOURS, LOOKS, SHAPE, packaged_text
 
 COLOURED = "[shape.colours]\n" + "".join(f'{name} = "#123aBC"\n' for name in COLOURS)
@@ -92,6 +93,17 @@ def test_a_shape_is_optional_and_may_be_short(load: Any) -> None:
     assert shape.colours == dict.fromkeys(COLOURS, "#123aBC")
     assert not shape.schematic
     assert shape.numbers["shape.bill_length"].source == "not given: the default"
+
+
+def test_the_shape_in_the_template_holds_every_key_and_loads(load: Any) -> None:
+    text = template()
+    start = text.index("# [shape]")
+    shape = text[start : text.index("\n\n", start)]
+    used = "\n".join(re.findall(r"^# (\[.*|\w+ = .*)$", shape, re.MULTILINE))
+    species = load(text + used)
+    assert species.warnings == ()
+    assert species.shape.leading_edge[-1] == -0.5
+    assert set(tomllib.loads(used)["shape"]) == {key.path.split(".")[1] for key in (*SHAPE, *LOOKS)}
 
 
 def test_a_guess_makes_a_shape_schematic(load: Any) -> None:
@@ -184,10 +196,20 @@ def test_a_shape_made_in_python_survives_too(tmp_path: Path) -> None:
     path.write_text(species_text(species), encoding="utf-8")
     again = load_species(path).shape
     assert again.drawn() == made.drawn()
-    with pytest.raises(InvalidInputError, match="must be a colour"):
-        dataclasses.replace(made, colours={"back": "#000000"})
+    for colours in ({"back": "#000000"}, None, ["#000000"] * 6):
+        with pytest.raises(InvalidInputError, match="must be a colour"):
+            dataclasses.replace(made, colours=colours)
+    with pytest.raises(InvalidInputError, match="head_length = 'long'"):
+        dataclasses.replace(made, head_length="long")
     with pytest.raises(InvalidInputError, match="at least 2 numbers"):
         dataclasses.replace(made, leading_edge=0.25)
+
+
+def test_a_replaced_number_loses_the_source_of_the_old_one() -> None:
+    pigeon = load_species("pigeon").shape
+    changed = dataclasses.replace(pigeon, camber=0.11)
+    assert changed.numbers["shape.camber"] == (0.11, "1", "", None)
+    assert changed.numbers["shape.thickness"] == pigeon.numbers["shape.thickness"]
 
 
 def test_the_inputs_of_an_orbit_hold_the_shape_and_give_it_back() -> None:

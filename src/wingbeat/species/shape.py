@@ -78,17 +78,19 @@ class Shape:
             faults.number(f"shape.{name}", getattr(self, name), above=0, at_most=_LONGEST, unit="m")
         for name in ("head_length", "bill_length", "ear_length", "tail_length", "tail_width"):
             faults.number(f"shape.{name}", getattr(self, name), at_least=0, at_most=_LONGEST, unit="m")
-        if self.head_length and is_number(self.body_length) and self.head_length > self.body_length:
+        lengths = self.body_length, self.head_length
+        if all(map(is_number, lengths)) and self.head_length > self.body_length > 0:
             faults.add("shape.head_length", self.head_length, "is longer than the body", "the head is a part of it")
         self._check_colours(faults)
         faults.raise_if_any()
         object.__setattr__(self, "numbers", {key.path: self._number(key) for key in SHAPE})
 
     def _number(self, key: Key) -> Number:
-        """Return a number as it was given with its source, or its value alone."""
-        value = getattr(self, key.name)
-        source = DEFAULT if not key.required and value == 0 else ""
-        return self.numbers.get(key.path, Number(value, key.unit, source))
+        """Return a number as it was given with its source; its value alone if it has none or was replaced."""
+        value, known = getattr(self, key.name), self.numbers.get(key.path)
+        if known is not None and known.value == value:
+            return known
+        return Number(value, key.unit, DEFAULT if not key.required and value == 0 else "")
 
     def _check_edges(self, faults: FaultList) -> None:
         edges = [getattr(self, name) for name in _STAND_IN]
@@ -112,8 +114,9 @@ class Shape:
             faults.add("shape.trailing_edge", trailing, rule, f"divide both edges by {mean:.4g}" if mean else "")
 
     def _check_colours(self, faults: FaultList) -> None:
+        given = self.colours if isinstance(self.colours, Mapping) else {}
         for name in COLOURS:
-            colour = self.colours.get(name)
+            colour = given.get(name)
             if not isinstance(colour, str) or not re.fullmatch("#[0-9a-fA-F]{6}", colour):
                 faults.add(f"shape.colours.{name}", colour, "must be a colour", 'write it as "#rrggbb"')
 

@@ -8,12 +8,27 @@ import { vane } from "./vane.js";
 const FEATHERS = 10;
 
 export function birdBody(shape, flight) {
-  const { length, width, depth, head_length: head, bill_length: bill } = shape.body;
+  const { length, depth, head_length: head, bill_length: bill } = shape.body;
   const tones = Object.fromEntries(Object.entries(shape.colours).map(([name, text]) => [name, colour(text)]));
   const front = 0.47 * length;
   const rear = front - length;
   const skull = 0.36 * head; // half the height of the head
   const neck = 0.2 * depth;
+  const rings = smooth(profile(shape.body, { front, rear, skull, neck }), 32);
+  const bend = levelled(rings, -0.06 * length, front - 0.7 * head, flight);
+  const tint = (at, height) => {
+    const trunk = mixed(tones.breast, tones.back, ramp(height, -0.25, 0.5));
+    return mixed(trunk, shaded(tones.head, 1 - 0.06 * height), ramp(at.was, front - 1.25 * head, front - 0.85 * head));
+  };
+  const parts = [loft(rings, tint, 16)];
+  const nose = { x: front - 0.1 * head, z: 0.42 * neck };
+  parts.push(...face(nose, { head, skull, bill, neck, front }, tones).map((part) => part.applyMatrix4(bend)));
+  parts.push(...fan(shape.body, flight, { x: rear + 0.06 * length, z: 0.06 * depth }, tones));
+  return parts;
+}
+
+// Rings from the bill over the breast to the rump. Lengths are those of the shape; how they swell between is drawn by eye.
+function profile({ length, width, depth, head_length: head, bill_length: bill }, { front, rear, skull, neck }) {
   const ring = (x, z, wide, up, down = up) => ({ x, z, wide, up, down });
   const [nape, breast] = [front - 0.9 * head, Math.min(0.06 * length, front - 1.5 * head)];
   const throat = (share) => {
@@ -28,7 +43,7 @@ export function birdBody(shape, flight) {
       mix(1.0 * skull, 0.58 * depth, 0.5 * (way + share)),
     );
   };
-  const stations = [
+  return [
     // Short feathers cover the base of the bill.
     ring(front + 0.14 * Math.min(bill, 0.5 * head), 0.36 * neck, 0.06 * skull, 0.06 * skull, 0.12 * skull),
     ring(front - 0.03 * head, 0.4 * neck, 0.44 * skull, 0.5 * skull, 0.46 * skull),
@@ -40,17 +55,6 @@ export function birdBody(shape, flight) {
     ring(-0.4 * length, 0.05 * depth, 0.24 * width, 0.2 * depth, 0.24 * depth),
     ring(rear, 0.07 * depth, 0.12 * width, 0.07 * depth, 0.08 * depth),
   ];
-  const rings = smooth(stations, 32);
-  const bend = levelled(rings, breast - 0.12 * length, front - 0.7 * head, flight);
-  const tint = (at, height) => {
-    const trunk = mixed(tones.breast, tones.back, ramp(height, -0.25, 0.5));
-    return mixed(trunk, shaded(tones.head, 1 - 0.06 * height), ramp(at.was, front - 1.25 * head, front - 0.85 * head));
-  };
-  const parts = [loft(rings, tint, 16)];
-  const nose = { x: front - 0.1 * head, z: 0.42 * neck };
-  parts.push(...face(nose, { head, skull, bill, neck, front }, tones).map((part) => part.applyMatrix4(bend)));
-  parts.push(...fan(shape.body, flight, { x: rear + 0.06 * length, z: 0.06 * depth }, tones));
-  return parts;
 }
 
 // Birds hold their head level: turn head and neck against the mean pitch of the body. Returns the head's turn.
@@ -89,11 +93,15 @@ function face(nose, { head, skull, bill, neck, front }, tones) {
   for (const side of [1, -1]) {
     const at = [front - 0.4 * head, side * 0.84 * skull, 0.62 * neck + 0.22 * skull];
     const ball = (size, out, tone, ahead = 0, above = 0) =>
-      painted(new THREE.SphereGeometry(size * skull, 9, 6).translate(at[0] + ahead, at[1] + side * out, at[2] + above), tone);
+      painted(sphere(size * skull, [at[0] + ahead, at[1] + side * out, at[2] + above]), tone);
     parts.push(ball(0.25, -0.08 * skull, pale), ball(0.2, 0.005 * skull, dark));
     parts.push(ball(0.055, 0.15 * skull, colour("#ffffff"), 0.05 * skull, 0.1 * skull));
   }
   return parts;
+}
+
+function sphere(radius, at) {
+  return new THREE.SphereGeometry(radius, 9, 6).translate(...at);
 }
 
 // The tail: feathers that fan from the rump. Its tilt is that of the vehicle's tail, where the model has one.
@@ -110,7 +118,8 @@ function fan({ tail_length: reach, tail_width: wide }, flight, root, tones) {
     const tint = (s) => mixed(tones.back, tones.wing_tip, 0.25 + 0.6 * ramp(s, 0.6, 1));
     // The middle feathers lie on top.
     const layer = 0.035 * wide * (1 - turn * turn);
-    const put = (s, here, off, up, tone) => ({ at: [here[0] + off[0], here[1] + off[1], Math.abs(turn) < 0.2 ? layer : layer - Math.sign(turn) * up], tone });
+    const lean = Math.abs(turn) < 0.2 ? 0 : -Math.sign(turn);
+    const put = (s, here, off, up, tone) => ({ at: [here[0] + off[0], here[1] + off[1], layer + lean * up], tone });
     const rows = vane({ path, half: () => half, round: 0.16, tint, tilt: 0.1 }, put);
     const place = ([x, y, z]) => [
       root.x + Math.cos(tilt) * (x + inside) - Math.sin(tilt) * z,

@@ -48,7 +48,8 @@ function flightFeathers(planform) {
   for (const share of [0.3, 0.13]) {
     const eta = (-share * planform.body.width) / semiSpan;
     const tip = [eta, -(0.94 - 0.3 * share) * planform.behind(0)];
-    found.push({ base: [eta, planform.at(0, 0.3)], tip, half: 0.13 * planform.body.width, hand: 0, follow: 0, round: 0.3 });
+    const half = 0.13 * planform.body.width;
+    found.push({ base: [eta, planform.at(0, 0.3)], tip, half, hand: 0, follow: 0, round: 0.3 });
   }
   inner.forEach((eta, i) => {
     const base = Math.max(eta - 0.02 * (i / inner.length), 0);
@@ -146,7 +147,8 @@ function addArm(sheet, planform, tone, inwards) {
   const around = [...steps(1, 0, HALF), ...steps(0, 1, HALF).slice(1)];
   const row = (eta, out) => {
     const [deep, chord] = [fleshy(planform, eta), planform.chord(eta)];
-    const thick = planform.thickness * chord * (1 + 0.8 * Math.exp(-eta / 0.06)) * Math.min(3 * (1 - eta / end) + 0.15, 1);
+    const taper = (1 + 0.8 * Math.exp(-eta / 0.06)) * Math.min(3 * (1 - eta / end) + 0.15, 1);
+    const thick = planform.thickness * chord * taper;
     return around.map((x, i) => {
       const share = deep * x * x;
       const ahead = planform.at(eta, share);

@@ -117,5 +117,5 @@ export function painted(geometry, tone) {
   const colours = new Float32Array(3 * count);
   for (let i = 0; i < count; i++) tone.toArray(colours, 3 * i);
   geometry.setAttribute("color", new THREE.BufferAttribute(colours, 3));
-  return geometry;
+  return geometry.deleteAttribute("uv");
 }

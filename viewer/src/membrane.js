@@ -44,7 +44,7 @@ export function membrane(planform) {
 }
 
 // Fingertips on the outline, [span fraction, metres ahead], from the fifth digit to the third at the tip of the wing.
-export function fingertips(planform) {
+function fingertips(planform) {
   const { wrist } = planform;
   return [wrist + 0.06 * (1 - wrist), wrist + 0.52 * (1 - wrist), 1].map((eta) => [eta, -planform.behind(eta)]);
 }

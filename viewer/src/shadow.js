@@ -5,7 +5,7 @@ import * as THREE from "three";
 
 const SLOPE = [-0.22, -0.34]; // metres that a shadow moves forward and to the left for every metre down
 const REACH = 1.7; // half the side of the picture, in semi-spans
-const PIXELS = 160;
+const PIXELS = 256;
 export const CASTS = 1; // the layer of all that casts a shadow
 
 export class Shadow {

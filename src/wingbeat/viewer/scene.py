@@ -12,10 +12,10 @@ import numpy as np
 from wingbeat.datasets import KIND, climb_text, downstrokes, flown
 from wingbeat.errors import FaultList, FileError
 from wingbeat.nomenclature import NOMENCLATURE, for_people
-from wingbeat.vehicle import Body, Tail
+from wingbeat.vehicle import Tail
 from wingbeat.viewer.look import look_of
 from wingbeat.viewer.pushes import Push
-from wingbeat.viewer.shape import body_axes, tail_corners
+from wingbeat.viewer.shape import tail_corners
 from wingbeat.viewer.wake import wake_of
 
 if TYPE_CHECKING:
@@ -145,7 +145,6 @@ def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:
         "frequency": beat["frequency"],
         "weight": weight,
         "periodic": dataset.attrs[KIND] == "orbit" and dataset.attrs["status"] == "converged",
-        "body_axes": body_axes(Body(**body)),
         "shape": look_of(dataset),
         **({} if tail is None else {"tail": tail.ravel().tolist()}),
         "downstrokes": [list(ends) for ends in downstrokes(dataset["phase"].values, dataset["flap_rate"].values)],

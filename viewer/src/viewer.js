@@ -102,6 +102,7 @@ export class Viewer {
     });
     this.pushes = new Pushes(this.id, (scene, once) => this.demonstrate(scene, once));
     const cameras = make("div", { class: "wb-group", role: "group", "aria-label": "Camera" }, ...this.cameras);
+    this.toggles = toggles;
     const forces = make("fieldset", { class: "wb-group" }, make("legend", {}, "Forces"), ...toggles);
     this.root.append(
       make(
@@ -176,6 +177,9 @@ export class Viewer {
     if (this.stage) this.stage.setFlights(this.flights);
     else this.stage = new Stage(this.canvas, this.flights);
     this.pairing.hidden = this.flights.length < 2;
+    Object.keys(NAMES).forEach((name, nth) => {
+      this.toggles[nth].hidden = !this.flights.some((flight) => name in flight.arrays);
+    });
     this.plots = new Plots(scene.panels, this.flights, this.last, (phase) => {
       this.pause();
       this.set(phase);

@@ -127,6 +127,14 @@ def test_a_gap_shows_no_line_and_no_number(show):
     assert slider.get_attribute("aria-valuetext") == "8 m/s: no certified wingbeat"
 
 
+def test_arrows_that_the_folder_lacks_are_not_offered(show):
+    page = show().page
+    page.get_by_text("Views, forces and plots").click()
+    assert page.get_by_label("resultant").is_visible()
+    assert page.get_by_label("lift", exact=True).is_hidden()
+    assert page.get_by_label("drag", exact=True).is_hidden()
+
+
 def test_an_uncertified_flight_is_told_in_words(show, answers):
     page = show().page
     page.evaluate(

@@ -18,7 +18,12 @@ SITE = ROOT / "site"
 # One page of each kind.
 PAGES = (
     *("index.html", "doors/biologists.html", "guide/stability.html", "theory/dynamics.html", "gallery/index.html"),
-    *("reference/commands.html", "reference/python/wingbeat.OrbitProblem.html", "evidence/whole_flights.html"),
+    *(
+        "guide/explorer.html",
+        "reference/commands.html",
+        "reference/python/wingbeat.OrbitProblem.html",
+        "evidence/whole_flights.html",
+    ),
 )
 
 
@@ -89,6 +94,12 @@ def test_every_name_of_records_is_on_its_page(reference):
 def test_the_built_site_has_a_page_for_each_name(site):
     built = {path.stem.removeprefix("wingbeat.") for path in (site / "reference" / "python").glob("*.html")}
     assert set(wb.__all__) - {"__version__"} <= built
+
+
+def test_the_site_has_the_explorer_with_four_flyers_by_both_models(site):
+    folder = site / "explorer"
+    assert len(list((folder / "data").glob("*.js"))) == 8
+    assert sum(path.stat().st_size for path in folder.rglob("*.js")) < 15e6
 
 
 @pytest.mark.parametrize("name", PAGES)

@@ -122,6 +122,7 @@ export class Viewer {
     this.pushes = new Pushes(this.id, (scene, once) => this.demonstrate(scene, once));
     const cameras = make("div", { class: "wb-group", role: "group", "aria-label": "Camera" }, ...this.cameras);
     const air = make("fieldset", { class: "wb-group" }, make("legend", {}, "Air"), trails, ground, wake);
+    this.toggles = toggles;
     const forces = make("fieldset", { class: "wb-group" }, make("legend", {}, "Forces"), ...toggles);
     this.root.append(
       make(
@@ -199,6 +200,9 @@ export class Viewer {
     this.pairing.hidden = this.flights.length < 2;
     this.wakeToggle.hidden = !this.flights.some((flight) => flight.wake);
     if (this.wakeToggle.hidden) this.look.wake = this.wakeToggle.querySelector("input").checked = false;
+    Object.keys(NAMES).forEach((name, nth) => {
+      this.toggles[nth].hidden = !this.flights.some((flight) => name in flight.arrays);
+    });
     this.look.laps = 0;
     this.look.tipForce = Measures.tipForce(this.flights);
     const before = JSON.stringify(scene.panels) === this.panels ? this.plots : undefined;

@@ -15,5 +15,10 @@ export default {
 };
 
 for (const script of document.querySelectorAll("script[data-wingbeat-scene]")) {
-  mount(script.parentElement, JSON.parse(script.textContent));
+  const address = (state) => `${location.href.split("#")[0]}#${state}`;
+  const viewer = mount(script.parentElement, JSON.parse(script.textContent), { share: { address, script } });
+  const show = () => viewer.restore(location.hash.slice(1));
+  viewer.restore(script.dataset.state ?? "");
+  show();
+  window.addEventListener("hashchange", show);
 }

@@ -57,7 +57,7 @@ export class Pushes {
     const { scene, outcome } = this.chosen;
     this.outcome.textContent = outcome;
     this.back.hidden = false;
-    this.show(scene, true);
+    this.show({ series: this.scene.series, ...scene }, true);
   }
 
   reset() {

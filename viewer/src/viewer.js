@@ -7,6 +7,10 @@ import { Measures } from "./measures.js";
 import { Plots } from "./plots.js";
 import { Pushes } from "./pushes.js";
 import { CAMERAS, Stage } from "./stage.js";
+import plotStyles from "./plots.css";
+import { Share } from "./share.js";
+import shareStyles from "./share.css";
+import { restore, stateOf } from "./state.js";
 import styles from "./style.css";
 
 const RATES = [
@@ -23,8 +27,10 @@ const AIR = { trails: "trails", ground: "ground", wake: "wake (a sketch, not com
 const NAMES = { lift: "lift", drag: "drag", force: "resultant" };
 let made = 0;
 
+const slug = (label) => label.toLowerCase().replace(/\W+/g, "-");
+
 export class Viewer {
-  constructor(element, scene, { theme = "system", playing = true } = {}) {
+  constructor(element, scene, { theme = "system", playing = true, share = {} } = {}) {
     this.id = `wb${++made}`;
     this.look = { strips: false, colour: "alpha", arrows: new Set(["force"]) };
     Object.assign(this.look, { trails: true, ground: true, wake: false, laps: 0 });
@@ -35,9 +41,10 @@ export class Viewer {
     this.phase = 0;
     this.frame = 0;
     this.root = make("section", { class: "wb-viewer", "aria-label": "Wingbeat viewer", tabindex: "0" });
-    this.root.append(make("style", {}, styles));
+    this.root.append(make("style", {}, styles + plotStyles + shareStyles));
     this.root.viewer = this;
     this.canvas = make("canvas", { class: "wb-canvas", role: "img" });
+    this.share = new Share(this, share);
     this.build();
     element.append(this.root);
     this.root.addEventListener("keydown", (event) => this.key(event));
@@ -121,7 +128,7 @@ export class Viewer {
         make("div", { class: "wb-bar" }, cameras),
         frame,
         make("div", { class: "wb-bar wb-player" }, this.playButton, this.scrubber, this.readout, this.rates),
-        make("div", { class: "wb-bar" }, tint, forces, air, this.pairing, this.theme),
+        make("div", { class: "wb-bar" }, tint, forces, air, this.pairing, this.theme, this.share.element),
         this.pushes.element,
       ),
       this.side,
@@ -130,13 +137,13 @@ export class Viewer {
 
   choice(label, options, chosen, act) {
     const id = `${this.id}-${label.replace(/\W/g, "")}`;
-    const select = make("select", { id, onchange: () => act(select.value) });
+    const select = make("select", { id, "data-choice": slug(label), onchange: () => act(select.value) });
     for (const [value, text] of options) select.append(make("option", { value, selected: value === chosen }, text));
     return make("span", { class: "wb-choice" }, make("label", { for: id }, label), select);
   }
 
   toggle(label, on, colour, act) {
-    const box = make("input", { type: "checkbox", checked: on, onchange: () => act(box.checked) });
+    const box = make("input", { type: "checkbox", checked: on, "data-choice": slug(label), onchange: () => act(box.checked) });
     const swatch = colour ? [make("span", { class: "wb-swatch", style: `background:${colour}`, "aria-hidden": "true" })] : [];
     return make("label", { class: "wb-toggle" }, box, ...swatch, label);
   }
@@ -183,10 +190,13 @@ export class Viewer {
     if (this.wakeToggle.hidden) this.look.wake = this.wakeToggle.querySelector("input").checked = false;
     this.look.laps = 0;
     this.look.tipForce = Measures.tipForce(this.flights);
-    this.plots = new Plots(scene.panels, this.flights, this.last, (phase) => {
+    const kept = JSON.stringify(scene.panels) === this.panels ? this.plots.choices : [];
+    this.panels = JSON.stringify(scene.panels);
+    this.plots = new Plots(scene, this.flights, this.last, (phase) => {
       this.pause();
       this.set(phase);
     });
+    this.plots.choose(kept);
     this.side.replaceChildren(this.plots.element);
     const lines = this.flights.map((flight) => `${flight.label}: ${flight.summary}`);
     this.heading.replaceChildren(...(lines.length > 1 ? lines : [this.flights[0].summary]).map((line) => make("p", {}, line)));
@@ -229,8 +239,19 @@ export class Viewer {
   }
 
   setCamera(name) {
+    this.eye = undefined;
     this.stage.setCamera(name);
     for (const button of this.cameras) button.setAttribute("aria-pressed", String(button.textContent === name));
+  }
+
+  // Look from a place, in semi-spans from the point that the camera looks at, until the camera is moved.
+  setEye(eye) {
+    this.eye = eye;
+    if (!eye) return;
+    const { camera, controls, span } = this.stage;
+    camera.position.set(...eye).multiplyScalar(span).add(controls.target);
+    controls.update();
+    controls.addEventListener("start", () => (this.eye = undefined));
   }
 
   setTheme(theme) {
@@ -245,6 +266,7 @@ export class Viewer {
   resize() {
     const { clientWidth, clientHeight } = this.picture;
     if (clientWidth && clientHeight) this.stage.resize(clientWidth, clientHeight);
+    this.setEye(this.eye); // a new shape of the picture puts the camera back
   }
 
   // Time ----------------------------------------------------------------------------------------------------------
@@ -295,6 +317,15 @@ export class Viewer {
     if (this.look.passing) this.set(this.phase); // the ground is sharp again
     this.playButton.textContent = "▶";
     this.playButton.setAttribute("aria-label", "Play (space)");
+  }
+
+  // What the reader sees and has chosen, as a text for the fragment of an address; `restore` shows it again.
+  get state() {
+    return stateOf(this);
+  }
+
+  restore(state) {
+    restore(this, state);
   }
 
   // What is drawn of a flight's wing now, in the world of its data: corners [m] and normals of every strip, flat lists.

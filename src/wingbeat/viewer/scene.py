@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.datasets import KIND, at_station, climb_text, downstrokes, flown
+from wingbeat.datasets import KIND, climb_text, downstrokes, flown
 from wingbeat.errors import FaultList, FileError
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.vehicle import Body, Tail
@@ -24,33 +24,13 @@ if TYPE_CHECKING:
 MOST_SAMPLES = 5000
 
 
-def _unit(name: str) -> str:
-    return for_people(NOMENCLATURE[name].unit)[1]
-
-
-_PANELS: list[dict[str, Any]] = [
-    {
-        "title": "Air load over weight",
-        "unit": "-",
-        "curves": [{"array": "thrust", "label": "forward"}, {"array": "support", "label": "upward"}],
-    },
-    {
-        "title": "Effective alpha",
-        "unit": _unit("alpha"),
-        "curves": [{"array": "alpha_arm", "label": "1/4 span"}, {"array": "alpha_hand", "label": "3/4 span"}],
-    },
-    {"title": "Hinge power", "unit": _unit("hinge_power"), "curves": [{"array": "power", "label": "hinge power"}]},
-    {"title": "Body pitch", "unit": _unit("body_pitch"), "curves": [{"array": "pitch_deg", "label": "body pitch"}]},
-]
-
-_PUSHED: list[dict[str, Any]] = [
-    {
-        "title": "Body pitch away from the orbit's",
-        "unit": _unit("body_pitch"),
-        "curves": [{"array": "pitch_away", "label": "body pitch"}],
-    },
-    {"title": "Height above the path", "unit": _unit("z"), "curves": [{"array": "height", "label": "height"}]},
-]
+_EXACT = ("phase", "time", "x", "z")
+_BASE = (*_EXACT, "body_pitch")  # without which a flight cannot be drawn
+# The curves of the plots that a page starts with, by the names of their series.
+_PANELS: list[list[str]] = [["thrust", "support"], ["alpha_arm", "alpha_hand"], ["hinge_power"], ["body_pitch"]]
+_PUSHED: list[list[str]] = [["pitch_away"], ["height"], ["thrust", "support"], ["hinge_power"]]
+# Of a disturbed flight, a page has few series, for it has many such flights.
+_PUSHED_SERIES = ("u", "w", "pitch_rate", "flap", "force_x", "force_z", "hinge_power")
 
 
 def scene(flights: Sequence[tuple[str, xr.Dataset]], pushes: Sequence[Push] = ()) -> dict[str, Any]:
@@ -81,15 +61,51 @@ def scene(flights: Sequence[tuple[str, xr.Dataset]], pushes: Sequence[Push] = ()
             rule = f"samples are too many: the viewer shows at most {MOST_SAMPLES}"
             faults.add(label, dataset.sizes["phase"], rule, "simulate fewer beats, or fewer samples per beat")
     faults.raise_if_any()
-    found = {"flights": [_flight(label, dataset) for label, dataset in flights], "panels": _PANELS}
+    found = {
+        "flights": [_flight(label, dataset) for label, dataset in flights],
+        "series": _series([dataset for _, dataset in flights], bool(pushes)),
+        "panels": _PANELS,
+    }
     return found | ({"pushes": [_push(one) for one in pushes]} if pushes else {})
+
+
+def _series(datasets: Sequence[xr.Dataset], pushed: bool) -> list[dict[str, Any]]:
+    """Return what the plots can show: how a page calls each series, and how it makes the series from an array.
+
+    The array's values times ``scale`` are in ``unit``. With ``per``, they are divided by that number of the flight;
+    with ``station``, the values of the strips are interpolated to this span fraction.
+    """
+    names = dict.fromkeys(name for dataset in datasets for name in _along_the_beat(dataset))
+    made = [
+        _term("force_x") | {"name": "thrust", "label": "forward air load over weight", "unit": "", "per": "weight"},
+        _term("force_z") | {"name": "support", "label": "upward air load over weight", "unit": "", "per": "weight"},
+        _term("alpha") | {"name": "alpha_arm", "label": "effective alpha, 1/4 span", "station": 0.25},
+        _term("alpha") | {"name": "alpha_hand", "label": "effective alpha, 3/4 span", "station": 0.75},
+    ]
+    away = [
+        _term("body_pitch") | {"name": "pitch_away", "label": "body pitch away from the orbit's", "array": "pitch_away"},
+        _term("z") | {"name": "height", "label": "height above the path", "array": "height"},
+    ]
+    return [*(away if pushed else []), *made, _term("time"), *(_term(name) for name in names)]
+
+
+def _term(name: str) -> dict[str, Any]:
+    term = NOMENCLATURE[name]
+    scale, unit = for_people(term.unit)
+    return {"name": name, "label": term.short_label, "unit": unit, "scale": scale, "array": name}
+
+
+def _along_the_beat(dataset: xr.Dataset) -> list[str]:
+    return [str(n) for n, values in dataset.data_vars.items() if values.dims == ("phase",) and n in NOMENCLATURE]
 
 
 def _push(push: Push) -> dict[str, Any]:
     flight = _flight(push.label, push.dataset)
-    for name in ("lift", "drag"):  # of the arrows, the resultants are enough
+    # Of the arrows, the resultants are enough.
+    left_out = {"lift", "drag"} | ({*_along_the_beat(push.dataset)} - {*_BASE, *_PUSHED_SERIES})
+    for name in left_out:
         del flight["arrays"][name]
-    flight["arrays"]["pitch_away"] = _packed(np.degrees(push.pitch), "f4")
+    flight["arrays"]["pitch_away"] = _packed(push.pitch, "f4")
     flight["arrays"]["height"] = _packed(push.height, "f4")
     flight["summary"] = f"{push.label}: {push.outcome}"
     return {
@@ -97,7 +113,7 @@ def _push(push: Push) -> dict[str, Any]:
         "size": push.size,
         "feedback": push.feedback,
         "outcome": push.outcome,
-        "scene": {"flights": [flight], "panels": [*_PUSHED, _PANELS[0], _PANELS[2]]},
+        "scene": {"flights": [flight], "panels": _PUSHED},
     }
 
 
@@ -132,7 +148,7 @@ def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:
         "shape": look_of(dataset),
         **({} if tail is None else {"tail": tail.ravel().tolist()}),
         "downstrokes": [list(ends) for ends in downstrokes(dataset["phase"].values, dataset["flap_rate"].values)],
-        "arrays": {name: _packed(*array) for name, array in _arrays(dataset, weight).items()},
+        "arrays": {name: _packed(*array) for name, array in _arrays(dataset).items()},
     }
 
 
@@ -168,27 +184,24 @@ def strip_loads(dataset: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
     return dataset["strip_force"].values - drag, drag
 
 
-def _arrays(dataset: xr.Dataset, weight: float) -> dict[str, tuple[np.ndarray, str]]:
-    """Return the moving arrays with their number types; single precision suffices for positions about the body."""
+def _arrays(dataset: xr.Dataset) -> dict[str, tuple[np.ndarray, str]]:
+    """Return the moving arrays with their number types, in SI units.
+
+    Single precision suffices for positions about the body and for series. The body's place is double: positions
+    in the world are sums with it.
+    """
     place = np.stack([dataset["x"].values, np.zeros(dataset.sizes["phase"]), dataset["z"].values], axis=-1)
     lift, drag = strip_loads(dataset)
-    alpha = dataset["alpha"]
-    exact = {name: dataset[name].values for name in ("phase", "time", "x", "z")}
+    exact = {name: dataset[name].values for name in _EXACT}
     single = {
-        "body_pitch": dataset["body_pitch"].values,
         "corners": dataset["strip_corner"].values - place[:, None, None],
-        "alpha": alpha.values,
+        "alpha": dataset["alpha"].values,
         "strip_lift": dataset["lift"].values,
         "lift": lift,
         "drag": drag,
         "force": dataset["strip_force"].values,
-        "thrust": dataset["force_x"].values / weight,
-        "support": dataset["force_z"].values / weight,
-        "alpha_arm": np.degrees(at_station(alpha.values, 0.25)),
-        "alpha_hand": np.degrees(at_station(alpha.values, 0.75)),
-        "power": dataset["hinge_power"].values,
-        "pitch_deg": np.degrees(dataset["body_pitch"].values),
     }
+    single |= {name: dataset[name].values for name in _along_the_beat(dataset) if name not in exact}
     return {n: (v, "f8") for n, v in exact.items()} | {n: (v, "f4") for n, v in single.items()}
 
 

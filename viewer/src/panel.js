@@ -1,0 +1,66 @@
+// Curves along the phase of the beat: downstroke shaded, with a cursor that moves with the phase.
+
+import { Axes, scaled } from "./axes.js";
+import { draw } from "./elements.js";
+import { ends, sentence, valueAt, valuesOf } from "./series.js";
+
+export class Panel extends Axes {
+  // `curves`: series of one unit; `seek(phase)` and `zoom(range)`: what the reader chooses here.
+  constructor(curves, flights, last, { seek, zoom }) {
+    super(`${sentence(curves.map((curve) => curve.label).join(" and "))} along the beat`, ["", curves[0].unit]);
+    [this.series, this.flights, this.whole] = [curves, flights, [0, last]];
+    this.seek = seek;
+    this.zoom = zoom;
+    this.cursor = draw("line", { class: "wb-cursor", y1: 0, y2: 150 });
+    this.dots = this.each((curve, nth, flight, which) => draw("circle", { class: `wb-dot wb-dot-${nth} wb-at-${which}`, r: 3 }));
+    this.front.append(this.cursor, ...this.dots.flat());
+    this.draw(this.whole);
+  }
+
+  // A list a curve, with something for each flight.
+  each(act) {
+    return this.series.map((curve, nth) => this.flights.map((flight, which) => act(curve, nth, flight, which)));
+  }
+
+  draw(range) {
+    const seen = this.flights.map((flight) => {
+      const [from, to] = range.map((phase) => flight.locate(phase));
+      return [from.low, to.high];
+    });
+    const inSight = this.each((curve, _, flight, which) => valuesOf(flight, curve).subarray(seen[which][0], seen[which][1] + 1));
+    this.setEnds(range, ends(inSight.flat()), ...this.flights[0].downstrokes);
+    const lines = this.each((curve, nth, flight, which) =>
+      draw("polyline", {
+        class: `wb-curve wb-curve-${nth} wb-flight-${which}`,
+        points: this.path(flight.phase, valuesOf(flight, curve), ...seen[which]),
+      }),
+    );
+    this.curves.replaceChildren(...lines.flat());
+  }
+
+  zoomBy(factor, phase) {
+    this.zoom(scaled(this.across, factor, phase, this.whole));
+  }
+
+  zoomTo(from, to) {
+    this.zoom([Math.min(from, to), Math.max(from, to)]);
+  }
+
+  reset() {
+    this.zoom(this.whole);
+  }
+
+  // Move to a phase; returns the values there, a list a curve with one value a flight.
+  show(phase) {
+    const at = this.x(phase);
+    this.cursor.setAttribute("x1", at);
+    this.cursor.setAttribute("x2", at);
+    return this.each((curve, nth, flight, which) => {
+      const value = valueAt(flight, curve, flight.locate(phase));
+      const dot = this.dots[nth][which];
+      dot.setAttribute("cx", at);
+      dot.setAttribute("cy", this.y(value));
+      return value;
+    });
+  }
+}

@@ -23,7 +23,7 @@ def show(browser) -> Iterator:
     """Open a file in a page of its own, and wait for the viewer in it; still, for software draws slowly."""
     contexts = []
 
-    def opened(path: Path, width: int = 900, height: int = 600, **options) -> Shown:
+    def opened(path: Path, width: int = 900, height: int = 600, fragment: str = "", **options) -> Shown:
         options = {"viewport": {"width": width, "height": height}, "reduced_motion": "reduce"} | options
         context = browser.new_context(**options)
         contexts.append(context)
@@ -33,7 +33,7 @@ def show(browser) -> Iterator:
         page.on("console", lambda m: complaints.append(m.text) if "GL Driver Message" not in m.text else None)
         page.on("pageerror", lambda error: complaints.append(str(error)))
         page.on("request", lambda request: requests.append(request.url))
-        page.goto(path.as_uri())
+        page.goto(f"{path.as_uri()}{fragment}")
         page.wait_for_selector(".wb-viewer canvas")
         return Shown(page, complaints, requests)
 

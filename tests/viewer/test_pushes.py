@@ -93,7 +93,7 @@ def test_the_reader_pushes_and_goes_back(show, page_of_pushes):
     page.evaluate(f"{VIEWER}.set({VIEWER}.last)")
     flight = f"{VIEWER}.flights[0]"
     tilt = page.evaluate(f"{flight}.arrays.pitch_away[{flight}.samples - 1]")
-    assert abs(tilt) > 20
+    assert abs(np.degrees(tilt)) > 20
     page.get_by_role("checkbox", name="feedback").check()
     page.get_by_role("button", name="Push", exact=True).click()
     assert "lost after" not in page.locator(".wb-outcome").inner_text()

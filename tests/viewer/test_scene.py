@@ -31,12 +31,28 @@ def test_arrays_are_those_of_the_data_set(bats):
     corners = arrays["corners"].reshape(data["strip_corner"].shape) + place[:, None, None]
     np.testing.assert_allclose(corners, data["strip_corner"], rtol=0, atol=1e-7)
     weight = bats["su-fan"].problem.species.vehicle.mass * 9.81
-    np.testing.assert_allclose(arrays["support"], data["force_z"] / weight, rtol=1e-6, atol=1e-6)
-    assert abs(np.trapezoid(arrays["support"], arrays["phase"]) - 1) < 1e-3  # the mean load carries the weight
+    assert shown["weight"] == pytest.approx(weight, rel=1e-12)
+    # The mean load carries the weight.
+    assert abs(np.trapezoid(arrays["force_z"], arrays["phase"]) / shown["weight"] - 1) < 1e-3
     assert shown["downstrokes"] == [[0.0, 0.5]]
     assert shown["periodic"]
     assert shown["strips"] == 10
     json.dumps(scene([("bat", data)]), allow_nan=False)
+
+
+def test_the_series_are_all_those_along_the_beat_each_held_once(bats):
+    data = bats["su-fan"].dataset
+    shown = scene([("bat", data)])
+    arrays, series = shown["flights"][0]["arrays"], {one["name"]: one for one in shown["series"]}
+    along = {name for name, values in data.data_vars.items() if values.dims == ("phase",)}
+    assert along <= set(series)
+    assert set(series) - along == {"thrust", "support", "alpha_arm", "alpha_hand", "time"}
+    assert {one["array"] for one in series.values()} <= set(arrays)
+    for name in along:
+        np.testing.assert_allclose(unpacked(arrays[name]), data[name], rtol=1e-6, atol=1e-9)
+    assert (series["flap"]["unit"], series["flap"]["scale"]) == ("deg", pytest.approx(180 / np.pi))
+    assert (series["hinge_power"]["label"], series["hinge_power"]["unit"]) == ("hinge power, both wings", "W")
+    assert {name for panel in shown["panels"] for name in panel} <= set(series)
 
 
 @pytest.mark.parametrize("model", ["su-fan", "dickinson"])

@@ -89,11 +89,11 @@ export class Card {
       against.append(make("optgroup", { label: inUnit(unit) }, ...options));
     }
     const button = (text, what, act) => make("button", { type: "button", "aria-label": what, title: what, onclick: act }, text);
+    this.across = make("span", { class: "wb-value" });
     this.foot.replaceChildren(
-      make("span", { class: "wb-against" }, "against"),
-      against,
+      make("div", { class: "wb-row wb-across" }, make("span", { class: "wb-against" }, "against"), against, this.across),
       button("CSV", `Copy plot ${this.nth + 1} as CSV`, () => copyTable(this)),
-      button("PNG", `Copy plot ${this.nth + 1} as picture`, () => copyPicture(this)),
+      button("PNG", `Copy plot ${this.nth + 1} as PNG picture`, () => copyPicture(this)),
       button("×", `Remove plot ${this.nth + 1}`, () => this.plots.remove(this)),
     );
   }
@@ -121,13 +121,12 @@ export class Card {
     const found = this.axes.show(phase);
     const { named } = this.plots;
     const rows = this.axes instanceof Panel ? found : [found[1]];
-    rows.forEach((values, nth) => {
-      const { unit } = named(this.choice.ys[nth]);
-      this.values[nth].textContent = `${values.map(shown).join(" | ")}${unit ? ` ${unit}` : ""}`;
-    });
-    if (this.axes instanceof Portrait) {
-      const { unit } = named(this.choice.x);
-      this.foot.firstChild.textContent = `against, here ${found[0].map(shown).join(" | ")}${unit ? ` ${unit}` : ""}:`;
-    }
+    rows.forEach((values, nth) => this.write(this.values[nth], values, this.choice.ys[nth]));
+    if (this.axes instanceof Portrait) this.write(this.across, found[0], this.choice.x);
+  }
+
+  write(place, values, name) {
+    const { unit } = this.plots.named(name);
+    place.textContent = `${values.map(shown).join(" | ")}${unit ? ` ${unit}` : ""}`;
   }
 }

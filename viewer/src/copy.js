@@ -94,6 +94,7 @@ function complete(card) {
   const label = (text, y, fill) => draw("text", { x: 46, y, fill, "font-size": 11 }, text);
   const whole = [width, top + height + 14 * feet.length + 4];
   const inner = styled(axes.svg);
+  for (const mark of inner.querySelectorAll(".wb-cursor, .wb-dot")) mark.remove(); // of one instant, which the copy does not name
   for (const [name, value] of Object.entries({ y: top, width, height })) inner.setAttribute(name, value);
   const outer = draw(
     "svg",

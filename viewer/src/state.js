@@ -27,7 +27,7 @@ export function stateOf(viewer) {
   state.set("eye", digits(stage.camera.position.clone().sub(stage.controls.target).divideScalar(stage.span).toArray(), 5));
   for (const { name, value, normal } of controls(viewer)) if (value !== normal) state.set(`set.${name}`, value);
   if (JSON.stringify(plots.choices) !== JSON.stringify(plots.first)) {
-    state.set("plots", plots.choices.map(({ ys, x }) => `${ys.join("+")}~${x}`).join(";"));
+    state.set("plots", plots.choices.map(({ ys, x }) => `${ys.join(".")}~${x}`).join("*"));
   }
   if (plots.range[0] > 0 || plots.range[1] < plots.last) state.set("zoom", digits(plots.range, 6));
   return state.toString().replaceAll("%2C", ",").replaceAll("%7E", "~");
@@ -47,9 +47,9 @@ export function restore(viewer, text) {
   if (state.get(MARK) !== "1") return;
   viewer.pause();
   for (const one of controls(viewer)) setControl(one, state.get(`set.${one.name}`) ?? undefined);
-  const plots = state.get("plots")?.split(";").map((each) => {
+  const plots = state.get("plots")?.split("*").map((each) => {
     const [ys, x] = each.split("~");
-    return { ys: ys.split("+"), x: x ?? PHASE };
+    return { ys: ys.split("."), x: x ?? PHASE };
   });
   viewer.plots.choose(plots ?? viewer.plots.first);
   const { last } = viewer.plots;

@@ -183,7 +183,7 @@ export class Viewer {
     this.last = Math.min(...this.flights.map((flight) => flight.last));
     this.scrubber.max = this.last;
     if (this.stage) this.stage.setFlights(this.flights);
-    else this.stage = new Stage(this.canvas, this.flights);
+    else this.makeStage();
     this.stage.onDraw = () => this.measures.follow(this.stage, this.look, this.flights[0]);
     this.pairing.hidden = this.flights.length < 2;
     this.wakeToggle.hidden = !this.flights.some((flight) => flight.wake);
@@ -210,6 +210,11 @@ export class Viewer {
     this.arrange();
     this.setCamera(this.stage.view);
     this.set(Math.min(this.phase, this.last));
+  }
+
+  makeStage() {
+    this.stage = new Stage(this.canvas, this.flights);
+    this.stage.controls.addEventListener("start", () => (this.eye = undefined));
   }
 
   arrange() {
@@ -251,7 +256,6 @@ export class Viewer {
     const { camera, controls, span } = this.stage;
     camera.position.set(...eye).multiplyScalar(span).add(controls.target);
     controls.update();
-    controls.addEventListener("start", () => (this.eye = undefined));
   }
 
   setTheme(theme) {

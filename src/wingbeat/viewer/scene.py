@@ -83,7 +83,8 @@ def _series(datasets: Sequence[xr.Dataset], pushed: bool) -> list[dict[str, Any]
         _term("alpha") | {"name": "alpha_hand", "label": "effective alpha, 3/4 span", "station": 0.75},
     ]
     away = [
-        _term("body_pitch") | {"name": "pitch_away", "label": "body pitch away from the orbit's", "array": "pitch_away"},
+        _term("body_pitch")
+        | {"name": "pitch_away", "label": "body pitch away from the orbit's", "array": "pitch_away"},
         _term("z") | {"name": "height", "label": "height above the path", "array": "height"},
     ]
     return [*(away if pushed else []), *made, _term("time"), *(_term(name) for name in names)]

@@ -144,7 +144,7 @@ def test_the_csv_is_the_data_set(show, page_of_two, bats, tmp_path):
     file = downloaded(page, "Copy plot 4 as CSV")
     assert file.suggested_filename == "su-fan-body_pitch.csv".replace("_", "-")
     file.save_as(tmp_path / "plot.csv")
-    rows = list(csv.reader((tmp_path / "plot.csv").open()))
+    rows = list(csv.reader((tmp_path / "plot.csv").read_text("utf-8").splitlines()))
     assert rows[0] == ["flight", "phase [-]", "time [s]", "body pitch, nose up [deg]"]
     for name, orbit in bats.items():
         found = np.array([[float(cell) for cell in row[1:]] for row in rows[1:] if row[0] == name])

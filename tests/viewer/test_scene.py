@@ -46,7 +46,7 @@ def test_the_series_are_all_those_along_the_beat_each_held_once(bats):
     arrays, series = shown["flights"][0]["arrays"], {one["name"]: one for one in shown["series"]}
     along = {name for name, values in data.data_vars.items() if values.dims == ("phase",)}
     assert along <= set(series)
-    assert set(series) - along == {"thrust", "support", "alpha_arm", "alpha_hand", "time"}
+    assert set(series) - along == {"thrust", "support", "alpha_arm", "alpha_hand"}
     assert {one["array"] for one in series.values()} <= set(arrays)
     for name in along:
         np.testing.assert_allclose(unpacked(arrays[name]), data[name], rtol=1e-6, atol=1e-9)

@@ -87,7 +87,7 @@ def _series(datasets: Sequence[xr.Dataset], pushed: bool) -> list[dict[str, Any]
         | {"name": "pitch_away", "label": "body pitch away from the orbit's", "array": "pitch_away"},
         _term("z") | {"name": "height", "label": "height above the path", "array": "height"},
     ]
-    return [*(away if pushed else []), *made, _term("time"), *(_term(name) for name in names)]
+    return [*(away if pushed else []), *made, *(_term(name) for name in names)]
 
 
 def _term(name: str) -> dict[str, Any]:

@@ -66,7 +66,11 @@ def test_the_reader_chooses_curves_and_only_of_one_unit_together(show, page_of_o
     power = bats["su-fan"].dataset["aerodynamic_power"].values
     curve = drawn_curve(page, 2, ".wb-curve-1")
     np.testing.assert_allclose(curve[:, 1], power, rtol=0, atol=1e-3 * np.ptp(power))
-    units = page.get_by_label("Curve 2 of plot 3").locator("optgroup").evaluate_all("all => all.map((one) => one.label)")
+    units = (
+        page.get_by_label("Curve 2 of plot 3")
+        .locator("optgroup")
+        .evaluate_all("all => all.map((one) => one.label)")
+    )
     assert units == ["[W]"]
     page.get_by_label("Curve 1 of plot 3").select_option("flap_rate")
     assert page.evaluate(f"{PLOTS}.cards[2].choice.ys") == ["flap_rate"]

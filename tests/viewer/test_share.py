@@ -11,8 +11,8 @@ VIEWER = "document.querySelector('.wb-viewer').viewer"
 NO_CLIPBOARD = "Object.defineProperty(navigator, 'clipboard', { value: undefined })"
 EYE = f"{VIEWER}.stage.camera.position.clone().sub({VIEWER}.stage.controls.target).toArray()"
 SEEN = f"""(() => {{
-  const viewer = {VIEWER};
-  return [viewer.phase, viewer.stage.view, viewer.look.colour, viewer.look.trails, viewer.plots.choices, viewer.plots.range];
+  const {{ phase, stage, look, plots }} = {VIEWER};
+  return [phase, stage.view, look.colour, look.trails, plots.choices, plots.range];
 }})()"""
 
 
@@ -68,7 +68,11 @@ def test_the_link_restores_phase_camera_and_choices(show, page_of_one):
 
 @pytest.mark.parametrize(
     "fragment",
-    ["#a-heading", "#wb=1&phase=x&eye=1,2&camera=constructor&plots=none~phase*~&zoom=3,1&set.strips=x", "#wb=1&phase=99"],
+    [
+        "#a-heading",
+        "#wb=1&phase=x&eye=1,2&camera=constructor&plots=none~phase*~&zoom=3,1&set.strips=x",
+        "#wb=1&phase=99",
+    ],
 )
 def test_a_fragment_that_makes_no_sense_changes_nothing_that_matters(show, page_of_one, fragment):
     shown = show(page_of_one, fragment=fragment)
@@ -82,7 +86,9 @@ def test_the_link_can_be_copied_or_is_selected(show, page_of_one):
     page = arranged(show(page_of_one, permissions=["clipboard-read", "clipboard-write"]))
     page.get_by_role("button", name="Copy link").click()
     told(page, r"Copied the link\.")
-    assert page.evaluate("navigator.clipboard.readText()") == page.get_by_label("Link to what is shown").input_value()
+    assert (
+        page.evaluate("navigator.clipboard.readText()") == page.get_by_label("Link to what is shown").input_value()
+    )
     page.evaluate(NO_CLIPBOARD)
     page.get_by_role("button", name="Copy link").click()
     page.get_by_text("press Ctrl+C").wait_for()

@@ -27,7 +27,13 @@ export class Axes {
     this.front = draw("g", { "clip-path": `url(#${clip})` });
     this.chosen = draw("rect", { class: "wb-range", y: EDGE.top, height: INNER.height, visibility: "hidden" });
     const frame = { x: EDGE.left, y: EDGE.top, width: INNER.width, height: INNER.height };
-    const handle = draw("rect", { class: "wb-axis", x: EDGE.left, y: HEIGHT - EDGE.bottom, width: INNER.width, height: EDGE.bottom });
+    const handle = draw("rect", {
+      class: "wb-axis",
+      x: EDGE.left,
+      y: HEIGHT - EDGE.bottom,
+      width: INNER.width,
+      height: EDGE.bottom,
+    });
     handle.append(draw("title", {}, "Drag to zoom"));
     this.svg = draw(
       "svg",
@@ -56,7 +62,11 @@ export class Axes {
     const [right, foot] = [WIDTH - EDGE.right, HEIGHT - EDGE.bottom];
     const rows = ticks(...along, 4).flatMap((value) => [
       this.line(value, { x1: EDGE.left, x2: right, y1: this.y(value), y2: this.y(value) }),
-      draw("text", { class: "wb-tick", x: EDGE.left - 5, y: this.y(value) + 3.5, "text-anchor": "end" }, written(value)),
+      draw(
+        "text",
+        { class: "wb-tick", x: EDGE.left - 5, y: this.y(value) + 3.5, "text-anchor": "end" },
+        written(value),
+      ),
     ]);
     const columns = ticks(...across, 5).flatMap((value) => [
       this.line(value, { x1: this.x(value), x2: this.x(value), y1: EDGE.top, y2: foot }),
@@ -64,7 +74,11 @@ export class Axes {
     ]);
     const units = [
       draw("text", { class: "wb-unit", x: EDGE.left - 5, y: 10, "text-anchor": "end" }, inUnit(this.units[1])),
-      draw("text", { class: "wb-unit", x: EDGE.left - 12, y: foot + 13, "text-anchor": "end" }, inUnit(this.units[0])),
+      draw(
+        "text",
+        { class: "wb-unit", x: EDGE.left - 12, y: foot + 13, "text-anchor": "end" },
+        inUnit(this.units[0]),
+      ),
     ];
     this.back.replaceChildren(...shades.map((shade) => this.shade(shade)), ...rows, ...columns, ...units);
   }

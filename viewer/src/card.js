@@ -19,7 +19,12 @@ export class Card {
     [this.nth, this.plots] = [nth, plots];
     this.rows = make("div", { class: "wb-rows" });
     this.foot = make("div", { class: "wb-foot" });
-    this.place = make("div", { class: "wb-plot", tabindex: "0", role: "group", onkeydown: (event) => this.key(event) });
+    this.place = make("div", {
+      class: "wb-plot",
+      tabindex: "0",
+      role: "group",
+      onkeydown: (event) => this.key(event),
+    });
     this.element = make("div", { class: "wb-card" }, this.rows, this.place, this.foot);
     this.choose(choice);
   }
@@ -29,7 +34,8 @@ export class Card {
     const { flights, last, range, seek, named } = this.plots;
     const curves = this.choice.ys.map(named);
     const hooks = { seek, zoom: (to) => this.plots.zoom(to) };
-    this.axes = x === PHASE ? new Panel(curves, flights, last, hooks) : new Portrait(named(x), curves[0], flights, hooks);
+    this.axes =
+      x === PHASE ? new Panel(curves, flights, last, hooks) : new Portrait(named(x), curves[0], flights, hooks);
     if (x === PHASE) this.axes.draw(range);
     this.place.setAttribute("aria-label", `Plot ${this.nth + 1}; plus and minus zoom, brackets move, 0 shows all`);
     this.place.replaceChildren(this.axes.svg);
@@ -43,8 +49,20 @@ export class Card {
     this.values = curves.map(() => make("span", { class: "wb-value" }));
     const rows = curves.map((curve, nth) => {
       const offered = nth ? byUnit(series).get(curves[0].unit) : series;
-      const menu = this.menu(`Curve ${nth + 1} of plot ${this.nth + 1}`, offered, curve.name, (name) => this.setCurve(nth, name), nth);
-      return make("div", { class: "wb-row" }, make("span", { class: `wb-key wb-key-${nth}` }), menu, this.values[nth]);
+      const menu = this.menu(
+        `Curve ${nth + 1} of plot ${this.nth + 1}`,
+        offered,
+        curve.name,
+        (name) => this.setCurve(nth, name),
+        nth,
+      );
+      return make(
+        "div",
+        { class: "wb-row" },
+        make("span", { class: `wb-key wb-key-${nth}` }),
+        menu,
+        this.values[nth],
+      );
     });
     const partners = byUnit(series).get(curves[0].unit);
     if (curves.length === 1 && this.choice.x === PHASE && partners.length > 1) {
@@ -57,10 +75,19 @@ export class Card {
 
   // Series in groups of one unit; with `none`, the reader can also have no curve.
   menu(label, series, chosen, act, none = 0) {
-    const select = make("select", { "aria-label": label, onchange: () => act(select.value), class: chosen ? false : "wb-faint" });
-    if (none) select.append(make("option", { value: "", selected: chosen === "" }, chosen ? "no second curve" : "add a curve"));
+    const select = make("select", {
+      "aria-label": label,
+      onchange: () => act(select.value),
+      class: chosen ? false : "wb-faint",
+    });
+    if (none)
+      select.append(
+        make("option", { value: "", selected: chosen === "" }, chosen ? "no second curve" : "add a curve"),
+      );
     for (const [unit, members] of byUnit(series)) {
-      const options = members.map(({ name, label: text }) => make("option", { value: name, selected: name === chosen }, text));
+      const options = members.map(({ name, label: text }) =>
+        make("option", { value: name, selected: name === chosen }, text),
+      );
       select.append(make("optgroup", { label: inUnit(unit) }, ...options));
     }
     return select;
@@ -82,16 +109,28 @@ export class Card {
   fillFoot() {
     const { series } = this.plots;
     const label = `Plot ${this.nth + 1} against`;
-    const against = make("select", { "aria-label": label, onchange: () => this.change({ ...this.choice, x: against.value }, this.foot, 0) });
-    against.append(make("option", { value: PHASE, selected: this.choice.x === PHASE }, "phase of the beat"));
+    const against = make("select", {
+      "aria-label": label,
+      onchange: () => this.change({ ...this.choice, x: against.value }, this.foot, 0),
+    });
+    against.append(make("option", { value: PHASE, selected: this.choice.x === PHASE }, "phase"));
     for (const [unit, members] of byUnit(series)) {
-      const options = members.map(({ name, label: text }) => make("option", { value: name, selected: name === this.choice.x }, text));
+      const options = members.map(({ name, label: text }) =>
+        make("option", { value: name, selected: name === this.choice.x }, text),
+      );
       against.append(make("optgroup", { label: inUnit(unit) }, ...options));
     }
-    const button = (text, what, act) => make("button", { type: "button", "aria-label": what, title: what, onclick: act }, text);
+    const button = (text, what, act) =>
+      make("button", { type: "button", "aria-label": what, title: what, onclick: act }, text);
     this.across = make("span", { class: "wb-value" });
     this.foot.replaceChildren(
-      make("div", { class: "wb-row wb-across" }, make("span", { class: "wb-against" }, "against"), against, this.across),
+      make(
+        "div",
+        { class: "wb-row wb-across" },
+        make("span", { class: "wb-against" }, "against"),
+        against,
+        this.across,
+      ),
       button("CSV", `Copy plot ${this.nth + 1} as CSV`, () => copyTable(this)),
       button("PNG", `Copy plot ${this.nth + 1} as PNG picture`, () => copyPicture(this)),
       button("×", `Remove plot ${this.nth + 1}`, () => this.plots.remove(this)),

@@ -4,7 +4,16 @@ import { draw } from "./elements.js";
 import { PHASE } from "./card.js";
 import { inUnit, valuesOf } from "./series.js";
 
-const LOOK = ["fill", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "font-size", "font-weight", "visibility"];
+const LOOK = [
+  "fill",
+  "stroke",
+  "stroke-width",
+  "stroke-dasharray",
+  "stroke-linejoin",
+  "font-size",
+  "font-weight",
+  "visibility",
+];
 const ENLARGED = 4;
 
 export function save(blob, name) {
@@ -17,7 +26,13 @@ export function save(blob, name) {
 
 // A name that every file system takes.
 export function fileName(text, ending) {
-  return `${text.toLowerCase().replace(/[^\p{L}\p{N}]+/gu, "-").replace(/^-|-$/g, "").slice(0, 60) || "flight"}.${ending}`;
+  return `${
+    text
+      .toLowerCase()
+      .replace(/[^\p{L}\p{N}]+/gu, "-")
+      .replace(/^-|-$/g, "")
+      .slice(0, 60) || "flight"
+  }.${ending}`;
 }
 
 // `blob`: a promise, as the browser wants it while the click still counts. Returns whether the clipboard has it.
@@ -87,10 +102,16 @@ function complete(card) {
   const { axes, choice, plots } = card;
   const [, , width, height] = axes.svg.getAttribute("viewBox").split(" ").map(Number);
   const { color, backgroundColor } = getComputedStyle(card.element.closest(".wb-viewer"));
-  const rows = choice.ys.map((name, nth) => ({ text: plots.named(name).label, curve: axes.curves.querySelector(`.wb-curve-${nth}`) }));
+  const rows = choice.ys.map((name, nth) => ({
+    text: plots.named(name).label,
+    curve: axes.curves.querySelector(`.wb-curve-${nth}`),
+  }));
   const top = 14 * rows.length + 4;
   const across = choice.x === PHASE ? "phase of the beat" : `against ${plots.named(choice.x).label}`;
-  const feet = [across, ...(plots.flights.length > 1 ? [`solid: ${plots.flights[0].label}; dashed: ${plots.flights[1].label}`] : [])];
+  const feet = [
+    across,
+    ...(plots.flights.length > 1 ? [`solid: ${plots.flights[0].label}; dashed: ${plots.flights[1].label}`] : []),
+  ];
   const label = (text, y, fill) => draw("text", { x: 46, y, fill, "font-size": 11 }, text);
   const whole = [width, top + height + 14 * feet.length + 4];
   const inner = styled(axes.svg);
@@ -98,14 +119,22 @@ function complete(card) {
   for (const [name, value] of Object.entries({ y: top, width, height })) inner.setAttribute(name, value);
   const outer = draw(
     "svg",
-    { xmlns: "http://www.w3.org/2000/svg", viewBox: `0 0 ${whole.join(" ")}`, width: ENLARGED * whole[0], height: ENLARGED * whole[1] },
+    {
+      xmlns: "http://www.w3.org/2000/svg",
+      viewBox: `0 0 ${whole.join(" ")}`,
+      width: ENLARGED * whole[0],
+      height: ENLARGED * whole[1],
+    },
     draw("rect", { width: whole[0], height: whole[1], fill: backgroundColor }),
     ...rows.map(({ text, curve }, nth) => label(text, 14 * (nth + 1), getComputedStyle(curve).stroke)),
     inner,
     ...feet.map((text, nth) => label(text, top + height + 14 * (nth + 1) - 2, color)),
   );
   outer.setAttribute("font-family", "system-ui, sans-serif");
-  return { address: `data:image/svg+xml;charset=utf-8,${encodeURIComponent(new XMLSerializer().serializeToString(outer))}`, whole };
+  return {
+    address: `data:image/svg+xml;charset=utf-8,${encodeURIComponent(new XMLSerializer().serializeToString(outer))}`,
+    whole,
+  };
 }
 
 export async function picture(card) {

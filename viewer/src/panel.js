@@ -12,7 +12,9 @@ export class Panel extends Axes {
     this.seek = seek;
     this.zoom = zoom;
     this.cursor = draw("line", { class: "wb-cursor", y1: 0, y2: 150 });
-    this.dots = this.each((curve, nth, flight, which) => draw("circle", { class: `wb-dot wb-dot-${nth} wb-at-${which}`, r: 3 }));
+    this.dots = this.each((curve, nth, flight, which) =>
+      draw("circle", { class: `wb-dot wb-dot-${nth} wb-at-${which}`, r: 3 }),
+    );
     this.front.append(this.cursor, ...this.dots.flat());
     this.draw(this.whole);
   }
@@ -27,7 +29,9 @@ export class Panel extends Axes {
       const [from, to] = range.map((phase) => flight.locate(phase));
       return [from.low, to.high];
     });
-    const inSight = this.each((curve, _, flight, which) => valuesOf(flight, curve).subarray(seen[which][0], seen[which][1] + 1));
+    const inSight = this.each((curve, _, flight, which) =>
+      valuesOf(flight, curve).subarray(seen[which][0], seen[which][1] + 1),
+    );
     this.setEnds(range, ends(inSight.flat()), ...this.flights[0].downstrokes);
     const lines = this.each((curve, nth, flight, which) =>
       draw("polyline", {

@@ -14,7 +14,11 @@ export class Plots {
     this.named = (name) => this.series.find((one) => one.name === name);
     this.first = scene.panels.map((ys) => ({ ys, x: PHASE }));
     this.list = make("div", { class: "wb-plots" });
-    this.more = make("button", { type: "button", onclick: () => this.add({ ys: [this.series[0].name], x: PHASE }) }, "Add a plot");
+    this.more = make(
+      "button",
+      { type: "button", onclick: () => this.add({ ys: [this.series[0].name], x: PHASE }) },
+      "Add a plot",
+    );
     this.told = make("output", { class: "wb-note" });
     const lines = ["The downstroke is shaded; in a plot of one series against another its line is thick."];
     if (flights.length > 1) lines.push(`Solid and first value: ${flights[0].label}. Dashed: ${flights[1].label}.`);

@@ -43,9 +43,10 @@ export class Portrait extends Axes {
 
   closed(which) {
     const last = this.flights[which].samples - 1;
-    return [[this.xs[which], this.wholes[0]], [this.ys[which], this.wholes[1]]].every(
-      ([values, [low, high]]) => Math.abs(values[last] - values[0]) < CLOSED * (high - low),
-    );
+    return [
+      [this.xs[which], this.wholes[0]],
+      [this.ys[which], this.wholes[1]],
+    ].every(([values, [low, high]]) => Math.abs(values[last] - values[0]) < CLOSED * (high - low));
   }
 
   // A small ring at phase 0 of the first flight.
@@ -58,7 +59,8 @@ export class Portrait extends Axes {
     let [best, least] = [0, Infinity];
     const [wide, high] = [this.across, this.along].map(([low, top]) => top - low);
     for (let k = 0; k < this.flights[0].samples; k++) {
-      const away = (((this.xs[0][k] - x) / wide) * INNER.width) ** 2 + (((this.ys[0][k] - y) / high) * INNER.height) ** 2;
+      const away =
+        (((this.xs[0][k] - x) / wide) * INNER.width) ** 2 + (((this.ys[0][k] - y) / high) * INNER.height) ** 2;
       if (away < least) [best, least] = [k, away];
     }
     this.seekPhase(this.flights[0].phase[best]);
@@ -83,7 +85,9 @@ export class Portrait extends Axes {
   show(phase) {
     this.phase = phase;
     const at = this.flights.map((flight) => flight.locate(phase));
-    this.values = this.series.map((series) => this.flights.map((flight, which) => valueAt(flight, series, at[which])));
+    this.values = this.series.map((series) =>
+      this.flights.map((flight, which) => valueAt(flight, series, at[which])),
+    );
     this.dots.forEach((dot, which) => {
       dot.setAttribute("cx", this.x(this.values[0][which]));
       dot.setAttribute("cy", this.y(this.values[1][which]));

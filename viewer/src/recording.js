@@ -15,7 +15,9 @@ const VIDEOS = [
 
 // The kinds of video that this browser records; none without MediaRecorder.
 export function videos() {
-  const able = VIDEOS.filter(({ type }) => window.MediaRecorder?.isTypeSupported(type) && HTMLCanvasElement.prototype.captureStream);
+  const able = VIDEOS.filter(
+    ({ type }) => window.MediaRecorder?.isTypeSupported(type) && HTMLCanvasElement.prototype.captureStream,
+  );
   return able.filter(({ ending }, nth) => able.findIndex((other) => other.ending === ending) === nth);
 }
 
@@ -70,7 +72,9 @@ class Film {
     const { viewer, pen, canvas } = this;
     const [left, top, wide] = [size, canvas.height - 4.4 * size, 12 * size];
     for (let share = 0; share < 1; share += 0.01) {
-      pen.fillStyle = `rgb(${diverging(2 * share - 1, 1).map((part) => Math.round(255 * part)).join(" ")})`;
+      pen.fillStyle = `rgb(${diverging(2 * share - 1, 1)
+        .map((part) => Math.round(255 * part))
+        .join(" ")})`;
       pen.fillRect(left + share * wide, top, 0.015 * wide, 0.8 * size);
     }
     pen.fillStyle = getComputedStyle(viewer.root).color;
@@ -81,7 +85,11 @@ class Film {
     pen.textAlign = "right";
     pen.fillText(most, left + wide, top + 2 * size);
     pen.textAlign = "left";
-    pen.fillText(viewer.legend.querySelector(".wb-ends").nextElementSibling?.textContent ?? "", left, top + 3.4 * size);
+    pen.fillText(
+      viewer.legend.querySelector(".wb-ends").nextElementSibling?.textContent ?? "",
+      left,
+      top + 3.4 * size,
+    );
   }
 
   // Put the viewer back as it was.
@@ -115,7 +123,7 @@ export async function gif(viewer, width, progress, signal) {
   try {
     // One palette for all frames, from four of them: with a new one each, still colours would flicker.
     const sample = [0, 1, 2, 3].flatMap((quarter) => thinned(pixels((quarter * frames) / 4)));
-    const palette = quantize(new Uint8Array(sample.flat()), 256);
+    const palette = quantize(new Uint8Array(sample), 256);
     const encoder = GIFEncoder();
     for (let nth = 0; nth < frames; nth++) {
       signal.throwIfAborted();
@@ -131,7 +139,7 @@ export async function gif(viewer, width, progress, signal) {
   }
 }
 
-// Every 13th pixel: enough for a palette, in a quarter of a second less.
+// Every 13th pixel is enough for a palette.
 function thinned(data) {
   const found = [];
   for (let at = 0; at < data.length; at += 4 * 13) found.push(data[at], data[at + 1], data[at + 2], 255);
@@ -155,7 +163,7 @@ export async function video(viewer, width, { type }, progress, signal) {
     recorder.start();
     const start = performance.now();
     for (let spent = 0; spent < whole && !signal.aborted; spent = 0.001 * (performance.now() - start)) {
-      film.paint(from + (((spent / seconds) % 1) * (to - from)));
+      film.paint(from + ((spent / seconds) % 1) * (to - from));
       progress(spent / whole);
       await new Promise((done) => requestAnimationFrame(done));
     }

@@ -56,13 +56,21 @@ export class Share {
         "Link",
         this.link,
         this.button("Copy link", () => this.copy(this.link, "the link")),
-        make("p", { class: "wb-note" }, offline ? "It opens this file on this computer." : "It opens this phase, camera and choice of plots."),
+        make(
+          "p",
+          { class: "wb-note" },
+          offline ? "It opens this file on this computer." : "It opens this phase, camera and choice of plots.",
+        ),
       ),
       this.part(
         "Frame for another page",
         this.frame,
         this.button("Copy code", () => this.copy(this.frame, "the code")),
-        make("p", { class: "wb-note" }, offline ? "Put this file beside the other page." : "The frame loads when a reader comes near."),
+        make(
+          "p",
+          { class: "wb-note" },
+          offline ? "Put this file beside the other page." : "The frame loads when a reader comes near.",
+        ),
       ),
     ];
   }
@@ -71,8 +79,16 @@ export class Share {
   refresh() {
     if (!this.address || !this.element.open) return;
     this.link.value = this.address(stateOf(this.viewer));
-    const here = location.protocol === "file:" ? this.link.value.slice(this.link.value.lastIndexOf("/") + 1) : this.link.value;
-    const frame = make("iframe", { src: here, title: `Flight of ${this.label}`, width: 960, height: 640, loading: "lazy", style: "border: 0" });
+    const here =
+      location.protocol === "file:" ? this.link.value.slice(this.link.value.lastIndexOf("/") + 1) : this.link.value;
+    const frame = make("iframe", {
+      src: here,
+      title: `Flight of ${this.label}`,
+      width: 960,
+      height: 640,
+      loading: "lazy",
+      style: "border: 0",
+    });
     this.frame.value = frame.outerHTML;
   }
 
@@ -96,13 +112,24 @@ export class Share {
   moving() {
     const kinds = [{ name: "GIF", ending: "gif" }, ...videos()];
     const id = `${this.viewer.id}-share`;
-    const kind = make("select", { id: `${id}-kind` }, ...kinds.map(({ name }) => make("option", { value: name }, name)));
+    const kind = make(
+      "select",
+      { id: `${id}-kind` },
+      ...kinds.map(({ name }) => make("option", { value: name }, name)),
+    );
     const width = make("select", { id: `${id}-width` });
-    for (const pixels of WIDTHS) width.append(make("option", { value: pixels, selected: pixels === 640 }, `${pixels} px`));
+    for (const pixels of WIDTHS)
+      width.append(make("option", { value: pixels, selected: pixels === 640 }, `${pixels} px`));
     const bar = make("progress", { max: 1, value: 0, "aria-label": "Progress of the moving picture", hidden: true });
     const button = this.button("Save", () => {
       if (this.work) this.work.abort();
-      else this.make(kinds.find(({ name }) => name === kind.value), Number(width.value), bar, button);
+      else
+        this.make(
+          kinds.find(({ name }) => name === kind.value),
+          Number(width.value),
+          bar,
+          button,
+        );
     });
     const missing = kinds.length === 1 ? "This browser cannot record a canvas, so there is no video here." : "";
     const note = `One beat at the chosen speed; a video lasts at least 2 s. ${missing}`;
@@ -124,7 +151,9 @@ export class Share {
     const progress = (share) => (bar.value = share);
     try {
       const { signal } = this.work;
-      const made = kind.type ? await video(this.viewer, width, kind, progress, signal) : await gif(this.viewer, width, progress, signal);
+      const made = kind.type
+        ? await video(this.viewer, width, kind, progress, signal)
+        : await gif(this.viewer, width, progress, signal);
       const name = fileName(this.label, kind.ending);
       save(made.blob, name);
       const length = made.frames ? `${made.frames} frames` : `${made.seconds.toPrecision(2)} s`;

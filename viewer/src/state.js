@@ -16,15 +16,26 @@ function numbers(text, count) {
 function controls(viewer) {
   return [...viewer.root.querySelectorAll("[data-choice]")].map((control) => {
     const isBox = control.type === "checkbox";
-    const normal = isBox ? String(control.defaultChecked) : [...control.options].find((option) => option.defaultSelected)?.value;
-    return { control, isBox, name: control.dataset.choice, normal, value: isBox ? String(control.checked) : control.value };
+    const normal = isBox
+      ? String(control.defaultChecked)
+      : [...control.options].find((option) => option.defaultSelected)?.value;
+    return {
+      control,
+      isBox,
+      name: control.dataset.choice,
+      normal,
+      value: isBox ? String(control.checked) : control.value,
+    };
   });
 }
 
 export function stateOf(viewer) {
   const { stage, plots } = viewer;
   const state = new URLSearchParams({ [MARK]: "1", phase: digits([viewer.phase], 6), camera: stage.view });
-  state.set("eye", digits(stage.camera.position.clone().sub(stage.controls.target).divideScalar(stage.span).toArray(), 5));
+  state.set(
+    "eye",
+    digits(stage.camera.position.clone().sub(stage.controls.target).divideScalar(stage.span).toArray(), 5),
+  );
   for (const { name, value, normal } of controls(viewer)) if (value !== normal) state.set(`set.${name}`, value);
   if (JSON.stringify(plots.choices) !== JSON.stringify(plots.first)) {
     state.set("plots", plots.choices.map(({ ys, x }) => `${ys.join(".")}~${x}`).join("*"));
@@ -47,10 +58,13 @@ export function restore(viewer, text) {
   if (state.get(MARK) !== "1") return;
   viewer.pause();
   for (const one of controls(viewer)) setControl(one, state.get(`set.${one.name}`) ?? undefined);
-  const plots = state.get("plots")?.split("*").map((each) => {
-    const [ys, x] = each.split("~");
-    return { ys: ys.split("."), x: x ?? PHASE };
-  });
+  const plots = state
+    .get("plots")
+    ?.split("*")
+    .map((each) => {
+      const [ys, x] = each.split("~");
+      return { ys: ys.split("."), x: x ?? PHASE };
+    });
   viewer.plots.choose(plots ?? viewer.plots.first);
   const { last } = viewer.plots;
   const [from, to] = numbers(state.get("zoom"), 2) ?? [0, last];

@@ -179,7 +179,7 @@ def test_the_picture_shows_the_plot_in_the_theme(show, page_of_one, tmp_path, th
     picture = Image.open(io.BytesIO((tmp_path / "plot.png").read_bytes())).convert("RGB")
     assert picture.width == 1280
     assert picture.getpixel((2, 2)) == paper
-    colours = {colour: count for count, colour in picture.getcolors(1 << 20)}
+    colours = {colour: count for count, colour in picture.getcolors(1 << 20) or []}
     curve = {"light": (0, 114, 178), "dark": (86, 180, 233)}[theme]
     assert colours[curve] > 1000
 
@@ -187,9 +187,11 @@ def test_the_picture_shows_the_plot_in_the_theme(show, page_of_one, tmp_path, th
 def test_plots_keep_their_choices_with_another_flight(show, page_of_one, page_of_two):
     page = show(page_of_two).page
     page.get_by_label("Curve 1 of plot 4").select_option("flap")
+    page.evaluate(f"{PLOTS}.zoom([0.2, 0.7])")
     scene = page_of_one.read_text("utf-8").split("data-wingbeat-scene>")[1].split("</script>")[0]
     page.evaluate(f"(scene) => {VIEWER}.replace(JSON.parse(scene))", scene)
     assert page.evaluate(f"{PLOTS}.cards[3].choice.ys") == ["flap"]
+    assert zoomed(page) == [0.2, 0.7]
     assert page.locator(".wb-flight-1").count() == 0
 
 

@@ -191,12 +191,14 @@ export class Viewer {
     this.look.laps = 0;
     this.look.tipForce = Measures.tipForce(this.flights);
     const kept = JSON.stringify(scene.panels) === this.panels ? this.plots.choices : [];
+    const before = JSON.stringify(scene.panels) === this.panels ? this.plots : undefined;
     this.panels = JSON.stringify(scene.panels);
     this.plots = new Plots(scene, this.flights, this.last, (phase) => {
       this.pause();
       this.set(phase);
     });
-    this.plots.choose(kept);
+    this.plots.choose(before?.choices ?? []);
+    if (before?.last === this.last) this.plots.zoom(before.range);
     this.side.replaceChildren(this.plots.element);
     const lines = this.flights.map((flight) => `${flight.label}: ${flight.summary}`);
     this.heading.replaceChildren(...(lines.length > 1 ? lines : [this.flights[0].summary]).map((line) => make("p", {}, line)));

@@ -190,7 +190,6 @@ export class Viewer {
     if (this.wakeToggle.hidden) this.look.wake = this.wakeToggle.querySelector("input").checked = false;
     this.look.laps = 0;
     this.look.tipForce = Measures.tipForce(this.flights);
-    const kept = JSON.stringify(scene.panels) === this.panels ? this.plots.choices : [];
     const before = JSON.stringify(scene.panels) === this.panels ? this.plots : undefined;
     this.panels = JSON.stringify(scene.panels);
     this.plots = new Plots(scene, this.flights, this.last, (phase) => {

@@ -18,7 +18,7 @@ export class Card {
   constructor(nth, choice, plots) {
     [this.nth, this.plots] = [nth, plots];
     this.rows = make("div", { class: "wb-rows" });
-    this.foot = make("div", { class: "wb-foot" });
+    this.foot = make("div", { class: "wb-card-foot" });
     this.place = make("div", {
       class: "wb-plot",
       tabindex: "0",

@@ -2,7 +2,6 @@
 /*! GIFs are written by gifenc 1.0.3, copyright 2017 Matt DesLauriers, MIT license */
 
 import { applyPalette, GIFEncoder, quantize } from "gifenc";
-import { diverging } from "./colours.js";
 
 const [MOST_FRAMES, FEWEST_FRAMES] = [48, 12];
 const SHORTEST_FRAME = 20; // ms; viewers of GIFs show shorter ones slowly
@@ -19,6 +18,23 @@ export function videos() {
     ({ type }) => window.MediaRecorder?.isTypeSupported(type) && HTMLCanvasElement.prototype.captureStream,
   );
   return able.filter(({ ending }, nth) => able.findIndex((other) => other.ending === ending) === nth);
+}
+
+// The words that stand in an element, with the boxes of the page that they fill.
+function words(element) {
+  const found = [];
+  const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
+  const range = document.createRange();
+  while (walker.nextNode()) {
+    const { currentNode: node } = walker;
+    for (const { 0: word, index } of node.textContent.matchAll(/\S+/g)) {
+      range.setStart(node, index);
+      range.setEnd(node, index + word.length);
+      const box = range.getBoundingClientRect();
+      if (box.width) found.push([word, box]);
+    }
+  }
+  return found;
 }
 
 // A canvas of a width in pixels, on which the viewer's picture is painted with its texts.
@@ -44,7 +60,7 @@ class Film {
     const { viewer, pen, canvas } = this;
     const { stage } = viewer;
     viewer.set(phase);
-    stage.renderer.render(stage.scene, stage.camera); // at once: the drawing is gone after this task
+    stage.render(); // at once: the drawing is gone after this task
     pen.setTransform(1, 0, 0, 1, 0, 0);
     pen.fillStyle = getComputedStyle(viewer.root).backgroundColor;
     pen.fillRect(0, 0, canvas.width, canvas.height);
@@ -52,44 +68,71 @@ class Film {
     this.write();
   }
 
-  // Summary, colours and phase, where the page has them.
+  // The texts and legends that the page lays over the picture, in the same corners, and the phase.
   write() {
     const { viewer, pen, canvas } = this;
-    const size = Math.max(0.024 * canvas.width, 10);
-    pen.fillStyle = getComputedStyle(viewer.root).color;
-    pen.font = `${size}px system-ui, sans-serif`;
-    pen.textBaseline = "top";
-    const lines = [...viewer.heading.querySelectorAll("p")].map((line) => line.textContent);
-    lines.forEach((line, nth) => pen.fillText(line, size, size * (0.8 + 1.4 * nth), canvas.width - 2 * size));
-    pen.textBaseline = "alphabetic";
-    pen.textAlign = "right";
-    pen.fillText(viewer.readout.textContent, canvas.width - size, canvas.height - size);
+    const { color, backgroundColor } = getComputedStyle(viewer.root);
+    pen.fillStyle = pen.strokeStyle = color;
+    pen.shadowColor = backgroundColor; // as in the page, a soft edge makes texts legible over the picture
+    pen.shadowBlur = 3;
+    this.writePart(viewer.heading, 0, 0);
+    this.writePart(viewer.legend, 0, 1);
+    this.writePart(viewer.measures.element, 1, 1);
+    pen.font = `${13 * this.enlarged}px system-ui, sans-serif`;
+    pen.textBaseline = "middle";
+    pen.textAlign = "center";
+    pen.fillText(viewer.readout.textContent, 0.5 * canvas.width, canvas.height - 18 * this.enlarged);
     pen.textAlign = "left";
-    if (viewer.legend.querySelector(".wb-gradient")?.checkVisibility()) this.scale(size);
+    pen.shadowBlur = 0;
   }
 
-  scale(size) {
-    const { viewer, pen, canvas } = this;
-    const [left, top, wide] = [size, canvas.height - 4.4 * size, 12 * size];
-    for (let share = 0; share < 1; share += 0.01) {
-      pen.fillStyle = `rgb(${diverging(2 * share - 1, 1)
-        .map((part) => Math.round(255 * part))
-        .join(" ")})`;
-      pen.fillRect(left + share * wide, top, 0.015 * wide, 0.8 * size);
+  // Texts are not made smaller than three quarters: they would be illegible.
+  get enlarged() {
+    return Math.max(this.ratio, 0.75);
+  }
+
+  // One part, which keeps its distance to a corner of the picture: `right` and `foot` are 0 or 1.
+  writePart(part, right, foot) {
+    const { viewer, pen, canvas, enlarged } = this;
+    const frame = viewer.picture.getBoundingClientRect();
+    const corner = [right ? frame.right : frame.left, foot ? frame.bottom : frame.top];
+    const place = (box) => [
+      right * canvas.width + (box.left - corner[0]) * enlarged,
+      foot * canvas.height + (box.top - corner[1]) * enlarged,
+      box.width * enlarged,
+      box.height * enlarged,
+    ];
+    for (const scale of part.querySelectorAll(".wb-gradient")) {
+      const [left, top, width, height] = place(scale.getBoundingClientRect());
+      const colours = pen.createLinearGradient(left, 0, left + width, 0);
+      const stops = getComputedStyle(scale).backgroundImage.match(/rgba?\([^)]*\)/g);
+      stops.forEach((stop, nth) => colours.addColorStop(nth / (stops.length - 1), stop));
+      pen.fillStyle = colours;
+      pen.fillRect(left, top, width, height);
+      pen.fillStyle = pen.strokeStyle;
     }
-    pen.fillStyle = getComputedStyle(viewer.root).color;
-    const [least, middle, most] = [...viewer.legend.querySelectorAll(".wb-ends span")].map((end) => end.textContent);
-    pen.fillText(least, left, top + 2 * size);
-    pen.textAlign = "center";
-    pen.fillText(middle, left + 0.5 * wide, top + 2 * size);
-    pen.textAlign = "right";
-    pen.fillText(most, left + wide, top + 2 * size);
-    pen.textAlign = "left";
-    pen.fillText(
-      viewer.legend.querySelector(".wb-ends").nextElementSibling?.textContent ?? "",
-      left,
-      top + 3.4 * size,
-    );
+    for (const bar of part.querySelectorAll(".wb-bar-line"))
+      this.bracket(place(bar.getBoundingClientRect()), bar.clientWidth);
+    for (const [word, box] of words(part)) {
+      const [left, top, , height] = place(box);
+      pen.font = `${parseFloat(getComputedStyle(part).fontSize) * enlarged}px system-ui, sans-serif`;
+      pen.textBaseline = "middle";
+      pen.fillText(word, left, top + 0.5 * height);
+    }
+  }
+
+  // The scale of the arrows, which the picture makes smaller even where its texts are not.
+  bracket([left, top, width, height], pixels) {
+    const { pen, enlarged } = this;
+    if (!width) return;
+    const start = left + width - pixels * this.ratio;
+    pen.lineWidth = 2 * enlarged;
+    pen.beginPath();
+    pen.moveTo(start, top);
+    pen.lineTo(start, top + height);
+    pen.lineTo(left + width, top + height);
+    pen.lineTo(left + width, top);
+    pen.stroke();
   }
 
   // Put the viewer back as it was.

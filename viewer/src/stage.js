@@ -136,10 +136,14 @@ export class Stage {
   draw() {
     this.due ??= requestAnimationFrame(() => {
       this.due = undefined;
-      this.shadow.draw(this.renderer);
-      this.renderer.render(this.scene, this.camera);
-      this.onDraw?.();
+      this.render();
     });
+  }
+
+  render() {
+    this.shadow.draw(this.renderer);
+    this.renderer.render(this.scene, this.camera);
+    this.onDraw?.();
   }
 
   // Pixels of the page for one metre at the animal.

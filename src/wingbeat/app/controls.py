@@ -10,7 +10,7 @@ from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, INFLOWS, LIBRARY,
 from wingbeat.app.formatting import from_shown, sentence
 from wingbeat.app.numbers import Numbers
 from wingbeat.app.scenario import Scenario, own_species, species_in
-from wingbeat.app.widgets import Field, box, choice_field, number_field, slider, tag, text_field
+from wingbeat.app.widgets import Field, box, button, choice_field, number_field, slider, tag, text_field
 from wingbeat.errors import InvalidInputError
 from wingbeat.models import model_of
 from wingbeat.nomenclature import NOMENCLATURE, for_people
@@ -37,8 +37,8 @@ class Controls:
         self._fields: dict[str, Field] = {}
         self._species = "", ""
 
-    def build_flight(self) -> None:
-        """Make the main controls: animal and flight."""
+    def build_flight(self, solve: Callable[[], Any]) -> None:
+        """Make the main controls: animal and flight; `solve` is called when the visitor asks for it."""
         now = self._scenario
         with box("Animal and flight", "first"):
             names = [(name, name) for name in species_names()]
@@ -54,6 +54,7 @@ class Controls:
             self._fields["model"] = choice_field("Flight model", whole, now.model, self._choose_model)
             quantities = [(name, _quantity(name)) for name in QUANTITIES]
             self._fields["minimise"] = choice_field("Minimise", quantities, now.minimise, self._word("minimise"))
+            button("Solve", solve, "primary", title="Search again from every start")
 
     def _build_animal(self, names: list[tuple[str, str]]) -> None:
         own = [self._own] if self._own else []
@@ -148,6 +149,15 @@ class Controls:
         aliases = {"coefficients": "aero", "quantity": "minimise", "constraint": "limits", "subject_to": "limits"}
         name = aliases.get(where.partition("[")[0], where)
         return self._fields.get(name) or self._numbers.field_of(where)
+
+    def choose(self, **chosen: Any) -> None:
+        """Change animal, model or speed, as the controls do."""
+        if "species" in chosen:
+            self._choose_animal(chosen["species"])
+        elif "model" in chosen:
+            self._choose_model(chosen["model"])
+        else:
+            self._change(**chosen)
 
     def _choose_animal(self, name: str) -> None:
         if name == _OWN:

@@ -35,6 +35,7 @@ class Curve:
         self._start_near: tuple[float, Any] | None = None
         self._waiting: list[float] = []
         self.asked: Scenario | None = None
+        self.measured: list[dict[str, Any]] = []
         self.points: list[dict[str, Any]] = []
         self.state = ""
 
@@ -57,9 +58,10 @@ class Curve:
         """Return whether the curve is that of a scenario, whose speed and range do not matter."""
         return self.asked is not None and scenario.at(self.asked.speed).asks_as(self.asked)
 
-    def take(self, scenario: Scenario, points: list[dict[str, Any]]) -> None:
+    def take(self, scenario: Scenario, answer: dict[str, Any], points: list[dict[str, Any]]) -> None:
         """Show points that were solved beforehand, from every start."""
         self._whole, self.asked, self.points, self._waiting = True, scenario, list(points), []
+        self.measured = answer["measured"]
         self._tell(self._summary())
 
     def follow(self, scenario: Scenario, answer: dict[str, Any]) -> None:
@@ -79,6 +81,7 @@ class Curve:
         self._whole, self.asked, self.points = whole, scenario, []
         now = scenario.speed
         self._start_near = (now, answer.get("near")) if answer else None
+        self.measured = answer["measured"] if answer else []
         speeds = scenario.speeds()
         # Outwards from the answer, so that each point has a neighbour to continue from.
         self._waiting = [speed for speed in speeds if speed >= now] + [s for s in reversed(speeds) if s < now]
@@ -151,15 +154,20 @@ class Curve:
 
 
 def drawn(
-    scenario: Scenario, points: Sequence[dict[str, Any]], pending: Sequence[float], answer: dict[str, Any] | None
+    scenario: Scenario,
+    points: Sequence[dict[str, Any]],
+    answer: dict[str, Any] | None,
+    measured: Sequence[dict[str, Any]],
+    pending: Sequence[float] = (),
 ) -> dict[str, Any]:
     """Return the curve of a scenario as the face draws it.
 
     Parameters
     ----------
     points : as a worker returns them.
-    pending : speeds that are still to be solved [m/s].
     answer : the one on the page, if it belongs to the curve; it is one of the points.
+    measured : on animals, from `measured_points`.
+    pending : speeds that are still to be solved [m/s].
     """
     found = {point["speed"]: _drawn(point) for point in points}
     if answer is not None:
@@ -168,7 +176,8 @@ def drawn(
         one = at | {name: record[name] for name in ("status", "mean_positive_power")}
         found[record["speed"]] = _drawn(one | {"plausible": answer["plausible"]})
     in_order = [found[speed] for speed in sorted(found)]
-    return {"points": in_order, "pending": list(pending), "range": scenario.sweep[:2], "measured": []}
+    about = {"measured": list(measured), "pending": list(pending), "range": scenario.sweep[:2]}
+    return {"points": in_order, **about}
 
 
 def _drawn(point: dict[str, Any]) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from wingbeat.app.scenario import problem_of
 from wingbeat.app.uploads import read_upload, scenario_of
 from wingbeat.errors import FileError, InvalidInputError, first_line
 from wingbeat.explorer.face import face_of, lights_of
+from wingbeat.explorer.measured import measured_points
 from wingbeat.models import MODELS
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
@@ -122,6 +123,7 @@ def answer_of(orbit: Orbit, model: str, begun: float) -> dict[str, Any]:
         "groups": orbit_groups(record),
         "near": _near(orbit) if orbit.status is Status.CONVERGED else None,
         "plausible": all(light["good"] for light in lights_of(record)),
+        "measured": measured_points(orbit.problem.species),
         "face": json.dumps(face_of(orbit, model), allow_nan=False),
         "seconds": time.perf_counter() - begun,
         "solver_seconds": record["solve_seconds"],

@@ -69,7 +69,7 @@ class Page:
             self._session.ask(whole=True)
         else:
             if self._session.scenario == self._first.scenario:
-                self._curve.take(self._first.scenario, self._first.points)
+                self._curve.take(self._first.scenario, self._first.answer, self._first.points)
             self._session.take_ready(self._first.answer)
             self._is_ready = False
         if self._refusals:  # shown after the request, because a request removes earlier messages
@@ -192,7 +192,7 @@ class Page:
         belongs = answer is not None and answer["scenario"] is not None
         if not belongs or (curve.asked is not None and not curve.is_of(self._session.answered)):
             answer = None
-        data = drawn(curve.asked or self._session.scenario, curve.points, curve.pending, answer)
+        data = drawn(curve.asked or self._session.scenario, curve.points, answer, curve.measured, curve.pending)
         if data != self._curve_shown:
             self._curve_shown = data
             self._face.show_curve(data)

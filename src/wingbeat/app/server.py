@@ -229,7 +229,7 @@ def _add_files(app: FastAPI, house: House) -> None:
 
 def _face_of(first: First) -> bytes:
     """Return what the browser shows of the first flight: its face and its curve."""
-    curve = json.dumps(drawn(first.scenario, first.points, (), first.answer))
+    curve = json.dumps(drawn(first.scenario, first.points, first.answer, first.answer["measured"]))
     return f'{{"answer": {first.answer["face"]}, "curve": {curve}}}'.encode()
 
 

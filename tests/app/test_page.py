@@ -21,7 +21,7 @@ def test_a_visit(visit, capsys, tmp_path):
     solved(page, "pigeon at 10 m/s, su-fan")
     closes, plausible = page.locator(".wbx-light").all()
     assert re.search("closes to ", closes.inner_text())
-    assert plausible.inner_text().startswith("Not plausible")
+    assert "Not plausible" in plausible.inner_text()
     assert "wbx-bad" in plausible.get_attribute("class")
     choose(page, "Animal", "bat")
     enter(page, "Speed [m/s]", "8")
@@ -239,7 +239,7 @@ def test_what_cannot_fly_says_why_and_what_would(visit):
 
 def test_eight_visitors_at_once_and_a_solver_that_dies(visit, served):
     pages = [
-        visit(f"species=pigeon&speed={9 + 0.25 * i}&starts=1", viewport={"width": 400, "height": 500})
+        visit(f"species=pigeon&speed={9 + 0.25 * i}&starts=1&sweep=8:12:4", viewport={"width": 400, "height": 500})
         for i in range(8)
     ]
     for i, page in enumerate(pages):
@@ -247,7 +247,7 @@ def test_eight_visitors_at_once_and_a_solver_that_dies(visit, served):
     assert len(served.house.pages) >= 8
     before = set(served.house.pool.workers)
     patient = visit("species=pigeon&speed=9&minimise=peak_power&starts=100")  # takes long
-    patient.locator(".state", has_text="starts").wait_for()
+    patient.locator(".state", has_text="starts").wait_for(timeout=2 * PATIENCE)
     for pid in before:
         os.kill(pid, signal.SIGKILL)
     patient.locator(".trouble", has_text="The solver process ended").wait_for()
@@ -276,9 +276,10 @@ def test_every_control_is_reached_by_the_keyboard_and_axe_finds_no_serious_fault
         fold.click()
     assert page.evaluate(OUT_OF_REACH) == []
     page.locator(".drawer > summary").click()  # it lies over what is opened next
-    for fold in page.locator(".face summary, .below summary, .menu > summary").all():
+    for fold in page.locator(".face summary, .below summary").all():
         if fold.is_visible():
             fold.click()
+    unfold(page, ".menu")
     assert page.evaluate(OUT_OF_REACH) == []
     unfold(page, ".drawer")
     assert page.evaluate("document.documentElement.scrollWidth") <= width

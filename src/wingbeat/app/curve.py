@@ -58,6 +58,10 @@ class Curve:
         """Return whether the curve is that of a scenario, whose speed and range do not matter."""
         return self.asked is not None and scenario.at(self.asked.speed).asks_as(self.asked)
 
+    def suits(self, scenario: Scenario) -> bool:
+        """Return whether nothing is shown that belongs to another scenario."""
+        return self.asked is None or self.is_of(scenario)
+
     def take(self, scenario: Scenario, answer: dict[str, Any], points: list[dict[str, Any]]) -> None:
         """Show points that were solved beforehand, from every start."""
         self._whole, self.asked, self.points, self._waiting = True, scenario, list(points), []

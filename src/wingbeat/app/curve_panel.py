@@ -62,7 +62,7 @@ class CurvePanel:
 
     def show_sweep(self, scenario: Scenario) -> None:
         """Show the range of speeds of a scenario, and dim a curve that belongs to another scenario."""
-        set_class(self._found, "stale", self._curve.asked is not None and not self._curve.is_of(scenario))
+        set_class(self._found, "stale", not self._curve.suits(scenario))
         for field, value in zip(self._fields, scenario.sweep, strict=True):
             field.show(f"{value:g}")
 
@@ -79,6 +79,7 @@ class CurvePanel:
         self._stop.props.set_bool("disabled", not curve.is_running)
         set_class(self._bar, "hidden", not curve.is_running)
         self._bar.props["value"] = curve.done
+        set_class(self._found, "stale", not curve.suits(self._session.scenario))
         if self._shown != curve.points:
             self._shown = list(curve.points)
             self._table.clear()

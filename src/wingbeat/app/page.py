@@ -159,10 +159,9 @@ class Page:
         self._close_trouble()
         self._controls.show(scenario)
         self._face.choose(scenario)
-        is_old = self._curve.asked is not None and not self._curve.is_of(scenario)
-        if is_old:
+        if not self._curve.suits(scenario):
             self._curve.cancel()
-        set_class(self._whole, "old-curve", is_old)
+        set_class(self._whole, "old-curve", not self._curve.suits(scenario))
         self._curve_panel.show_sweep(scenario)
         run_script(f"wingbeatPage.setQuery({json.dumps(to_query(scenario))})")
 
@@ -190,14 +189,14 @@ class Page:
         """Show the curve in the face and in its panel."""
         curve, answer = self._curve, self._session.answer
         belongs = answer is not None and answer["scenario"] is not None
-        if not belongs or (curve.asked is not None and not curve.is_of(self._session.answered)):
+        if not belongs or not curve.suits(self._session.answered):
             answer = None
         data = drawn(curve.asked or self._session.scenario, curve.points, answer, curve.measured, curve.pending)
         if data != self._curve_shown:
             self._curve_shown = data
             self._face.show_curve(data)
         self._curve_panel.show()
-        set_class(self._whole, "old-curve", curve.asked is not None and not curve.is_of(self._session.scenario))
+        set_class(self._whole, "old-curve", not curve.suits(self._session.scenario))
 
     def show_stale(self, stale: bool) -> None:
         """Dim the answer while it belongs to another scenario than the controls show."""

@@ -21,7 +21,26 @@ def asks_for(page, words):
     page.wait_for_url(re.compile(re.escape(words)))
 
 
+def unfold(page, place):
+    """Open a folded part of the page, if it is not open, and return it."""
+    fold = page.locator(place)
+    if fold.get_attribute("open") is None:
+        fold.locator("> summary").click()
+    return fold
+
+
+def drawer(page):
+    """Return the drawer with the controls, open down to the expert numbers."""
+    found = unfold(page, ".drawer")
+    unfold(page, ".expert")
+    return found
+
+
 def enter(page, label, value):
-    field = page.get_by_label(label, exact=True).first
+    field = drawer(page).get_by_label(label, exact=True).first
     field.fill(value)
     field.press("Tab")
+
+
+def choose(page, label, value):
+    drawer(page).get_by_label(label, exact=True).select_option(value)

@@ -200,10 +200,10 @@ def test_a_page_that_is_only_fetched_starts_no_solve(served, monkeypatch):
     asked, once = [], threading.Event()
     submit = served.house.pool.submit
 
-    def note(session, what, tell):
+    def note(session, what, tell, background=False):
         asked.append(what["do"])
         once.set()
-        return submit(session, what, tell)
+        return submit(session, what, tell, background)
 
     monkeypatch.setattr(served.house.pool, "submit", note)
     program = Program.__new__(Program)

@@ -40,7 +40,10 @@ def test_an_orbit_is_that_of_the_library(answer):
     record = wb.solve_orbit(problem, starts=1).record()
     same = {name: value for name, value in answer["record"].items() if name != "solve_seconds"}
     assert same == {name: value for name, value in record.items() if name != "solve_seconds"}
-    assert json.loads(answer["scene"])["flights"][0]["label"] == "this answer"
+    face = json.loads(answer["face"])
+    assert (face["species"], face["model"], face["status"]) == ("pigeon", "paper", "converged")
+    assert face["frequency"] == record["wingbeat"]["frequency"]
+    assert face["scene"]["flights"][0]["label"] == "rock pigeon"
 
 
 def test_a_neighbour_is_continued_in_one_search(answer):
@@ -56,14 +59,28 @@ def test_what_is_near_something_else_is_not_continued(answer):
 
 
 def test_a_point_is_no_worse_than_its_own_search(answer):
-    point = work({"do": "point", "scenario": to_plain(PIGEON), "near": answer["near"]})
+    point = work({"do": "point", "scenario": to_plain(PIGEON), "near": answer["near"], "whole": True})
     assert point["frequency"] <= answer["record"]["wingbeat"]["frequency"] * (1 + 1e-9)
     assert point["status"] == "converged"
 
 
-def test_two_flights_are_drawn_beside_each_other(known):
-    drawn = json.loads(work({"do": "scene", "of": known, "beside": known})["scene"])
-    assert [flight["label"] for flight in drawn["flights"]] == ["this answer", "pinned"]
+def test_a_point_of_the_background_is_its_neighbours_continued(answer, monkeypatch):
+    monkeypatch.setattr("wingbeat.app.jobs.solve_orbit", None)  # no search from every start
+    what = {"do": "point", "scenario": to_plain(PIGEON.at(10.5)), "near": answer["near"], "whole": False}
+    point = work(what)
+    assert (point["speed"], point["status"], point["plausible"]) == (10.5, "converged", False)
+    assert point["frequency"] == pytest.approx(answer["record"]["wingbeat"]["frequency"], rel=0.05)
+
+
+def test_a_flight_is_pushed_from_four_sides_and_tells_how_far_it_is(known):
+    told = []
+    found = do({"do": "pushes", "of": known}, Context(told.append, lambda: False))
+    pushes = json.loads(found["pushes"])
+    assert {(push["direction"], push["size"]) for push in pushes} == {
+        (direction, size) for direction in ("upward", "downward", "head", "tail") for size in (1.0, 3.0)
+    }
+    assert told == [[done, len(pushes)] for done in range(len(pushes))]
+    assert (found["why_not"] == "") == any(push["feedback"] for push in pushes)
 
 
 @pytest.mark.parametrize(("kind", "start"), [("png", b"\x89PNG"), ("pdf", b"%PDF")])

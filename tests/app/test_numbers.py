@@ -1,12 +1,12 @@
 """The fields for the numbers of an animal, in a real browser."""
 
-from tests.app.page import asks_for, solved
+from tests.app.page import asks_for, drawer, solved
 
 
 def test_bounds_free_the_tilt_of_the_tail_and_empty_fields_hold_it(visit):
     page = visit()
     solved(page, "pigeon")
-    page.locator("summary", has_text="Tail").first.click()
+    drawer(page).locator("summary", has_text="Tail").first.click()
     page.get_by_role("button", name="Add the tail of a bird of this mass").click()
     asks_for(page, "set=vehicle.tail.area")
     pair = page.get_by_role("group", name="Bounds of tail tilt")
@@ -16,7 +16,7 @@ def test_bounds_free_the_tilt_of_the_tail_and_empty_fields_hold_it(visit):
     lowest.press("Tab")
     asks_for(page, "bound=tail_tilt:-0.349")
     assert highest.input_value() == "30"
-    page.get_by_label("Speed [m/s]", exact=True).first.press("Tab")
+    drawer(page).get_by_label("Speed [m/s]", exact=True).first.press("Tab")
     highest.fill("")
     highest.press("Tab")
     page.wait_for_function("!location.search.includes('tail_tilt')")

@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
-from tests.app.page import asks_for, enter, exact, solved
+from tests.app.page import asks_for, choose, drawer, enter, exact, solved, unfold
 from tests.helpers.browsers import AXE, PATIENCE
 from wingbeat.cli import main
 
@@ -19,11 +19,11 @@ from wingbeat.cli import main
 def test_a_visit(visit, capsys, tmp_path):
     page = visit()
     solved(page, "pigeon at 10 m/s, su-fan")
-    closes, plausible = page.locator(".badge").all()
-    assert closes.inner_text().startswith("Certified: closes to ")
-    assert plausible.inner_text().startswith("Plausible: no: ")
-    assert "good" not in f"{closes.get_attribute('class')} {plausible.get_attribute('class')}".split()
-    page.get_by_label("Animal", exact=True).select_option("bat")
+    closes, plausible = page.locator(".wbx-light").all()
+    assert re.search("closes to ", closes.inner_text())
+    assert "Not plausible" in plausible.inner_text()
+    assert "wbx-bad" in plausible.get_attribute("class")
+    choose(page, "Animal", "bat")
     enter(page, "Speed [m/s]", "8")
     page.get_by_role("button", name="Solve", exact=True).click()
     solved(page, "bat at 8 m/s, su-fan")
@@ -31,20 +31,21 @@ def test_a_visit(visit, capsys, tmp_path):
     record = capsys.readouterr().out
     assert f'"frequency": {exact(page)},' in record
     # the viewer's phase, once it has fetched what stands on the page
-    flown = "(frequency) => Math.abs(wingbeatFlying.handle?.flights[0].frequency - frequency) < 1e-3"
+    flown = "(frequency) => Math.abs(wingbeatPage.face?.viewer?.flights[0].frequency - frequency) < 1e-3"
     page.wait_for_function(flown, arg=float(exact(page)))
-    corners = "wingbeatFlying.handle.corners(0, 'left').slice(0, 6)"
+    corners = "wingbeatPage.face.viewer.corners(0, 'left').slice(0, 6)"
     before = page.evaluate(corners)
-    page.evaluate("wingbeatFlying.handle.set(0.25)")
-    assert page.evaluate("wingbeatFlying.handle.phase") == 0.25
+    page.evaluate("wingbeatPage.face.viewer.set(0.25)")
+    assert page.evaluate("wingbeatPage.face.viewer.phase") == 0.25
     assert not np.allclose(before, page.evaluate(corners))
     # another model, continued in place
     first = exact(page)
-    page.get_by_label("Model", exact=True).select_option("dickinson")
+    choose(page, "Model", "dickinson")
     solved(page, "bat at 8 m/s, dickinson")
     assert exact(page) != first
     asks_for(page, "aero=dickinson")
     # the time series
+    unfold(page, ".answer")
     with page.expect_download() as download:
         page.get_by_role("button", name="Time series (NetCDF)").click()
     path = tmp_path / "bat.nc"
@@ -57,7 +58,7 @@ def test_a_visit(visit, capsys, tmp_path):
     solved(page, "pigeon")
     page.locator("input[type=file]").set_input_files(path)
     page.wait_for_function("document.querySelector('.message').textContent.includes('From the file bat.nc')")
-    fields = [page.get_by_label(label, exact=True).first for label in ("Animal", "Model", "Speed [m/s]")]
+    fields = [drawer(page).get_by_label(label, exact=True).first for label in ("Animal", "Model", "Speed [m/s]")]
     assert [field.input_value() for field in fields] == ["bat", "dickinson", "8"]
     asks_for(page, "aero=dickinson")
 
@@ -79,7 +80,7 @@ def test_a_broken_species_file_is_refused_in_words(visit, tmp_path):
     path.write_text(path.read_text().replace('kind = "bird"', "", 1).replace("<b>x</b>", "kindless", 1))
     page.locator("input[type=file]").set_input_files(path)
     solved(page, "kindless")
-    page.get_by_label("Flight model", exact=True).first.select_option("animal")
+    choose(page, "Flight model", "animal")
     page.locator(".fault", has_text='write kind = "bird", "bat" or "robot" into the file of kindless').wait_for()
     assert page.locator(".what b, select b, .what script").count() == 0
 
@@ -90,9 +91,9 @@ def test_faults_are_told_beside_their_control(visit):
     for value, words in (("fast", "is not a number"), ("400", "must be >= 0 and <= 100 m/s")):
         enter(page, "Speed [m/s]", value)
         page.locator(".fault", has_text=words).wait_for()
-        assert page.get_by_label("Speed [m/s]", exact=True).first.get_attribute("aria-invalid") == "true"
+        assert drawer(page).get_by_label("Speed [m/s]", exact=True).first.get_attribute("aria-invalid") == "true"
     enter(page, "Speed [m/s]", "10")
-    page.locator("summary", has_text="Wing").first.click()
+    drawer(page).locator("summary", has_text="Wing").first.click()
     enter(page, "semi span [m]", "-1")
     page.locator(".fault", has_text="must be > 0 m").wait_for()
     enter(page, "semi span [m]", "0.4")
@@ -104,21 +105,24 @@ def test_faults_are_told_beside_their_control(visit):
 def test_what_is_typed_and_chosen_stays_while_answers_come(visit):
     page = visit()
     solved(page, "pigeon")
-    page.get_by_label("Model", exact=True).select_option("dickinson")
-    field = page.get_by_label("Climb [m/s]", exact=True)
+    choose(page, "Model", "dickinson")
+    field = drawer(page).get_by_label("Climb [m/s]", exact=True)
     field.fill("0.5")  # not entered yet
     solved(page, "dickinson")
-    assert page.get_by_label("Model", exact=True).input_value() == "dickinson"
+    assert drawer(page).get_by_label("Model", exact=True).input_value() == "dickinson"
     assert field.input_value() == "0.5"
 
 
 def test_a_curve_fills_in_and_can_be_cancelled(visit):
     page = visit("species=pigeon&speed=10&starts=1&sweep=9:11:1")
     solved(page, "pigeon")
+    unfold(page, ".curve")
     page.get_by_role("button", name="Compute the curve").click()
     page.locator(".curve .note", has_text="3 speeds certified").wait_for()
-    page.wait_for_function("document.querySelectorAll('.curve circle').length === 6")
-    enter(page, "step [m/s]", "0.05")
+    page.wait_for_function("document.querySelectorAll('.wbx-dot').length === 3")
+    step = page.locator(".curve").get_by_label("step [m/s]", exact=True)
+    step.fill("0.05")
+    step.press("Tab")
     page.get_by_role("button", name="Compute the curve").click()
     page.locator(".curve tbody tr").nth(1).wait_for()
     page.get_by_role("button", name="Cancel the curve").click()
@@ -129,10 +133,10 @@ def test_answers_are_pinned_and_fly_as_ghosts(visit):
     page = visit()
     solved(page, "su-fan")
     page.get_by_role("button", name="Pin", exact=True).click()
-    page.get_by_label("Model", exact=True).select_option("dickinson")
+    choose(page, "Model", "dickinson")
     solved(page, "dickinson")
     page.get_by_role("button", name=re.compile("Show as ghost")).click()
-    page.wait_for_function("wingbeatFlying.handle.flights.length === 2")
+    page.wait_for_function("wingbeatPage.face.viewer.flights.length === 2")
     page.get_by_role("button", name=re.compile("Restore")).click()
     solved(page, "su-fan")
 
@@ -161,31 +165,33 @@ DIM = """(place) => {
     const sheer = (element) => element ? getComputedStyle(element).opacity * sheer(element.parentElement) : 1;
     return sheer(document.querySelector(place));
 }"""
+PLACES = (".wbx-sentence", ".wbx-lights", ".wbx-gauges", ".tiles", ".answer .groups", ".influence .acts")
 EARLIER = "This result belongs to an earlier request."
 
 
-def dims(page, place=".badge"):
+def dims(page, place=".wbx-lights"):
     page.wait_for_function(f"({DIM})({place!r}) < 0.6")
 
 
-def is_bright(page, place=".badge"):
+def is_bright(page, place=".wbx-lights"):
     page.wait_for_function(f"({DIM})({place!r}) === 1")
 
 
 def test_an_answer_is_dimmed_while_another_question_is_solved(visit, served):
     page = visit("species=pigeon&speed=10&starts=1&sweep=9:10:1")
     solved(page, "pigeon")
+    unfold(page, ".curve")
     page.get_by_role("button", name="Compute the curve").click()
     page.locator(".curve .note", has_text="2 speeds certified").wait_for()
-    for place in (".badge", ".tiles", ".answer", ".influence", ".curve table"):
+    for place in (*PLACES, ".curve table"):
         is_bright(page, place)
     assert not page.get_by_text(EARLIER).is_visible()
     held = served.house.pool.workers
     for worker in held:
         os.kill(worker, signal.SIGSTOP)  # nothing is solved until it was looked at
     try:
-        page.get_by_label("Model", exact=True).select_option("dickinson")
-        for place in (".badge", ".tiles", ".answer", ".influence", ".curve table"):
+        choose(page, "Model", "dickinson")
+        for place in (*PLACES, ".curve table"):
             dims(page, place)
         page.get_by_text(EARLIER).wait_for()
         page.get_by_text("These results belong to an earlier request.").wait_for()
@@ -195,14 +201,15 @@ def test_an_answer_is_dimmed_while_another_question_is_solved(visit, served):
             os.kill(worker, signal.SIGCONT)
     solved(page, "dickinson")
     is_bright(page)
-    dims(page, ".curve table")
+    page.locator(".curve caption", has_text="dickinson").wait_for()  # a curve of the new answer takes its place
+    is_bright(page, ".curve table")
     assert not page.get_by_text(EARLIER).is_visible()
 
 
 def test_an_answer_is_dimmed_while_the_form_says_something_else(visit):
     page = visit()
     solved(page, "pigeon")
-    field = page.get_by_label("Speed [m/s]", exact=True).first
+    field = drawer(page).get_by_label("Speed [m/s]", exact=True).first
     field.fill("11")  # not entered yet
     dims(page)
     page.get_by_text(EARLIER).wait_for()
@@ -222,16 +229,17 @@ def test_an_answer_is_dimmed_while_the_form_says_something_else(visit):
 
 def test_what_cannot_fly_says_why_and_what_would(visit):
     page = visit("species=pigeon&speed=10&starts=1&bound=frequency:1.0:3.0")
-    page.locator(".badge", has_text="Not certified: infeasible").wait_for(timeout=2 * PATIENCE)
+    page.locator(".wbx-light", has_text="Does not close").wait_for(timeout=2 * PATIENCE)
     assert "thrust is short of drag by" in page.locator(".message").inner_text()
-    rows = page.locator(".answer").inner_text()
+    assert "has no wingbeat that closes" in page.locator(".wbx-sentence").inner_text()
+    rows = unfold(page, ".answer").inner_text()
     assert "smallest single changes that give an orbit" in rows
     assert "upper bound of frequency 3 -> 9.7 Hz" in rows
 
 
 def test_eight_visitors_at_once_and_a_solver_that_dies(visit, served):
     pages = [
-        visit(f"species=pigeon&speed={9 + 0.25 * i}&starts=1", viewport={"width": 400, "height": 500})
+        visit(f"species=pigeon&speed={9 + 0.25 * i}&starts=1&sweep=8:12:4", viewport={"width": 400, "height": 500})
         for i in range(8)
     ]
     for i, page in enumerate(pages):
@@ -239,7 +247,7 @@ def test_eight_visitors_at_once_and_a_solver_that_dies(visit, served):
     assert len(served.house.pages) >= 8
     before = set(served.house.pool.workers)
     patient = visit("species=pigeon&speed=9&minimise=peak_power&starts=100")  # takes long
-    patient.locator(".state", has_text="starts").wait_for()
+    patient.locator(".state", has_text="starts").wait_for(timeout=2 * PATIENCE)
     for pid in before:
         os.kill(pid, signal.SIGKILL)
     patient.locator(".trouble", has_text="The solver process ended").wait_for()
@@ -263,9 +271,17 @@ def test_every_control_is_reached_by_the_keyboard_and_axe_finds_no_serious_fault
     solved(page, "pigeon")
     page.get_by_role("button", name="Pin", exact=True).click()
     assert page.evaluate(OUT_OF_REACH) == []
-    for fold in page.locator("summary").all():
+    drawer(page)
+    for fold in page.locator(".expert summary").all()[1:]:
         fold.click()
     assert page.evaluate(OUT_OF_REACH) == []
+    page.locator(".drawer > summary").click()  # it lies over what is opened next
+    for fold in page.locator(".face summary, .below summary").all():
+        if fold.is_visible():
+            fold.click()
+    unfold(page, ".menu")
+    assert page.evaluate(OUT_OF_REACH) == []
+    unfold(page, ".drawer")
     assert page.evaluate("document.documentElement.scrollWidth") <= width
     assert page.evaluate("document.documentElement.lang") == "en-US"
     if not AXE.exists():

@@ -91,6 +91,32 @@ def test_of_eight_sessions_none_waits_longer_than_its_place_says(make_pool):
         assert told == list(range(place, 0, -1))  # first come first served: step by step to the front
 
 
+def test_background_jobs_wait_for_all_others(make_pool):
+    pool, order = make_pool(), []
+    _, blocker = ask(pool, ("steps", 20), "z")
+    blocker.until("started")
+    jobs = []
+    for name, background in (("quiet", True), ("a", False), ("b", False)):
+        heard = Heard(order, name)
+        pool.submit(name, ("echo", 0), heard, background)
+        jobs.append(heard)
+    for heard in jobs:
+        heard.end()
+    assert order == ["a", "b", "quiet"]
+
+
+def test_background_jobs_leave_a_worker_free(make_pool):
+    pool = make_pool(2)
+    quiet = [Heard(), Heard()]
+    for heard in quiet:
+        pool.submit("a", ("steps", 60), heard, background=True)
+    quiet[0].until("started")
+    assert ask(pool, ("echo", 1))[1].end().kind == "done"  # while the first goes on, and the second waits
+    assert [event.kind for event in quiet[1].events] == ["waiting"]
+    assert not quiet[0].events[-1].ends
+    assert [heard.end().kind for heard in quiet] == ["done", "done"]
+
+
 def test_a_session_may_have_only_so_many_waiting(make_pool):
     pool = make_pool(most_waiting=2)
     _, blocker = ask(pool, ("steps", 50), "z")

@@ -139,7 +139,7 @@ export class Viewer {
   }
 
   fold() {
-    const bars = this.root.querySelectorAll(".wb-bar:not(.wb-player)");
+    const bars = this.root.querySelectorAll(".wb-bar:not(.wb-player, .wb-push)");
     const folded = make("details", { class: "wb-folded" }, make("summary", {}, "Views, forces and plots"), ...bars, this.side);
     this.theme.remove();
     this.rates.querySelector("label").textContent = "Playback"; // the page's speed is that of the flight

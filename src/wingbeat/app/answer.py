@@ -1,4 +1,4 @@
-"""The answer on the page: headline numbers, status, certificate, warnings, and what the answer depends on."""
+"""The answer below the face: what was solved, all its numbers, and what it depends on."""
 
 from __future__ import annotations
 
@@ -7,57 +7,46 @@ from collections.abc import Callable
 from typing import Any
 
 from wingbeat.app.formatting import number, tiles
-from wingbeat.app.widgets import Rows, box, button, set_class, tag
+from wingbeat.app.widgets import Rows, button, folded, tag
 from wingbeat.nomenclature import NOMENCLATURE, for_people
-from wingbeat.results.plausibility import statements
 
 
-class Headline:
-    """The status and the main numbers of an answer."""
+class Brief:
+    """One line below the face: what was solved, and what can be done with it.
 
-    def __init__(self) -> None:
-        self._place = tag("section", classes="headline", aria_label="Result in brief")
-        self._tiles: dict[str, Any] = {}
-        with self._place:
-            with tag("div", classes="verdict"):
-                self._badge = tag("p", "Not solved yet", "badge none")
-                self._plausible = tag("p", "", "badge hidden")
+    Parameters
+    ----------
+    acts : the function that each button calls, by the button's text.
+    """
+
+    def __init__(self, acts: dict[str, Callable[[], Any]]) -> None:
+        with tag("section", classes="brief", aria_label="Result in brief"):
+            with tag("div", classes="words"):
                 self._title = tag("h2", "", "what")
                 self._message = tag("p", "", "message")
-                tag("p", "This result belongs to an earlier request.", "earlier")
-            self._strip = tag("dl", classes="tiles")
+            with tag("div", classes="acts"):
+                self._buttons = [button(text, act, disabled=True) for text, act in acts.items()]
+            self._state = tag("p", "", "note", role="status")
 
     def show(self, answer: dict[str, Any]) -> None:
-        """Show the numbers of an answer."""
+        """Show what was solved."""
         record = answer["record"]
-        certified, said = record["status"] == "converged", statements(record)
-        self._badge.set_text(f"Certified: {said.closes}" if certified else f"Not certified: {record['status']}")
-        self._badge.classes(remove="none good bad", add="good" if said.good else "none" if certified else "bad")
-        self._plausible.set_text(f"{said.plausible[:1].upper()}{said.plausible[1:]}" if certified else "")
-        self._plausible.classes(remove="good bad", add="good" if said.good else "bad")
-        set_class(self._plausible, "hidden", not certified)
         climb = f", climbing {number(record['climb'])} m/s" if record["climb"] else ""
         aero = record["aero"]["coefficients"]
         self._title.set_text(f"{record['species']} at {number(record['speed'])} m/s{climb}, {aero}")
         self._title.props["data-solver-seconds"] = answer["solver_seconds"]
         self._message.set_text(_message(answer))
-        for label, value, unit, exact in tiles(record):
-            if label not in self._tiles:
-                with self._strip, tag("div", classes="tile"):
-                    tag("dt", label)
-                    with tag("dd"):
-                        shown = tag("output", value, "value")
-                        tag("span", unit, "unit")
-                self._tiles[label] = shown
-            shown = self._tiles[label]
-            if shown.text != value:
-                shown.set_text(value)
-            shown.props["title"] = f"{exact} {unit}".strip()
-            shown.props["data-exact"] = exact
+        self.say("")
+        for each in self._buttons:
+            each.props.pop("disabled", None)
+
+    def say(self, text: str) -> None:
+        """Show the progress of what was asked for here, or what came of it."""
+        self._state.set_text(text)
 
 
 def _message(answer: dict[str, Any]) -> str:
-    # For a certified orbit, the two statements already say this.
+    # Of a certified orbit, the face already says this.
     parts = [] if answer["record"]["status"] == "converged" else [str(answer["record"]["message"])]
     if answer.get("from_file"):
         parts.append(f"From the file {answer['from_file']}; not solved here.")
@@ -74,7 +63,7 @@ def _message(answer: dict[str, Any]) -> str:
 
 
 class Answer:
-    """The panel with all further numbers of an answer, and buttons that act on it.
+    """The panel with all numbers of an answer, and buttons that save it.
 
     Parameters
     ----------
@@ -82,33 +71,40 @@ class Answer:
     """
 
     def __init__(self, acts: dict[str, Callable[[], Any]]) -> None:
-        with box("The result", "answer"):
+        with folded("All numbers and files", "answer"):
             with tag("div", classes="acts"):
                 self._buttons = [button(text, act, disabled=True) for text, act in acts.items()]
-            self._warnings = tag("ul", classes="warnings hidden", aria_label="Warnings")
+            self._strip = tag("dl", classes="tiles")
+            self._tiles: dict[str, Any] = {}
             self._rows = Rows()
 
     def show(self, answer: dict[str, Any]) -> None:
         """Show an answer."""
-        record = answer["record"]
         for each in self._buttons:
             each.props.pop("disabled", None)
+        for label, value, unit, exact in tiles(answer["record"]):
+            shown = self._tile(label, unit)
+            if shown.text != value:
+                shown.set_text(value)
+            shown.props["title"] = f"{exact} {unit}".strip()
+            shown.props["data-exact"] = exact
         self._rows.show(answer["groups"])
-        texts = [str(text) for text in record.get("warnings") or []]
-        if texts != getattr(self, "_shown", None):
-            self._shown = texts
-            self._warnings.clear()
-            with self._warnings:
-                for text in texts:
-                    tag("li", text)
-            set_class(self._warnings, "hidden", not texts)
+
+    def _tile(self, label: str, unit: str) -> Any:
+        if label not in self._tiles:
+            with self._strip, tag("div", classes="tile"):
+                tag("dt", label)
+                with tag("dd"):
+                    self._tiles[label] = tag("output", "", "value")
+                    tag("span", unit, "unit")
+        return self._tiles[label]
 
 
 class Influence:
     """The panel of sensitivities: the parameters by rank, and the price of each active bound."""
 
     def __init__(self, ask: Callable[[], Any]) -> None:
-        with box("Sensitivities", "influence"):
+        with folded("Sensitivities", "influence"):
             tag(
                 "p",
                 "Exact derivatives of the certified optimum with respect to every number on which it depends.",

@@ -10,8 +10,9 @@ from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, INFLOWS, LIBRARY,
 from wingbeat.app.formatting import from_shown, sentence
 from wingbeat.app.numbers import Numbers
 from wingbeat.app.scenario import Scenario, own_species, species_in
-from wingbeat.app.widgets import Field, box, choice_field, number_field, slider, tag, text_field
+from wingbeat.app.widgets import Field, box, button, choice_field, number_field, slider, tag, text_field
 from wingbeat.errors import InvalidInputError
+from wingbeat.explorer import default_speeds
 from wingbeat.models import model_of
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.orbits.problem.quantities import QUANTITIES
@@ -37,8 +38,8 @@ class Controls:
         self._fields: dict[str, Field] = {}
         self._species = "", ""
 
-    def build_flight(self) -> None:
-        """Make the main controls: animal and flight."""
+    def build_flight(self, solve: Callable[[], Any]) -> None:
+        """Make the main controls: animal and flight; `solve` is called when the visitor asks for it."""
         now = self._scenario
         with box("Animal and flight", "first"):
             names = [(name, name) for name in species_names()]
@@ -54,6 +55,7 @@ class Controls:
             self._fields["model"] = choice_field("Flight model", whole, now.model, self._choose_model)
             quantities = [(name, _quantity(name)) for name in QUANTITIES]
             self._fields["minimise"] = choice_field("Minimise", quantities, now.minimise, self._word("minimise"))
+            button("Solve", solve, "primary", title="Search again from every start")
 
     def _build_animal(self, names: list[tuple[str, str]]) -> None:
         own = [self._own] if self._own else []
@@ -149,13 +151,23 @@ class Controls:
         name = aliases.get(where.partition("[")[0], where)
         return self._fields.get(name) or self._numbers.field_of(where)
 
+    def choose(self, **chosen: Any) -> None:
+        """Change animal, model or speed, as the controls do."""
+        if "species" in chosen:
+            self._choose_animal(chosen["species"])
+        elif "model" in chosen:
+            self._choose_model(chosen["model"])
+        else:
+            self._change(**chosen)
+
     def _choose_animal(self, name: str) -> None:
         if name == _OWN:
             return
         # The changed numbers belonged to another animal, and a model depends on the kind of flyer.
-        model = self._scenario.model
-        loads = {} if model == "paper" else choices_of(model, own_species(Scenario(species=name)))
-        self._change(species=name, species_file="", values={}, bounds={}, **loads)
+        model, species = self._scenario.model, own_species(Scenario(species=name))
+        loads = {} if model == "paper" else choices_of(model, species)
+        speed, sweep = speeds_for(species, self._scenario.speed)
+        self._change(species=name, species_file="", values={}, bounds={}, speed=speed, sweep=sweep, **loads)
 
     def _choose_model(self, name: str) -> None:
         """Take the air loads and objective of a model; drop changed numbers, which the new model may not have."""
@@ -197,6 +209,14 @@ def choices_of(name: str, species: Species) -> dict[str, Any]:
     model = model_of(name, species)
     loads = {place: getattr(model.aero, place) for place in OF_ELEMENTS if place != "strips"}
     return {"aero": model.aero.coefficients.name, "minimise": model.objective(model.species(species)), **loads}
+
+
+def speeds_for(species: Species, speed: float) -> tuple[float, tuple[float, float, float]]:
+    """Return a speed for an animal, the present one if it may fly so, and the range of its curve [m/s]."""
+    speeds = default_speeds(species)
+    first, last = speeds[0], speeds[-1]
+    step = max(math.ceil((last - first) / 6) / 2, 0.5)
+    return speed if first <= speed <= last else speeds[len(speeds) // 2], (first, last, step)
 
 
 def _animal_of(scenario: Scenario) -> tuple[str, str]:

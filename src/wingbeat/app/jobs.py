@@ -6,7 +6,7 @@ import base64
 import io
 import json
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.app.formatting import refusals
@@ -14,6 +14,9 @@ from wingbeat.app.links import from_plain
 from wingbeat.app.scenario import problem_of
 from wingbeat.app.uploads import read_upload, scenario_of
 from wingbeat.errors import FileError, InvalidInputError, first_line
+from wingbeat.explorer.face import face_of, lights_of
+from wingbeat.explorer.measured import measured_points
+from wingbeat.models import MODELS
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import search_near
@@ -23,7 +26,8 @@ from wingbeat.results.provenance import problem_from
 from wingbeat.results.rows import orbit_groups
 from wingbeat.results.sensitivities import sensitivities
 from wingbeat.results.solving import solve_orbit
-from wingbeat.viewer import scene
+from wingbeat.stability.pushes import fly_pushes
+from wingbeat.viewer import Push, scene
 from wingbeat.workers.main import Context
 
 if TYPE_CHECKING:
@@ -37,7 +41,7 @@ def do(what: dict[str, Any], context: Context) -> dict[str, Any]:
     kinds: dict[str, Callable[[dict[str, Any], Context], dict[str, Any]]] = {
         "orbit": _orbit,
         "point": _point,
-        "scene": _scene,
+        "pushes": _pushes,
         "influence": _influence,
         "file": _file,
         "read": _read,
@@ -57,10 +61,10 @@ def _orbit(what: dict[str, Any], context: Context) -> dict[str, Any]:
     problem = problem_of(scenario)
     continued = _continued(problem, what.get("near"))
     if continued is not None:
-        return answer_of(Orbit.of(continued, 1), what.get("beside"), begun) | {"continued": True}
+        return answer_of(Orbit.of(continued, 1), scenario.model, begun) | {"continued": True}
     orbit = solve_orbit(problem, scenario.starts, scenario.seed, context.progress)
     context.check()
-    return answer_of(orbit, what.get("beside"), begun)
+    return answer_of(orbit, scenario.model, begun)
 
 
 def _continued(problem: OrbitProblem, near: dict[str, Any] | None) -> Solution | None:
@@ -73,54 +77,57 @@ def _continued(problem: OrbitProblem, near: dict[str, Any] | None) -> Solution |
 
 
 def _point(what: dict[str, Any], context: Context) -> dict[str, Any]:
-    """Return one point of a curve: the better of the orbits from its own starts and from the neighbouring speed."""
+    """Return one point of a curve: the better of the orbits from its own starts and from the neighbouring speed.
+
+    Without ``whole``, it is the one from the neighbouring speed, if that is certified.
+    """
     scenario = from_plain(what["scenario"])
     problem = problem_of(scenario)
     continued = _continued(problem, what.get("near"))
+    other = None if continued is None else Orbit.of(continued, 1)
+    if other is not None and not what["whole"]:
+        return _point_of(other, scenario.speed)
     orbit = solve_orbit(problem, scenario.starts, scenario.seed, context.progress)
     context.check()
-    other = None if continued is None else Orbit.of(continued, 1)
     if other is not None and (
         orbit.status is not Status.CONVERGED
         or other.record()["objective_value"] < orbit.record()["objective_value"]
     ):
         orbit = other
+    return _point_of(orbit, scenario.speed)
+
+
+def _point_of(orbit: Orbit, speed: float) -> dict[str, Any]:
     record = orbit.record()
     near = _near(orbit) if orbit.status is Status.CONVERGED else None
-    names = ("frequency", "flap_amplitude")
-    kept = {name: record[name] for name in ("status", "mean_positive_power", "active_bounds", "objective_value")}
-    return {"speed": scenario.speed, **kept, **{n: record["wingbeat"][n] for n in names}, "near": near}
+    return {
+        "speed": speed,
+        "status": record["status"],
+        "frequency": record["wingbeat"]["frequency"],
+        "mean_positive_power": record["mean_positive_power"],
+        "plausible": all(light["good"] for light in lights_of(record)),
+        "near": near,
+    }
 
 
 def _near(orbit: Orbit) -> dict[str, Any]:
     return {"free": list(orbit.problem.free), "unknowns": orbit.unknowns.tolist()}
 
 
-def answer_of(orbit: Orbit, beside: dict[str, Any] | None, begun: float) -> dict[str, Any]:
-    """Return everything that the page shows of an orbit, and of a second one if they are compared."""
+def answer_of(orbit: Orbit, model: str, begun: float) -> dict[str, Any]:
+    """Return everything that the page shows of an orbit; the face, which only the browser reads, is a text."""
     record = orbit.record()
     return {
         "record": record,
         "inputs": orbit.inputs,
         "groups": orbit_groups(record),
         "near": _near(orbit) if orbit.status is Status.CONVERGED else None,
-        "scene": _drawn(orbit, beside),
+        "plausible": all(light["good"] for light in lights_of(record)),
+        "measured": measured_points(orbit.problem.species),
+        "face": json.dumps(face_of(orbit, model), allow_nan=False),
         "seconds": time.perf_counter() - begun,
         "solver_seconds": record["solve_seconds"],
     }
-
-
-def _drawn(orbit: Orbit, beside: dict[str, Any] | None) -> str:
-    if beside is None:
-        flights = [("this answer", orbit.dataset)]
-    else:
-        flights = [("this answer", orbit.dataset), ("pinned", orbit_again(beside).dataset)]
-    try:
-        return json.dumps(scene(flights), allow_nan=False)
-    except FileError:
-        if orbit.status is Status.CONVERGED:
-            raise
-        return ""  # next to nothing was flown of a beat that is not an orbit
 
 
 def orbit_again(known: dict[str, Any]) -> Orbit:
@@ -129,8 +136,21 @@ def orbit_again(known: dict[str, Any]) -> Orbit:
     return Orbit.of_record(known["record"], problem_from(inputs), inputs["starts"], inputs["seed"])
 
 
-def _scene(what: dict[str, Any], context: Context) -> dict[str, Any]:
-    return {"scene": _drawn(orbit_again(what["of"]), what.get("beside"))}
+def _pushes(what: dict[str, Any], context: Context) -> dict[str, Any]:
+    """Return flights of an orbit through gusts for the viewer; without feedback if none holds the orbit."""
+    orbit = orbit_again(what["of"])
+    why_not = ""
+    try:
+        flown = fly_pushes(orbit, progress=context.progress)
+    except InvalidInputError as error:
+        flown = fly_pushes(orbit, delay=None, progress=context.progress)  # refuses an orbit that is not certified
+        why_not = first_line(error)
+    return {"pushes": _drawn(orbit, flown), "why_not": why_not}
+
+
+def _drawn(orbit: Orbit, pushes: Sequence[Push]) -> str:
+    """Return the part of the viewer's scene with the pushes, as a text."""
+    return json.dumps(scene([("", orbit.dataset)], pushes)["pushes"], allow_nan=False)
 
 
 def _influence(what: dict[str, Any], context: Context) -> dict[str, Any]:
@@ -182,7 +202,7 @@ def _answer_of_file(orbit: Orbit, label: str) -> dict[str, Any]:
     """Return the answer in a file, and its scenario if the page's controls can represent it."""
     begun = time.perf_counter()
     try:
-        answer = answer_of(orbit, None, begun)
+        answer = answer_of(orbit, orbit.problem.origin.name if orbit.problem.origin else MODELS[0], begun)
     except Exception as error:  # whatever can be wrong with what somebody wrote into a file
         reason = first_line(error)[:200]
         raise FileError(f"cannot show the orbit in {label!r}: it is damaged ({reason}); solve it again") from None

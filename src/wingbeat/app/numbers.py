@@ -8,7 +8,7 @@ from typing import Any
 
 from wingbeat.app.formatting import from_shown, not_a_number, range_text, shown_text, spoken_path
 from wingbeat.app.scenario import TAIL_TILT, Scenario
-from wingbeat.app.widgets import Field, button, number_field, tag
+from wingbeat.app.widgets import Field, button, folded, number_field, tag
 from wingbeat.kinematics import ANGLES
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.species import Number, Species
@@ -53,13 +53,13 @@ class Numbers:
         self._values: dict[str, Field] = {}
         self._bounds: dict[tuple[str, int], Field] = {}
         self._resets: list[Any] = []
-        with _folded("Bounds of free parameters"):
+        with folded("Bounds of free parameters"):
             for name in (*species.bounds, *species.path_bounds):
                 self._build_bound(name)
             self._resets.append(button("As in the species file", lambda: change(bounds={}), "quiet"))
         for group, title in _GROUPS.items():
             held = [path for path in self._numbers if self._is_shown(path) and path.startswith(f"{group}.")]
-            with _folded(title):
+            with folded(title):
                 for path in held:
                     self._build_number(path)
                 if group == "vehicle.tail" and self._freed:
@@ -183,14 +183,6 @@ class Numbers:
             self._change(bounds={**self._scenario.bounds, name: pair})
 
         return act
-
-
-def _folded(title: str) -> Any:
-    """Return a part of the form that is collapsed until the user opens it."""
-    fold = tag("details", classes="box fold")
-    with fold:
-        tag("summary", title)
-    return fold
 
 
 def _is_outside(number: Number) -> bool:

@@ -1,5 +1,90 @@
-// What the explorer's page does in the browser itself: uploads, downloads and the link.
+// What the explorer's page does in the browser itself: the face, uploads, downloads, the link, and refused choices.
+const json = async (url) => {
+  const answer = await fetch(url);
+  return answer.ok ? answer.json() : null;
+};
+
 window.wingbeatPage = {
+  face: undefined,
+  theme: "system",
+  asked: 0,
+  shown: 0,
+
+  // Build the face as soon as its place is on the page. What was solved beforehand is fetched meanwhile.
+  begin({ choices, chosen, ready }) {
+    const first = ready ? json(ready) : null;
+    this.built = new Promise((built) => {
+      const build = () => {
+        const place = document.getElementById("answer");
+        if (!place || !window.wingbeatExplorer) return;
+        watcher.disconnect();
+        this.face = wingbeatExplorer.explore(place, { theme: this.theme, snap: false, pinning: false });
+        this.face.setChoices(choices, chosen);
+        this.face.onask = (asked) => place.dispatchEvent(new CustomEvent("ask", { detail: asked }));
+        if (!ready) this.face.say("Solving the first wingbeat. The first solve after the server starts takes some seconds.");
+        watchRefusals();
+        built();
+      };
+      const watcher = new MutationObserver(build);
+      watcher.observe(document, { childList: true, subtree: true });
+    });
+    if (first) this.showFirst(first);
+  },
+
+  async showFirst(first) {
+    const found = await first;
+    await this.built;
+    if (!found || this.shown) return;
+    this.face.showCurve(found.curve);
+    this.face.showAnswer(found.answer);
+  },
+
+  // Each answer has its own request; one that arrives after a later one is not shown.
+  async show(url) {
+    const mine = ++this.asked;
+    const answer = await json(url);
+    await this.built;
+    if (!answer || mine < this.shown) return;
+    this.shown = mine;
+    this.face.showAnswer(answer);
+  },
+
+  async showCurve(data) {
+    await this.built;
+    this.face.showCurve(data);
+  },
+
+  async choose(choices, chosen) {
+    await this.built;
+    this.face.setChoices(choices, chosen);
+  },
+
+  async compare(url) {
+    const answer = url && (await json(url));
+    await this.built;
+    this.face.compare(answer ?? undefined);
+  },
+
+  // Add flights through gusts to the answer on the page.
+  async push(url) {
+    const pushes = await json(url);
+    await this.built;
+    const { answer } = this.face;
+    if (!pushes || !answer?.scene) return;
+    this.face.showAnswer({ ...answer, scene: { ...answer.scene, pushes } });
+    document.querySelector(".wb-push").scrollIntoView({ block: "nearest" });
+  },
+
+  async say(text) {
+    await this.built;
+    this.face.say(text);
+  },
+
+  setTheme(theme) {
+    this.theme = theme;
+    this.face?.setTheme(theme);
+  },
+
   // Send a file; return why it was refused, nothing if it was taken.
   async upload(input, session) {
     const file = input.files[0];
@@ -35,8 +120,51 @@ window.wingbeatPage = {
 
 // While a text is typed but not entered yet, the answer belongs to an earlier request.
 const typing = (is) => (event) => {
-  if (event.target.matches?.('.side input[type="text"]')) document.body.classList.toggle("typing", is);
+  if (event.target.matches?.('.drawer input[type="text"]')) document.body.classList.toggle("typing", is);
 };
 document.addEventListener("input", typing(true));
 document.addEventListener("change", typing(false));
 document.addEventListener("focusout", typing(false));
+
+// A control whose value is refused is brought to view with all that it is folded into, and one sentence at the top says
+// what is wrong.
+function watchRefusals() {
+  const line = document.querySelector(".refusal");
+  let before = [];
+  const look = () => {
+    const refused = [...document.querySelectorAll('[aria-invalid="true"]')];
+    for (const control of refused.filter((each) => !before.includes(each))) {
+      for (let fold = control.closest("details"); fold; fold = fold.parentElement.closest("details")) fold.open = true;
+      control.scrollIntoView({ block: "nearest" });
+    }
+    before = refused;
+    const text = refused.length ? refusal(refused) : "";
+    if (line.textContent !== text) line.textContent = text;
+    line.classList.toggle("hidden", !refused.length);
+  };
+  const watcher = new MutationObserver(look);
+  const what = { subtree: true, childList: true, characterData: true, attributes: true, attributeFilter: ["aria-invalid"] };
+  for (const place of document.querySelectorAll(".drawer, .curve")) watcher.observe(place, what);
+  look();
+}
+
+function refusal([control, ...others]) {
+  const label = control.getAttribute("aria-label") ?? control.labels[0].textContent;
+  const fault = control.closest(".field").querySelector(".fault").textContent;
+  const more = others.length ? ` ${others.length === 1 ? "Another choice is" : `${others.length} other choices are`} refused, too.` : "";
+  return `${label}: ${fault.replace(/\.$/, "")}.${more}`;
+}
+
+// Escape closes drawer and menu; a click elsewhere closes the menu.
+const shut = (fold) => {
+  if (fold.contains(document.activeElement)) fold.querySelector("summary").focus();
+  fold.open = false;
+};
+document.addEventListener("keydown", (event) => {
+  const fold = event.key === "Escape" && event.target.closest?.(".menu[open], .drawer[open]");
+  if (fold) shut(fold);
+});
+document.addEventListener("pointerdown", (event) => {
+  const menu = document.querySelector(".menu[open]");
+  if (menu && !menu.contains(event.target)) shut(menu);
+});

@@ -2,29 +2,29 @@
 
 from __future__ import annotations
 
-import base64
 import json
-import re
+from collections.abc import Callable
 from contextlib import AbstractContextManager
 from typing import Any
 
 from nicegui import Client, ui
 
-from wingbeat.app.answer import Answer, Headline, Influence
+from wingbeat.app.answer import Answer, Brief, Influence
 from wingbeat.app.controls import Controls
-from wingbeat.app.curve import CurvePanel
-from wingbeat.app.downloads import Download, Downloads
-from wingbeat.app.flying import Flying
-from wingbeat.app.formatting import sentence
-from wingbeat.app.links import from_plain, from_query, to_json, to_query
+from wingbeat.app.curve import Curve, drawn
+from wingbeat.app.curve_panel import CurvePanel
+from wingbeat.app.downloads import Downloads
+from wingbeat.app.errands import Errands
+from wingbeat.app.face import Face
+from wingbeat.app.first import First
+from wingbeat.app.links import from_plain, from_query, to_query
 from wingbeat.app.pins import Pins
 from wingbeat.app.scenario import Scenario
-from wingbeat.app.session import BUSY, Session, known
-from wingbeat.app.widgets import button, choice_field, run_script, set_class, tag
+from wingbeat.app.session import Session
+from wingbeat.app.widgets import button, choice_field, folded, run_script, set_class, tag
 from wingbeat.errors import InvalidInputError
-from wingbeat.workers.fair_pool import Event, FairPool
+from wingbeat.workers.fair_pool import FairPool
 
-_KINDS = {"nc": "application/x-netcdf", "png": "image/png", "pdf": "application/pdf", "json": "application/json"}
 _THEMES = (("system", "As the system"), ("light", "Light"), ("dark", "Dark"))
 _MOST_LINES = 10
 _ACCEPT = ".toml,.nc,.json"
@@ -36,29 +36,42 @@ class Page:
     Parameters
     ----------
     name : of the session.
-    pool, downloads : of the server.
+    pool, downloads, first : of the server.
     query : query of the page's address, which may hold a scenario.
     """
 
-    def __init__(self, name: str, pool: FairPool, downloads: Downloads, query: str) -> None:
-        self.name, self._downloads = name, downloads
+    def __init__(self, name: str, pool: FairPool, downloads: Downloads, first: First, query: str) -> None:
+        self.name, self._downloads, self._first = name, downloads, first
         self._client: Client = ui.context.client
         self._refusals, scenario = [], Scenario()
         try:
             scenario = from_query(query)
         except InvalidInputError as error:
             self._refusals = [f"The link was not understood. {fault}" for fault in error.faults]
+        self._is_ready = scenario.asks_as(first.scenario)
         self._session = Session(name, pool, scenario, self)
+        self._curve = Curve(self._session, self._show_curve)
+        self._curve_shown: dict[str, Any] | None = None
+        self._errands = Errands(self._session, downloads, self)
         self._build(scenario)
         self._asked = False
         self._client.on_connect(self._come)
 
     def _come(self) -> None:
-        """Solve the scenario in the address once a browser has connected; fetching the page starts nothing."""
+        """Solve the scenario in the address once a browser has connected; fetching the page starts nothing.
+
+        If the scenario was solved beforehand, the browser has fetched the answer by itself.
+        """
         if self._asked:  # the socket was lost, and has connected again
             return
         self._asked = True
-        self._session.ask(whole=True)
+        if not self._is_ready:
+            self._session.ask(whole=True)
+        else:
+            if self._session.scenario == self._first.scenario:
+                self._curve.take(self._first.scenario, self._first.answer, self._first.points)
+            self._session.take_ready(self._first.answer)
+            self._is_ready = False
         if self._refusals:  # shown after the request, because a request removes earlier messages
             self.show_trouble(*self._refusals)
 
@@ -83,66 +96,73 @@ class Page:
         tag("a", "Skip to the result", "skip", href="#answer")
         with tag("header", classes="top"):
             self._build_header()
-        with tag("div", classes="status"):
-            self._build_status()
         self._whole = tag("div", classes="whole")
         with self._whole:
-            with tag("div", classes="side quick"):
-                self._controls.build_flight()
-            with tag("div", classes="middle", id="answer", tabindex="-1"):
-                self._headline = Headline()
-                self._flying = Flying(self._downloads, self.name)
-                self._pins = Pins(self._fly_beside, self._bring_back)
-                with tag("div", classes="below"):
-                    self._build_panels()
-            with tag("div", classes="side more"):
-                self._controls.build_loads()
+            self._face = Face(self._downloads, self.name, scenario, self._is_ready, self._controls.choose)
+            push = {"Push it": lambda: self._errands.push(self._face, self._brief)}
+            self._brief = Brief({"Pin": self._pin} | push)
+            self._pins = Pins(self._face.compare, self._bring_back)
+            with tag("div", classes="below"):
+                self._build_panels()
 
     def _build_header(self) -> None:
-        tag("h1", "wingbeat explorer")
-        with tag("div", classes="tools"):
-            what = "A species file (TOML), an orbit (NetCDF), or a saved state (JSON)"
-            self._upload = tag("label", "Load a file", "button", title=what)
-            chooser = tag("input", classes="unseen", type="file", accept=_ACCEPT)
-            chooser.props["id"] = self._upload.props["for"] = chooser.html_id
-            script = f"async (event) => emit(await wingbeatPage.upload(event.target, {json.dumps(self.name)}))"
-            chooser.on("change", self._uploaded, js_handler=script)
-            button("Save the state", self._save_state, title="A JSON file that this page can load")
-            button("Copy the link", lambda: run_script("wingbeatPage.copyLink()"), title="It reproduces this page")
-            self._dark = ui.dark_mode(None)
-            choice_field("Colours", _THEMES, "system", self._set_theme)
-
-    def _build_status(self) -> None:
-        self._state = tag("p", "", "state", role="status", aria_live="polite")
-        self._bar = tag("progress", classes="hidden", max=1, value=0, aria_label="Starts done")
-        button("Solve", lambda: self._session.ask(whole=True), "primary")
-        self._stop = button("Cancel", self._session.stop, disabled=True)
+        tag("p", "wingbeat explorer", "brand")
+        with tag("details", classes="drawer"):
+            tag("summary", "Change the animal, the air or the numbers", "button primary")
+            with tag("div", classes="sheet"):
+                self._controls.build_flight(lambda: self._session.ask(whole=True))
+                with folded("Expert numbers", "expert"):
+                    self._controls.build_loads()
+        with tag("div", classes="status"):
+            self._state = tag("p", "", "state", role="status", aria_live="polite")
+            tag("p", "This result belongs to an earlier request.", "earlier")
+            self._bar = tag("progress", classes="hidden", max=1, value=0, aria_label="Starts done")
+            self._stop = button("Cancel", self._session.stop, "small", disabled=True)
+        with tag("details", classes="menu"):
+            tag("summary", "File, link, colours", "button")
+            with tag("div", classes="items"):
+                self._build_menu()
+        tag("p", None, "refusal hidden")
         self._trouble = tag("div", classes="trouble hidden", role="alert")
         with self._trouble:
             self._trouble_lines = tag("ul", classes="plain")
             button("Close", self._close_trouble, "small")
 
+    def _build_menu(self) -> None:
+        what = "A species file (TOML), an orbit (NetCDF), or a saved state (JSON)"
+        self._upload = tag("label", "Load a file", "button", title=what)
+        chooser = tag("input", classes="unseen", type="file", accept=_ACCEPT)
+        chooser.props["id"] = self._upload.props["for"] = chooser.html_id
+        script = f"async (event) => emit(await wingbeatPage.upload(event.target, {json.dumps(self.name)}))"
+        chooser.on("change", self._uploaded, js_handler=script)
+        button("Save the state", self._errands.save_state, title="A JSON file that this page can load")
+        button("Copy the link", lambda: run_script("wingbeatPage.copyLink()"), title="It reproduces this page")
+        self._dark = ui.dark_mode(None)
+        choice_field("Colours", _THEMES, "system", self._set_theme)
+
     def _build_panels(self) -> None:
         self._answer = Answer(
             {
-                "Pin": self._pin,
-                "Record (JSON)": self._save_record,
-                "Time series (NetCDF)": lambda: self._make_file("nc"),
-                "Figure (PNG)": lambda: self._make_file("png"),
-                "Figure (PDF)": lambda: self._make_file("pdf"),
+                "Record (JSON)": self._errands.save_record,
+                "Time series (NetCDF)": lambda: self._errands.make_file("nc"),
+                "Figure (PNG)": lambda: self._errands.make_file("png"),
+                "Figure (PDF)": lambda: self._errands.make_file("pdf"),
             }
         )
-        with tag("div", classes="column"):
-            self._curve = CurvePanel(self._session, lambda speed: self._session.change(speed=speed))
-            self._influence = Influence(self._differentiate)
+        self._curve_panel = CurvePanel(self._session, self._curve, lambda speed: self._session.change(speed=speed))
+        self._influence = Influence(lambda: self._errands.differentiate(self._influence))
 
     # What the session says ---------------------------------------------------------------------------------------
 
     def show_scenario(self, scenario: Scenario) -> None:
-        """Show a scenario in the form and in the address, and clear messages about the previous one."""
+        """Show a scenario in the controls and in the address, and clear messages about the previous one."""
         self._close_trouble()
         self._controls.show(scenario)
-        self._curve.show_sweep(scenario)
+        self._face.choose(scenario)
+        if not self._curve.suits(scenario):
+            self._curve.cancel()
+        set_class(self._whole, "old-curve", not self._curve.suits(scenario))
+        self._curve_panel.show_sweep(scenario)
         run_script(f"wingbeatPage.setQuery({json.dumps(to_query(scenario))})")
 
     def show_state(self, text: str, busy: bool, done: float | None = None) -> None:
@@ -154,20 +174,37 @@ class Page:
         self._bar.props["value"] = done or 0
 
     def show_answer(self, answer: dict[str, Any]) -> None:
-        """Show an answer."""
-        self._flying.show(answer.pop("scene"))
-        self._headline.show(answer)
+        """Show an answer; its curve follows once the controls are left alone."""
+        if not self._is_ready:
+            self._face.show(answer)
+        self._brief.show(answer)
         self._answer.show(answer)
         self._influence.clear()
-        self._curve.mark(float(answer["record"]["speed"]))
+        self._errands.stop_pushing()
+        if answer["scenario"] is not None and not answer.get("continued"):
+            self._curve.follow(self._session.answered, answer)
+        self._show_curve()
+
+    def _show_curve(self) -> None:
+        """Show the curve in the face and in its panel."""
+        curve, answer = self._curve, self._session.answer
+        belongs = answer is not None and answer["scenario"] is not None
+        if not belongs or not curve.suits(self._session.answered):
+            answer = None
+        data = drawn(curve.asked or self._session.scenario, curve.points, answer, curve.measured, curve.pending)
+        if data != self._curve_shown:
+            self._curve_shown = data
+            self._face.show_curve(data)
+        self._curve_panel.show()
+        set_class(self._whole, "old-curve", not curve.suits(self._session.scenario))
 
     def show_stale(self, stale: bool) -> None:
-        """Dim the answer while it belongs to another scenario than the form shows."""
+        """Dim the answer while it belongs to another scenario than the controls show."""
         set_class(self._whole, "stale", stale)
 
     def show_refusals(self, refusals: list[list[str]]) -> None:
-        """Show each refusal beside its control, or above the form if it belongs to no control."""
-        self._curve.refuse(refusals)
+        """Show each refusal beside its control, or at the top if it belongs to no control."""
+        self._curve_panel.refuse(refusals)
         homeless = self._controls.refuse([each for each in refusals if not each[0].startswith("sweep.")])
         if homeless:
             self.show_trouble(*homeless)
@@ -189,107 +226,24 @@ class Page:
 
     def _set_theme(self, theme: str) -> None:
         self._dark.set_value({"light": False, "dark": True}.get(theme))
-        self._flying.set_theme(theme)
+        self._face.set_theme(theme)
 
     def _pin(self) -> None:
         if self._session.answer is not None:
             self._pins.pin(self._session.answer)
-
-    def _fly_beside(self, answer: dict[str, Any] | None) -> None:
-        self._session.beside = None if answer is None else known(answer)
-        if self._session.answer is not None:
-            what = {"do": "scene", "of": known(self._session.answer), "beside": self._session.beside}
-            self._start(what, "Drawing.", lambda found: self._flying.show(found["scene"]))
 
     def _bring_back(self, answer: dict[str, Any]) -> None:
         sweep = self._session.scenario.sweep
         self._session.scenario = from_plain({**answer["scenario"], "sweep": list(sweep)})
         self._session.ask(whole=True)
 
-    def _differentiate(self) -> None:
-        answer = self._session.answer
-        if answer is None or answer["record"]["status"] != "converged":
-            self._influence.say("Sensitivities need a certified orbit.")
-            return
-        self._influence.clear()
-        self._influence.say("Computing sensitivities; the first time takes about twenty seconds.")
-
-        def show(found: dict[str, Any]) -> None:
-            if self._session.answer is answer:
-                self._influence.say("")
-                self._influence.show(found)
-
-        self._start({"do": "influence", "of": known(answer)}, "", show, self._influence.say)
-
-    def _start(self, what: dict[str, Any], doing: str, show: Any, say: Any = None, end: Any = None) -> None:
-        """Submit a job to the pool in addition to the search, and show its result."""
-        say = say or (lambda text: self.show_state(text, busy=False))
-
-        def hear(event: Event) -> None:
-            if event.ends and end is not None:
-                end()
-            if event.kind == "waiting":
-                say(f"Waiting: number {event.value} in the queue.")
-            elif event.kind == "done" and "refused" in event.value:
-                say("Refused.")
-                self.show_trouble(*(sentence(*each) for each in event.value["refused"]))
-            elif event.kind == "done":
-                say("Done.")
-                show(event.value)
-            elif event.ends:
-                self._session.tell_ending(event)
-
-        if doing:
-            say(doing)
-        if self._session.start(what, hear) is None:
-            self.show_trouble(BUSY)
-            if end is not None:
-                end()
-
-    # Files -------------------------------------------------------------------------------------------------------
-
-    def _download(self, content: bytes, kind: str) -> None:
-        record = self._session.answer["record"] if self._session.answer else {}
-        name = re.sub(r"[^A-Za-z0-9-]+", "-", f"{record.get('species', 'state')}-{record.get('speed', '')}").strip(
-            "-"
-        )
-        address = self._downloads.put(self.name, Download(content, _KINDS[kind], f"{name[:60]}.{kind}"))
-        run_script(f"wingbeatPage.download({json.dumps(address)})")
-
-    def _save_state(self) -> None:
-        self._download(to_json(self._session.scenario).encode(), "json")
-
-    def _save_record(self) -> None:
-        if self._session.answer is not None:
-            self._download(json.dumps(self._session.answer["record"], indent=2).encode(), "json")
-
-    def _make_file(self, kind: str) -> None:
-        if self._session.answer is not None:
-            what = {"do": "file", "as": kind, "of": known(self._session.answer)}
-            self._start(what, "Writing.", lambda found: self._download(base64.b64decode(found["content"]), kind))
-
     def _uploaded(self, event: Any) -> None:
         """Show why the server refused an upload; `read_file` reports on files that it accepted."""
         if isinstance(event.args, str) and event.args:
             self.show_trouble(event.args[:300])
 
-    def read_file(self, path: str, label: str, done: Any) -> None:
-        """Read a file that the visitor sent, in a worker; `done` is called when the file is no longer needed."""
-
-        def show(found: dict[str, Any]) -> None:
-            if "answer" in found:
-                scenario = from_plain(found["scenario"]) if found["scenario"] is not None else None
-                self._session.take_file(found["answer"] | {"from_file": label}, scenario)
-                if scenario is None:
-                    self.show_trouble(
-                        f"{label} is shown as it is; the form cannot represent it: {found['why_not']}."
-                    )
-            elif "text" in found:
-                self._session.change(species=found["species"], species_file=found["text"], values={}, bounds={})
-            else:
-                self._session.scenario = from_plain(found["scenario"])
-                self._session.ask(whole=True)
-
+    def read_file(self, path: str, label: str, done: Callable[[], Any]) -> None:
+        """Read a file that the visitor sent; `done` is called when the file is no longer needed."""
         with self._client:
             self._close_trouble()
-            self._start({"do": "read", "path": path, "label": label}, f"Reading {label}.", show, end=done)
+            self._errands.read(path, label, done)

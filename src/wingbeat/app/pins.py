@@ -24,9 +24,9 @@ class Pins:
         self._fly_beside, self._bring_back = fly_beside, bring_back
         self._answers: list[dict[str, Any]] = []
         self._ghost: dict[str, Any] | None = None
-        with box("Pinned results", "pins"):
-            text = "Pin a result to compare it with the next one, or to show it as a ghost beside the next one."
-            self._note = tag("p", text, "note")
+        self._box = box("Pinned results", "pins hidden")
+        with self._box:
+            self._note = tag("p", "", "note")
             self._place = tag("div", classes="scroll", tabindex="0", role="region", aria_label="Pinned results")
 
     def pin(self, answer: dict[str, Any]) -> None:
@@ -35,7 +35,8 @@ class Pins:
             self._note.set_text("This result is already pinned.")
             return
         self._answers.append(answer)
-        text = "Pinned."
+        self._box.classes(remove="hidden")
+        text = "Pinned. Change the speed or the animal, then show this result as a ghost beside the next one."
         if len(self._answers) > _MOST_PINS:
             gone = self._answers.pop(0)
             text = f"Pinned; the oldest was removed, because at most {_MOST_PINS} are kept."

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import json
 import os
 import secrets
 import socket
@@ -20,9 +21,11 @@ from fastapi import FastAPI, Request, Response
 from nicegui import Client, core, ui
 from starlette.requests import ClientDisconnect
 
+from wingbeat.app.curve import drawn
 from wingbeat.app.door import Door, guard_events, is_loopback
 from wingbeat.app.downloads import DOWNLOADS, Downloads
-from wingbeat.app.flying import BUNDLE, SCRIPT, bundle
+from wingbeat.app.face import BUNDLE, READY, bundle
+from wingbeat.app.first import First, read_first
 from wingbeat.app.page import Page
 from wingbeat.app.uploads import MOST_BYTES, clean_label
 from wingbeat.errors import Fault, InvalidInputError, system_reason
@@ -40,7 +43,7 @@ _HEADERS = {
     "referrer-policy": "no-referrer",
 }
 _HEAD = """<link rel="stylesheet" href="/wingbeat/page.css"><script src="/wingbeat/page.js"></script>
-<script src="/wingbeat/flying.js"></script>"""
+<script src="/wingbeat/explorer.js" defer></script>"""
 _ICON = "🐦"
 # Seconds that a page may be silent, on a busy machine or a train, before it is taken to be gone.
 _PATIENCE = 30.0
@@ -57,13 +60,14 @@ class House:
     def __init__(self, processes: int) -> None:
         self.pool = FairPool(_WORK, processes)
         self.downloads = Downloads()
+        self.first = read_first()
         self.pages: dict[str, Page] = {}
         self.folder = tempfile.TemporaryDirectory(prefix="wingbeat-")
 
     def open_page(self, client: Client, query: str) -> None:
         """Build a page for a new visitor."""
         name = secrets.token_urlsafe(12)
-        page = self.pages[name] = Page(name, self.pool, self.downloads, query)
+        page = self.pages[name] = Page(name, self.pool, self.downloads, self.first, query)
 
         def leave() -> None:
             del self.pages[name]
@@ -205,9 +209,9 @@ def _add_files(app: FastAPI, house: House) -> None:
     script, style = ((here / name).read_bytes() for name in ("page.js", "page.css"))
     fixed = {
         "/wingbeat/page.js": (script, "text/javascript"),
-        "/wingbeat/flying.js": (SCRIPT.encode(), "text/javascript"),
         "/wingbeat/page.css": (style, "text/css"),
         BUNDLE: (bundle(), "text/javascript"),
+        READY: (_face_of(house.first), "application/json"),
     }
     for path, (content, kind) in fixed.items():
         app.add_api_route(path, lambda content=content, kind=kind: Response(content, media_type=kind))
@@ -221,6 +225,12 @@ def _add_files(app: FastAPI, house: House) -> None:
         if download.name:
             headers["content-disposition"] = f'attachment; filename="{download.name}"'
         return Response(download.content, media_type=download.kind, headers=headers)
+
+
+def _face_of(first: First) -> bytes:
+    """Return what the browser shows of the first flight: its face and its curve."""
+    curve = json.dumps(drawn(first.scenario, first.points, first.answer, first.answer["measured"]))
+    return f'{{"answer": {first.answer["face"]}, "curve": {curve}}}'.encode()
 
 
 async def _take(house: House, session: str, request: Request) -> Response:

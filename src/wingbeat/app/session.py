@@ -67,7 +67,6 @@ class Session:
         self.name, self.scenario = name, scenario
         self.answer: dict[str, Any] | None = None
         self._answered = scenario
-        self.beside: dict[str, Any] | None = None
         self._pool, self._view = pool, view
         self._loop = asyncio.get_running_loop()
         self._job: Job | None = None
@@ -77,6 +76,11 @@ class Session:
         self._calm: asyncio.TimerHandle | None = None
         self._asked = 0
         self._gone = False
+
+    @property
+    def answered(self) -> Scenario:
+        """The scenario of the answer."""
+        return self._answered
 
     def change(self, **choices: Any) -> bool:
         """Change to another scenario; return whether each of its choices is valid by itself."""
@@ -119,21 +123,21 @@ class Session:
             self._pool.cancel(self._job)
         self._asked += 1
         asked, scenario = self._asked, self.scenario
-        what = {"do": "orbit", "scenario": to_plain(scenario), "near": near, "beside": self.beside}
+        what = {"do": "orbit", "scenario": to_plain(scenario), "near": near}
         self._brief_since = self._loop.time() if near is not None else None
         self._job = self.start(what, lambda event: self._hear(asked, scenario, event))
         if self._job is None:
             self._brief_since = None
             self._view.show_trouble(BUSY)
 
-    def start(self, what: dict[str, Any], hear: Callable[[Event], None]) -> Job | None:
+    def start(self, what: dict[str, Any], hear: Callable[[Event], None], background: bool = False) -> Job | None:
         """Submit a job to the pool; `hear` gets its events on the page's own thread."""
 
         def tell(event: Event) -> None:
             with suppress(RuntimeError):  # the server has closed, and its loop with it
                 self._loop.call_soon_threadsafe(self._inside, hear, event)
 
-        return self._pool.submit(self.name, what, tell)
+        return self._pool.submit(self.name, what, tell, background)
 
     def _inside(self, act: Callable[[Any], None], what: Any) -> None:
         """Call a function within the page's context, unless the page is closed."""
@@ -209,6 +213,12 @@ class Session:
             self._calm = self._loop.call_later(_CALM, self._inside, self._submit, None)
         elif not self._again:
             self._view.show_state(f"Solved in {answer['seconds']:.2g} s.", busy=False)
+
+    def take_ready(self, answer: dict[str, Any]) -> None:
+        """Show an answer to the present scenario that was solved before the page was opened."""
+        self._tell_scenario()
+        self._show(answer | {"scenario": to_plain(self.scenario)}, self.scenario)
+        self._view.show_state("Solved beforehand.", busy=False)
 
     def take_file(self, answer: dict[str, Any], scenario: Scenario | None) -> None:
         """Show an answer from a file, and make its scenario the current one."""

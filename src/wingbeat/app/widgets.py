@@ -45,6 +45,14 @@ def box(title: str, classes: str = "") -> Any:
     return section
 
 
+def folded(title: str, classes: str = "") -> Any:
+    """Return a part of the page that is folded until the user opens it, like `box`."""
+    fold = tag("details", classes=f"box fold {classes}")
+    with fold:
+        tag("summary", title)
+    return fold
+
+
 def set_class(element: Any, name: str, on: bool) -> None:
     """Give an element a class of the style sheet, or remove it."""
     element.classes(name) if on else element.classes(remove=name)

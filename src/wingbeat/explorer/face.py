@@ -8,6 +8,7 @@ from typing import Any
 from wingbeat.errors import FileError
 from wingbeat.explorer.gauges import gauges_of
 from wingbeat.nomenclature import NOMENCLATURE, for_people
+from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.plausibility import statements
 from wingbeat.results.rows import mass_of
@@ -65,9 +66,12 @@ def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
 
 
 def _scene_of(orbit: Orbit, title: str) -> dict[str, Any] | None:
+    """Return what the viewer draws, or None for a beat that is no orbit and tumbles at once."""
     try:
         return scene([(title, orbit.dataset)])
-    except FileError:  # fewer than two samples before it tumbled
+    except FileError:
+        if orbit.status is Status.CONVERGED:
+            raise
         return None
 
 

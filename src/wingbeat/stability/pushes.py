@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 
 from wingbeat.errors import FaultList
+from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.feedback import Feedback, feedback
@@ -21,7 +24,11 @@ _EVERY = 4  # of the samples of a flight, the page gets each fourth one: 16 in a
 
 
 def fly_pushes(
-    orbit: Orbit, delay: int | None = 0, beats: int = 16, options: ManyOptions = DEFAULTS
+    orbit: Orbit,
+    delay: int | None = 0,
+    beats: int = 16,
+    options: ManyOptions = DEFAULTS,
+    progress: Progress | None = None,
 ) -> tuple[Push, ...]:
     """Fly an orbit through gusts of 1 and 3 m/s from four sides, without and with feedback.
 
@@ -33,6 +40,7 @@ def fly_pushes(
     delay : of the feedback [beats], as in `feedback`; None for flights without feedback only.
     beats : number of beats of a flight.
     options : say when a flight is lost.
+    progress : called with (flights done, flights in all).
 
     Raises
     ------
@@ -51,9 +59,13 @@ def fly_pushes(
         faults.add("orbit", orbit.status.value, "is not certified", "solve it again with more starts")
     faults.raise_if_any()
     held: list[Feedback | None] = [None] if delay is None else [None, feedback(orbit, delay=delay)]
-    return tuple(
-        _push(orbit, name, size, one, beats, options) for name in DIRECTIONS for size in SIZES for one in held
-    )
+    asked = list(itertools.product(DIRECTIONS, SIZES, held))
+    flown = []
+    for done, (name, size, one) in enumerate(asked):
+        if progress is not None:
+            progress(done, len(asked))
+        flown.append(_push(orbit, name, size, one, beats, options))
+    return tuple(flown)
 
 
 def _push(

@@ -49,6 +49,7 @@ class Job:
     tell: Callable[[Event], None]
     number: int
     turn: int
+    background: bool = False
     unwanted: bool = False
     place: int = 0
     tries: int = 0
@@ -85,6 +86,8 @@ class _Turns:
 class FairPool:
     """A pool of worker processes with a fair queue; events come from threads of its own.
 
+    Background jobs wait for all others. They never take the last free worker, unless there is only one.
+
     Parameters
     ----------
     work : the function that does a job, as ``MODULE:FUNCTION``; called with the job and a `main.Context`.
@@ -105,7 +108,7 @@ class FairPool:
         self._work, self._most_waiting, self._seconds, self._memory = work, most_waiting, seconds, memory
         self._lock = threading.RLock()
         self._waiting: list[Job] = []
-        self._turns = _Turns()
+        self._turns, self._quiet_turns = _Turns(), _Turns()
         self._numbers = itertools.count(1)
         self._open = True
         self._desks = [_Desk(threading.Condition(self._lock)) for _ in range(processes)]
@@ -119,7 +122,9 @@ class FairPool:
         with self._lock:
             return [desk.worker.pid for desk in self._desks if desk.worker is not None and desk.worker.alive]
 
-    def submit(self, session: str, what: Any, tell: Callable[[Event], None]) -> Job | None:
+    def submit(
+        self, session: str, what: Any, tell: Callable[[Event], None], background: bool = False
+    ) -> Job | None:
         """Queue a job, or return None if the session already has the largest number of waiting jobs.
 
         Parameters
@@ -127,11 +132,13 @@ class FairPool:
         session : whose job it is.
         what : the argument for the worker's function; it must be picklable.
         tell : called with each `Event`, from another thread.
+        background : whether the job waits for all that are not in the background.
         """
         with self._lock:
             if not self._open or sum(job.session == session for job in self._waiting) >= self._most_waiting:
                 return None
-            job = Job(session, what, tell, next(self._numbers), self._turns.of(session))
+            turn = self._turns_of(background).of(session)
+            job = Job(session, what, tell, next(self._numbers), turn, background)
             self._waiting.append(job)
             self._assign()
             return job
@@ -159,7 +166,8 @@ class FairPool:
             for job in [*self._waiting, *working]:
                 if job.session == session:
                     self.cancel(job)
-            self._turns.last.pop(session, None)
+            for turns in (self._turns, self._quiet_turns):
+                turns.last.pop(session, None)
 
     def close(self) -> None:
         """End every worker immediately."""
@@ -174,16 +182,31 @@ class FairPool:
             if desk.thread is not None:
                 desk.thread.join(5.0)
 
+    def _turns_of(self, background: bool) -> _Turns:
+        return self._quiet_turns if background else self._turns
+
     def _assign(self) -> None:
-        """Assign waiting jobs to idle workers, if possible to the worker that served the same session last."""
-        self._waiting.sort(key=lambda job: (job.turn, job.number))
+        """Assign waiting jobs to idle workers, if possible to the worker that served the same session last.
+
+        A background job rather goes to another worker, so that the next job of its session finds that one free.
+        """
+        self._waiting.sort(key=lambda job: (job.background, job.turn, job.number))
         while self._waiting and (idle := [desk for desk in self._desks if desk.job is None]):
+            if self._waiting[0].background and self._is_enough_background():
+                break
             job = self._waiting.pop(0)
-            desk = max(idle, key=lambda desk: (desk.served == job.session, desk.ready))
-            desk.job, desk.served, job.place = job, job.session, 0
-            self._turns.now = max(self._turns.now, job.turn)
+            desk = max(idle, key=lambda desk: ((desk.served == job.session) != job.background, desk.ready))
+            desk.job, job.place = job, 0
+            if not job.background:
+                desk.served = job.session
+            turns = self._turns_of(job.background)
+            turns.now = max(turns.now, job.turn)
             desk.wake.notify_all()
         self._tell_places()
+
+    def _is_enough_background(self) -> bool:
+        working = sum(desk.job is not None and desk.job.background for desk in self._desks)
+        return working >= max(len(self._desks) - 1, 1)
 
     def _tell_places(self) -> None:
         for place, job in enumerate(self._waiting, start=1):

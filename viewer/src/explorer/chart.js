@@ -55,6 +55,12 @@ export function dots(points, { x, y, height }, name) {
   return draw("g", {}, ...found);
 }
 
+// Speeds that are still to be computed.
+export function rings(speeds, { x, height }) {
+  const y = height - MARGIN.bottom;
+  return draw("g", {}, ...speeds.map((speed) => draw("circle", { class: "wbx-pending", cx: x(speed), cy: y, r: 4 })));
+}
+
 function cross(x, y) {
   return draw("path", { class: "wbx-gap", d: `M${x - 4} ${y - 4}l8 8m0-8l-8 8` });
 }

@@ -1,7 +1,7 @@
 // The curve against speed, which is the speed control: a point on it that one drags or moves with the keyboard.
 
 import { draw, make } from "../elements.js";
-import { axes, dots, lines, MARGIN, measured, ticks } from "./chart.js";
+import { axes, dots, lines, MARGIN, measured, rings, ticks } from "./chart.js";
 import { ends, judged, short } from "./numbers.js";
 
 const QUANTITIES = [
@@ -17,7 +17,7 @@ export class Curve {
     this.act = act;
     this.snap = snap;
     this.quantity = QUANTITIES[0];
-    this.data = { points: [], measured: [] };
+    this.data = { points: [], measured: [], pending: [] };
     this.speed = 0;
     this.svg = draw("svg", { class: "wbx-chart" });
     this.buttons = QUANTITIES.map((each) =>
@@ -51,9 +51,9 @@ export class Curve {
     this.draw();
   }
 
-  // `range` [m/s] is what the point can reach where nothing is computed yet.
-  show({ points, measured = [], range }) {
-    this.data = { points: [...points].sort((one, other) => one.speed - other.speed), measured, range };
+  // `range` [m/s] is what the point can reach where nothing is computed yet; `pending` are speeds that are being computed.
+  show({ points, measured = [], range, pending = [] }) {
+    this.data = { points: [...points].sort((one, other) => one.speed - other.speed), measured, range, pending };
     this.draw();
   }
 
@@ -88,6 +88,7 @@ export class Curve {
       axes(this.scale, this.quantity),
       ...shown.map((one) => measured(one, this.scale, name, tell)),
       lines(points, this.scale, name),
+      rings(this.data.pending, this.scale),
       dots(points, this.scale, name),
       ...this.drawPin(name),
       this.handle,
@@ -128,6 +129,7 @@ export class Curve {
     const parts = [];
     if (points.some((point) => point.certified && !point.plausible)) parts.push("dashed: not plausible");
     if (points.some((point) => !point.certified)) parts.push("cross: no certified wingbeat");
+    if (this.data.pending.length) parts.push("rings on the axis: still to be computed");
     if (shown.length) parts.push("bars behind: real animals (point at one for its source)");
     return parts.join("; ");
   }

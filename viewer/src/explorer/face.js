@@ -11,15 +11,16 @@ import { Verdict } from "./verdict.js";
 let made = 0;
 
 export class Face {
-  // With `snap` the point rests on computed speeds only; without, the page can ask for any speed.
-  constructor(element, { theme = "system", snap = true } = {}) {
+  // With `snap` the point rests on computed speeds only; without, the page can ask for any speed. Without `pinning` the
+  // page itself chooses what to compare with.
+  constructor(element, { theme = "system", snap = true, pinning = true } = {}) {
     this.onask = () => {};
     this.theme = theme;
     this.id = `wbx${++made}`;
     this.verdict = new Verdict();
     this.curve = new Curve((speed) => this.ask({ speed }), snap);
     this.gauges = new Gauges();
-    this.pins = new Pins(() => this.show());
+    this.pins = new Pins(() => this.show(), pinning);
     this.root = make("section", { class: "wbx", "aria-label": "Explorer" }, make("style", {}, styles));
     this.root.face = this;
     this.build();
@@ -73,6 +74,11 @@ export class Face {
     this.pins.now(answer);
     this.say("");
     this.show();
+  }
+
+  // Show an answer beside the one on the page; without one the comparison ends.
+  compare(answer) {
+    this.pins.pin(answer);
   }
 
   // Say what the reader waits for, or what went wrong; an empty text says nothing.

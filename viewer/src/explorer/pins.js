@@ -4,12 +4,12 @@ import { make } from "../elements.js";
 import { short } from "./numbers.js";
 
 export class Pins {
-  // `act` is called when the pinned answer or the way to show it changes.
-  constructor(act) {
+  // `act` is called when the pinned answer or the way to show it changes. Without `pinning` the page chooses what is pinned.
+  constructor(act, pinning) {
     this.answer = undefined;
     this.ghost = true;
     this.act = act;
-    this.button = make("button", { type: "button", onclick: () => this.toggle() });
+    this.button = make("button", { type: "button", hidden: !pinning, onclick: () => this.toggle() });
     this.way = make("button", { type: "button", onclick: () => this.turn() });
     this.words = make("p");
     this.element = make("div", { class: "wbx-pins" }, this.button, this.way, this.words);
@@ -23,7 +23,11 @@ export class Pins {
   }
 
   toggle() {
-    this.answer = this.answer ? undefined : this.current;
+    this.pin(this.answer ? undefined : this.current);
+  }
+
+  pin(answer) {
+    this.answer = answer;
     this.tell();
     this.act();
   }
@@ -43,7 +47,7 @@ export class Pins {
 
   // The scene of the answer on the page, with the pinned flight as the second.
   scene(answer) {
-    if (!this.answer) return answer.scene;
+    if (!this.answer?.scene) return answer.scene;
     const [now, before] = [answer, this.answer].map((each) => ({ ...each.scene.flights[0], label: title(each) }));
     return { ...answer.scene, flights: [now, before] };
   }

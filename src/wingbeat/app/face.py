@@ -1,0 +1,129 @@
+"""The face of the explorer on the page: this module places the component and sends it answers."""
+
+from __future__ import annotations
+
+import functools
+import json
+import math
+from collections.abc import Callable
+from typing import Any
+
+from nicegui import ui
+
+from wingbeat.app.downloads import Download, Downloads
+from wingbeat.app.scenario import Scenario
+from wingbeat.app.widgets import run_script, tag
+from wingbeat.models import MODELS
+from wingbeat.species import load_species, species_names
+from wingbeat.viewer import bundle_path
+
+BUNDLE = "/wingbeat/explorer.js"
+READY = "/wingbeat/first.json"  # the face that was solved beforehand
+_MODELS = {"paper": "paper: the plate of Su et al.", "animal": "animal: air loads of a bird, bat or robot"}
+# What the face asks is sent at most about twenty times a second while its point is dragged.
+_THROTTLE = 0.05
+
+
+def bundle() -> bytes:
+    """Return the component's script."""
+    return bundle_path("explorer").read_bytes()
+
+
+@functools.cache
+def _animals() -> tuple[tuple[str, str], ...]:
+    """Return name and title of every built-in species, by title."""
+    named = ((name, load_species(name).common_name or name) for name in species_names())
+    return tuple(sorted(named, key=lambda pair: pair[1].lower()))
+
+
+class Face:
+    """The element of a page that holds the component.
+
+    Parameters
+    ----------
+    downloads, session : the browser fetches answers from `downloads`, which keeps them for this session.
+    scenario : what is chosen at first.
+    is_ready : whether the answer to the first choice was solved beforehand.
+    ask : called with the choices that were changed: species, model or speed [m/s].
+    """
+
+    def __init__(
+        self, downloads: Downloads, session: str, scenario: Scenario, is_ready: bool, ask: Callable[..., Any]
+    ) -> None:
+        self._downloads, self._session, self._ask = downloads, session, ask
+        self._scenario = scenario
+        self._place: Any = tag("div", classes="face", id="answer", tabindex="-1")
+        # The component's event, with what is chosen now.
+        self._place.on(
+            "ask",
+            self._hear,
+            js_handler="(event) => emit(event.detail)",
+            throttle=_THROTTLE,
+            leading_events=True,
+            trailing_events=True,
+        )
+        about = {"choices": _choices(scenario), "chosen": _chosen(scenario), "ready": READY if is_ready else None}
+        text = json.dumps(about).replace("<", "\\u003c")
+        ui.add_head_html(f"<script>wingbeatPage.begin({text});</script>")
+
+    def _hear(self, event: Any) -> None:
+        """Change the choices that differ from the scenario's; a client that sends anything else is not ours."""
+        asked, now = event.args, _chosen(self._scenario)
+        if not isinstance(asked, dict):
+            return
+        changed = {name: asked[name] for name in now if name in asked and asked[name] != now[name]}
+        animals = {name for name, _ in _animals()}
+        if changed.get("animal") in animals:
+            self._ask(species=changed["animal"])
+        elif changed.get("model") in MODELS:
+            self._ask(model=changed["model"])
+        elif isinstance(speed := changed.get("speed"), int | float) and math.isfinite(speed):
+            self._ask(speed=float(speed))
+
+    def choose(self, scenario: Scenario) -> None:
+        """Show which animal and model are chosen."""
+        before, self._scenario = self._scenario, scenario
+        if _choices(before) != _choices(scenario) or _chosen(before) != _chosen(scenario):
+            self._run("choose", _choices(scenario), _chosen(scenario))
+
+    def show(self, answer: dict[str, Any]) -> None:
+        """Show an answer."""
+        self._run("show", self._address(answer["face"]))
+
+    def show_curve(self, data: dict[str, Any]) -> None:
+        """Show the curve, as `wingbeat.app.curve.drawn` returns it."""
+        self._run("showCurve", data)
+
+    def compare(self, answer: dict[str, Any] | None) -> None:
+        """Show another answer beside the one on the page; None ends the comparison."""
+        self._run("compare", None if answer is None else self._address(answer["face"]))
+
+    def push(self, pushes: str) -> None:
+        """Offer flights through gusts, given as JSON text, beside the answer on the page."""
+        self._run("push", self._address(pushes))
+
+    def say(self, text: str) -> None:
+        """Say what the visitor waits for."""
+        self._run("say", text)
+
+    def set_theme(self, theme: str) -> None:
+        """Set the theme: ``system``, ``light`` or ``dark``."""
+        self._run("setTheme", theme)
+
+    def _address(self, content: str) -> str:
+        return self._downloads.put(self._session, Download(content.encode(), "application/json"))
+
+    def _run(self, act: str, *words: Any) -> None:
+        run_script(f"wingbeatPage.{act}({', '.join(json.dumps(word) for word in words)})")
+
+
+def _choices(scenario: Scenario) -> dict[str, Any]:
+    own = scenario.species if scenario.species_file else None
+    animals = [{"name": name, "title": title} for name, title in _animals() if name != own]
+    if own is not None:
+        animals.insert(0, {"name": own, "title": f"{own} (loaded file)"})
+    return {"animals": animals, "models": [{"name": name, "title": _MODELS[name]} for name in MODELS]}
+
+
+def _chosen(scenario: Scenario) -> dict[str, Any]:
+    return {"animal": scenario.species, "model": scenario.model, "speed": scenario.speed}

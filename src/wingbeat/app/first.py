@@ -1,0 +1,58 @@
+"""The flight that the page opens with: solved beforehand, so that an animal flies before anything is solved.
+
+``python -m wingbeat.app.first`` solves it again and writes the file. Run it whenever numbers or scenes change.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from wingbeat.app.links import to_plain
+from wingbeat.app.scenario import Scenario
+from wingbeat.files import write_atomically
+from wingbeat.workers.main import Context
+
+FILE = Path(__file__).with_name("first.json")
+
+
+@dataclass(frozen=True)
+class First:
+    """The answer and the curve of the scenario of an empty page.
+
+    Attributes
+    ----------
+    scenario : that of an empty page.
+    answer : as a worker returns it.
+    points : of the curve, as a worker returns them.
+    """
+
+    scenario: Scenario
+    answer: dict[str, Any]
+    points: list[dict[str, Any]]
+
+
+def read_first() -> First:
+    """Return what was solved beforehand."""
+    found = json.loads(FILE.read_text("utf-8"))
+    return First(Scenario(), found["answer"], found["points"])
+
+
+def solve_first() -> dict[str, Any]:
+    """Solve the scenario of an empty page and its curve, each speed from every start and from its neighbour."""
+    from wingbeat.app.jobs import do  # here, because a server that only reads the file solves nothing itself
+
+    context, scenario = Context(lambda told: None, lambda: False), Scenario()
+    answer = do({"do": "orbit", "scenario": to_plain(scenario)}, context)
+    points: list[dict[str, Any]] = []
+    for speed in scenario.speeds():
+        near = next((point["near"] for point in reversed(points) if point["near"]), None)
+        what = {"do": "point", "scenario": to_plain(scenario.at(speed)), "near": near, "whole": True}
+        points.append(do(what, context))
+    return {"answer": answer, "points": points}
+
+
+if __name__ == "__main__":
+    write_atomically(FILE, json.dumps(solve_first(), allow_nan=False).encode())

@@ -23,7 +23,12 @@ export class Pins {
   }
 
   toggle() {
-    this.answer = this.answer ? undefined : this.current;
+    this.pin(this.answer ? undefined : this.current);
+  }
+
+  // Pin an answer, or none.
+  pin(answer) {
+    this.answer = answer;
     this.tell();
     this.act();
   }

@@ -1,4 +1,4 @@
-"""The reader's own files: measured flights behind the curve, faults in plain words, and nothing that leaves the page."""
+"""The reader's own files: flights behind the curve, wingbeats in the plots, faults in plain words; all in the page."""
 
 import itertools
 import math
@@ -178,12 +178,76 @@ def test_four_files_have_marks_of_their_own_and_one_name_is_one_file(show):
     assert all(one != other for one, other in itertools.pairwise(colours))
 
 
+PLOT = """name => {
+    const card = VIEWER.plots.cards.find(({ choice }) => choice.ys[0] === name);
+    const points = card.axes.curves.querySelector(".wb-own").getAttribute("points").split(" ");
+    const places = points.map((point) => point.split(",").map(Number));
+    const at = (phase, degrees) => [card.axes.x(phase), card.axes.y(degrees)];
+    return { places, wanted: WANTED.map(([phase, value]) => at(phase, value)) };
+}""".replace("VIEWER", f"{FACE}.viewer")
+
+
+def test_a_wingbeat_is_drawn_at_its_phase_over_the_plots(show):
+    page, complaints, requests = show()
+    asked = len(requests)
+    give(
+        page,
+        ("film.csv", "phase,flap_deg,pitch [rad],feathers\n0,40,0.1,1\n0.5,-30,-0.2,2\n0.25,10,,3\n0.75,0,0.1,4\n"),
+    )
+    (row,) = listed(page)
+    assert row.startswith("film.csv: flap_deg, pitch [rad] as dashed lines in the plots")
+    assert "no such series: feathers" in row
+    for name, wanted in (
+        ("flap", [[0, 40], [0.25, 10], [0.5, -30], [0.75, 0]]),
+        ("pitch", [[0, math.degrees(0.1)], [0.5, math.degrees(-0.2)], [0.75, math.degrees(0.1)]]),
+    ):
+        found = page.evaluate(PLOT.replace("WANTED", str(wanted)), name)
+        assert found["places"] == [pytest.approx(place, abs=0.006) for place in found["wanted"]]
+    page.get_by_role("slider", name="Speed", exact=True).focus()
+    page.keyboard.press("End")  # another flight keeps the lines
+    assert page.locator(".wb-own").count() == 2
+    page.get_by_role("button", name="Remove film.csv").click()
+    assert page.locator(".wb-own").count() == 0
+    assert (complaints, len(requests)) == ([], asked)
+
+
+@pytest.mark.parametrize(
+    ("text", "phase"),
+    [
+        ("time [ms],flap_deg\n100,40\n150,-30\n200,40\n", [0, 0.5, 1]),
+        ("# frequency [Hz] = 5\ntime,flap_deg\n0,40\n0.1,-30\n0.25,20\n", [0, 0.25, 0.5]),
+    ],
+)
+def test_time_becomes_phase(show, text, phase):
+    page = show().page
+    give(page, ("film.csv", text))
+    assert page.evaluate(f"{FACE}.own.shown[0].curves[0].phase") == pytest.approx(phase)
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("phase,flap\n0,1\n0.5,2\n1,1\n", "Column “flap” is an angle: name its unit, as in “flap_deg”."),
+        ("phase,flap_deg\n0,1\n50,2\n1,1\n", "Line 3, phase: 50 must be from 0 to 1."),
+        ("phase,flap_deg\n0,1\n1,1\n", "at least three rows"),
+        ("time [s],flap_deg\n1,1\n0.5,2\n0,1\n", "the last time must be later than the first"),
+    ],
+)
+def test_a_wingbeat_with_a_fault_is_refused(show, text, told):
+    page = show().page
+    give(page, ("film.csv", text))
+    assert told in state(page)
+    assert listed(page) == []
+
+
 @pytest.mark.parametrize(("theme", "width"), [("light", 390), ("dark", 1280)])
 def test_axe_finds_no_fault_beside_own_data(show, theme, width):
     if not AXE.exists():
         pytest.skip("needs axe-core: npm ci in the folder viewer")
     page = show(width=width, color_scheme=theme, bypass_csp=True).page
-    give(page, ("mine.csv", FLIGHTS), ("bad.csv", "speed,power\nx,1\n"), ("bird.toml", ""))
+    film = ("film.csv", "phase,flap_deg\n0,40\n0.5,-30\n1,40\n")
+    give(page, ("mine.csv", FLIGHTS), film, ("bad.csv", "speed,power\nx,1\n"), ("bird.toml", ""))
+    page.wait_for_function("() => document.querySelector('.wbx-own-state code')")
     page.add_script_tag(content=AXE.read_text())
     found = page.evaluate("axe.run()")
     assert {fault["id"]: [node["html"] for node in fault["nodes"]] for fault in found["violations"]} == {}

@@ -1,4 +1,4 @@
-"""The reader's own files: flights behind the curve, wingbeats in the plots, faults in plain words; all in the page."""
+"""The reader's own files: flights behind the curve, wingbeats in the plots, and faults in plain words."""
 
 import itertools
 import math

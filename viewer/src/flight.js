@@ -7,8 +7,8 @@ function unpacked({ kind, data, scale, samples }) {
   return kind === "d2" ? summed(bytes, samples, scale) : new KINDS[kind](bytes.buffer);
 }
 
-// Whole numbers of 16 bits, packed as steps from sample to sample, one number of a sample after the other; low bytes of all
-// come before their high bytes. The scale is the size of one.
+// Whole numbers of 16 bits, packed as steps from sample to sample, one number of a sample after the other; the low bytes
+// of all come before their high bytes. The scale is the size of one.
 function summed(bytes, samples, scale) {
   const count = bytes.length / 2;
   const width = count / samples;

@@ -225,8 +225,8 @@ export class Viewer {
     this.set(Math.min(this.phase, this.last));
   }
 
-  // Draw curves of the reader's own into the plots, each with name, phase and values in SI units; returns the names of those
-  // that the plots have.
+  // Draw curves of the reader's own into the plots, each with name, phase and values in SI units; returns the names of
+  // those that the plots have.
   overlay(curves) {
     this.overlaid = curves;
     const names = this.plots.overlay(curves);

@@ -57,7 +57,7 @@ def fly_pushes(
     faults = FaultList()
     faults.whole("beats", beats, _LASTS + 1, 100, "beats of a flight")
     for name in directions:
-        faults.choice("directions", name, DIRECTIONS)
+        faults.choice("directions", name, tuple(DIRECTIONS))
     if orbit.status is not Status.CONVERGED:
         faults.add("orbit", orbit.status.value, "is not certified", "solve it again with more starts")
     faults.raise_if_any()

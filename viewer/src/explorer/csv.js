@@ -1,4 +1,4 @@
-// Reads tables that a reader has: cells, columns by forgiving names, and numbers. Every fault of a file is told at once.
+// Reads tables that a reader has: cells, columns by forgiving names, and numbers. All faults are told at once.
 
 export const MOST_ROWS = 5000;
 const MOST_BYTES = 2e6;
@@ -27,8 +27,8 @@ export function tooLarge(file) {
   return `The file has ${(file.size / 1e6).toFixed(1)} MB; at most ${MOST_BYTES / 1e6} MB are read.`;
 }
 
-// Header and rows of a text; commas, semicolons or tabs stand between the cells. Lines that begin with # are comments; one
-// of them may give the frequency of a wingbeat [Hz].
+// Header and rows of a text; commas, semicolons or tabs stand between the cells. Lines that begin with # are comments;
+// one of them may give the frequency of a wingbeat [Hz].
 export function tableOf(text, faults) {
   const lines = text
     .replace(/^\uFEFF/, "")
@@ -44,7 +44,8 @@ export function tableOf(text, faults) {
   const rows = lines.slice(1).map(({ line, at }) => ({ at, cells: cells(line, separator) }));
   if (rows.length > MOST_ROWS) faults.add(`The file has ${rows.length} rows; at most ${MOST_ROWS} are read.`);
   for (const { at, cells } of rows.slice(0, MOST_ROWS)) {
-    if (cells.length !== header.length) faults.add(`Line ${at} has ${cells.length} cells, the header has ${header.length}.`);
+    const [here, named] = [cells.length, header.length];
+    if (here !== named) faults.add(`Line ${at} has ${here} cells, the header has ${named}.`);
   }
   const given = /^#\s*frequency\s*(?:\[hz\])?\s*=\s*([\d.]+)/im.exec(text);
   return { header, rows: rows.slice(0, MOST_ROWS), frequency: given ? Number(given[1]) : undefined };
@@ -108,7 +109,8 @@ export function numberIn(cell, column, at, faults, { low = -Infinity, high = Inf
     return NaN;
   }
   if (value < low || value > high) {
-    faults.add(`Line ${at}, ${column}: ${cell} must be ${high === Infinity ? `at least ${low}` : `from ${low} to ${high}`}.`);
+    const range = high === Infinity ? `at least ${low}` : `from ${low} to ${high}`;
+    faults.add(`Line ${at}, ${column}: ${cell} must be ${range}.`);
     return NaN;
   }
   return value;

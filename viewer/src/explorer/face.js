@@ -18,8 +18,8 @@ export class Face {
   // With `snap` the point rests on computed speeds only; without, the page can ask for any speed.
   constructor(element, { theme = "system", snap = true } = {}) {
     this.onask = () => {};
-    // Set before `setChoices` by a page that can: `onpush()` brings flights through gusts of the answer on the page by `showPushes`;
-    // `onfile(file)` takes a species file.
+    // Set before `setChoices` by a page that can: `onpush()` brings flights of the answer on the page through gusts, by
+    // `showPushes`; `onfile(file)` takes a species file.
     this.onpush = undefined;
     this.onfile = undefined;
     this.theme = theme;
@@ -48,10 +48,11 @@ export class Face {
     const table = make("table", {}, this.numbers);
     const folded = make("details", { class: "wbx-more" }, make("summary", {}, "More numbers"), table);
     const judged = [make("h2", {}, "Could an animal fly so?"), this.gauges.element, this.pins.element, folded];
+    const below = make("div", { class: "wbx-judged", "data-part": "gauges" }, ...judged);
     this.root.append(
       make("header", { class: "wbx-say" }, this.choices, this.verdict.sentence, this.verdict.spoken),
       // Beside the picture, or on a narrow page the verdict before it and the gauges after it.
-      make("div", { class: "wbx-side" }, this.verdict.element, make("div", { class: "wbx-judged", "data-part": "gauges" }, ...judged)),
+      make("div", { class: "wbx-side" }, this.verdict.element, below),
       make("div", { class: "wbx-stage" }, this.picture, this.pushButton, this.state, this.curve.element),
       make("div", { class: "wbx-extras" }, this.tour.element, this.own.element),
       this.tour.panel,
@@ -141,7 +142,8 @@ export class Face {
     const speed = this.pushSpeed(answer);
     this.pushButton.hidden = speed === undefined || Boolean(answer.scene?.pushes);
     if (speed === undefined) return;
-    this.pushButton.textContent = speed === answer.speed ? "Push it with a gust" : `Push it with a gust, at ${short(speed)} m/s`;
+    const where = speed === answer.speed ? "" : `, at ${short(speed)} m/s`;
+    this.pushButton.textContent = `Push it with a gust${where}`;
   }
 
   show() {

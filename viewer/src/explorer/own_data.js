@@ -5,17 +5,22 @@ import { Faults, tableOf, tooLarge } from "./csv.js";
 import { flightsOf, kindOf, motionOf } from "./own_tables.js";
 
 const HELP =
-  "A CSV file of measured flights has the columns speed [m/s] and power [W] or frequency [Hz], and may have error and label. " +
-  "A CSV file of a wingbeat has phase or time [s], and columns such as flap_deg or pitch_deg. With time, the rows are one beat from the first to the last, unless a line “# frequency [Hz] = 8.2” says how long a beat is.";
+  "A CSV file of measured flights has the columns speed [m/s] and power [W] or frequency [Hz], and may have error " +
+  "and label. A CSV file of a wingbeat has phase or time [s], and columns such as flap_deg or pitch_deg. With time, the " +
+  "rows are one beat from the first to the last, unless a line “# frequency [Hz] = 8.2” says how long a beat is.";
 const UNKNOWN =
-  "The first line must name the columns: speed with power or frequency, for measured flights; or phase or time with flap_deg and others, for a wingbeat.";
+  "The first line must name the columns: speed with power or frequency, for measured flights; or phase or time with " +
+  "flap_deg and others, for a wingbeat.";
+const PRIVATE =
+  "Drop a file anywhere on this page, or choose one. A CSV file stays in your browser: nothing of it is uploaded.";
 
 export class OwnData {
   // `face`: the explorer whose curve and plots show the data.
   constructor(face) {
     this.face = face;
     this.shown = []; // {title, kind, points or curves}
-    this.input = make("input", { type: "file", multiple: true, accept: ".csv,.txt,.tsv,.toml", onchange: () => this.chosen() });
+    const about = { type: "file", multiple: true, accept: ".csv,.txt,.tsv,.toml" };
+    this.input = make("input", { ...about, onchange: () => this.chosen() });
     const choose = make("label", { class: "wbx-file" }, make("span", {}, "Choose a file"), this.input);
     this.list = make("ul", { class: "wbx-own-list" });
     this.state = make("div", { class: "wbx-own-state", role: "status" });
@@ -23,7 +28,7 @@ export class OwnData {
       "section",
       { class: "wbx-own-data" },
       make("h2", {}, "Your own data"),
-      make("p", {}, "Drop a file anywhere on this page, or choose one. A CSV file stays in your browser: nothing of it is uploaded."),
+      make("p", {}, PRIVATE),
       choose,
       this.list,
       this.state,
@@ -36,7 +41,8 @@ export class OwnData {
   listen() {
     const stop = new AbortController();
     const holdsFiles = (event) => event.dataTransfer?.types.includes("Files");
-    const on = (name, act) => document.addEventListener(name, (event) => holdsFiles(event) && act(event), { signal: stop.signal });
+    const { signal } = stop;
+    const on = (name, act) => document.addEventListener(name, (event) => holdsFiles(event) && act(event), { signal });
     const mark = (state) => this.face.root.classList.toggle("wbx-dropping", state);
     on("dragover", (event) => {
       event.preventDefault();
@@ -82,12 +88,12 @@ export class OwnData {
   // A species file has to be solved, which a page without a server cannot do.
   other(file) {
     if (this.face.onfile) return this.face.onfile(file);
-    if (!/\.toml$/i.test(file.name)) return this.refuse(file.name, ["Its name must end in .csv, or in .toml for a species file."]);
+    if (!/\.toml$/i.test(file.name)) {
+      return this.refuse(file.name, ["Its name must end in .csv, or in .toml for a species file."]);
+    }
     const command = `wingbeat explore --static my-explorer --animals ${file.name}`;
-    this.say(
-      make("p", {}, `${file.name} is a species file. Its flights must be solved first, which this page cannot do. This command makes a page like this one with them:`),
-      make("code", {}, command),
-    );
+    const words = `${file.name} is a species file. Its flights must be solved, which this page cannot do.`;
+    this.say(make("p", {}, `${words} This command makes a page with them:`), make("code", {}, command));
   }
 
   refuse(title, texts) {
@@ -127,15 +133,19 @@ export class OwnData {
   }
 
   row(data, nth) {
-    const sign = make("span", { class: `wbx-own-key ${nth < 0 ? "wbx-own-line" : `wbx-own-${nth % 3}`}`, "aria-hidden": "true" });
-    const button = make("button", { type: "button", "aria-label": `Remove ${data.title}`, onclick: () => this.remove(data) }, "Remove");
+    const kind = nth < 0 ? "wbx-own-line" : `wbx-own-${nth % 3}`;
+    const sign = make("span", { class: `wbx-own-key ${kind}`, "aria-hidden": "true" });
+    const about = { type: "button", "aria-label": `Remove ${data.title}` };
+    const button = make("button", { ...about, onclick: () => this.remove(data) }, "Remove");
     return make("li", {}, sign, make("span", {}, this.words(data)), button);
   }
 
   words({ title, points, curves }) {
     if (points) return `${title}: ${points.length} ${points.length === 1 ? "point" : "points"} behind the curve`;
-    const isDrawn = ({ name }) => this.drawn.includes(name);
-    const [found, others] = [curves.filter(isDrawn), curves.filter((curve) => !isDrawn(curve))].map((some) => some.map((curve) => curve.title).join(", "));
+    const [found, others] = [true, false].map((drawn) => {
+      const those = curves.filter(({ name }) => this.drawn.includes(name) === drawn);
+      return those.map((curve) => curve.title).join(", ");
+    });
     const left = others && `; not drawn, because the plots have no such series: ${others}`;
     return found ? `${title}: ${found} as dashed lines in the plots${left}` : `${title}${left}`;
   }

@@ -9,6 +9,8 @@ const ERROR = ["error", "err", "sd", "se", "sem", "std", "uncertainty"];
 const LABEL = ["label", "name", "animal", "individual", "species", "source"];
 const UNITS = { speed: ["m/s", "ms-1", "m s-1"], power: ["w"], frequency: ["hz", "1/s", "s-1"] };
 
+const UNIT = { speed: "m/s", power: "W", frequency: "Hz" };
+
 const last = (words, among) => among.includes(words.at(-1));
 
 // What a table is; its columns as {speed, power, frequency, ...: place}, or the places of a motion's columns.
@@ -43,7 +45,7 @@ export function flightsOf({ rows }, columns, faults) {
   for (const [name, units] of Object.entries(UNITS)) {
     const column = columns[name];
     if (column?.unit && !units.includes(column.unit)) {
-      faults.add(`Column “${column.text}” is in ${column.unit}; convert it to ${units[0].replace("w", "W").replace("hz", "Hz")}.`);
+      faults.add(`Column “${column.text}” is in ${column.unit}; convert it to ${UNIT[name]}.`);
     }
   }
   if (!columns.power && !columns.frequency) {
@@ -77,7 +79,8 @@ export function motionOf(table, clock, columns, faults) {
 // Times become phases by the file's frequency; without one, the rows are one beat from the first to the last.
 function phasesOf({ rows, frequency }, clock, faults) {
   const isTime = clock.words[0] !== "phase";
-  if (isTime && clock.unit && !["s", "ms"].includes(clock.unit)) faults.add(`Column “${clock.text}” must be in s or ms.`);
+  const known = ["", "s", "ms"].includes(clock.unit);
+  if (isTime && !known) faults.add(`Column “${clock.text}” must be in s or ms.`);
   const limits = isTime ? {} : { low: 0, high: 1 };
   const clocks = rows.map(({ at, cells }) => {
     const value = numberIn(cells[clock.place], clock.text, at, faults, limits);
@@ -99,7 +102,9 @@ const ANGLES = ["flap", "pitch", "twist", "fold", "sweep", "alpha"];
 function curveOf({ text, words, unit, place }, rows, phase, faults) {
   const isAngle = words.some((word) => ANGLES.includes(word));
   const degrees = ["deg", "degrees", "°"].includes(unit);
-  if (isAngle && !degrees && unit !== "rad") faults.add(`Column “${text}” is an angle: name its unit, as in “${words.join("_")}_deg”.`);
+  if (isAngle && !degrees && unit !== "rad") {
+    faults.add(`Column “${text}” is an angle: name its unit, as in “${words.join("_")}_deg”.`);
+  }
   const scale = degrees ? Math.PI / 180 : 1;
   const values = rows.map(({ at, cells }) => {
     const value = numberIn(cells[place], text, at, faults);

@@ -1,6 +1,6 @@
 // The guided tours. A step names the flight, the view and the part of the page to look at; `tell` writes two or three
-// sentences from the answer on the page (`now`), those of earlier steps (`seen`) and the push that is shown. No number of a
-// result is typed in.
+// sentences from the answer on the page (`now`), those of earlier steps (`seen`) and the push that is shown. No number
+// of a result is typed in.
 
 import { robot, tumbling } from "./stories_of_motion.js";
 import { coefficients, hovering } from "./stories_of_power.js";

@@ -1,6 +1,19 @@
 // Two guided tours about a flight as a whole: what a robot must give, and what a gust does to a bird.
 
-import { amplitude, enough, first, gust, hertz, listed, metres, moved, speed, stability, watts } from "./words.js";
+import {
+  amplitude,
+  enough,
+  first,
+  gust,
+  hertz,
+  listed,
+  metres,
+  moved,
+  since,
+  speed,
+  stability,
+  watts,
+} from "./words.js";
 
 const ROBOT = { animal: "robofalcon2", model: ["paper", "animal"] };
 
@@ -17,7 +30,8 @@ export const robot = {
       look: "picture",
       tell: ({ now, semiSpan }) => [
         `This ${now.title} has a mass of ${listed(now, "mass")} and two wings of ${metres(semiSpan)} each.`,
-        "Over a beat, the wings must carry the weight and balance the drag, and the body must come back to the same attitude.",
+        "Over a beat, the wings must carry the weight and balance the drag.",
+        "At its end, attitude and velocities of the body must be those of its beginning.",
       ],
     },
     {
@@ -27,7 +41,7 @@ export const robot = {
       view: { camera: "side", arrows: true },
       look: "picture",
       tell: ({ now }) => [
-        `The solver looks for a wingbeat that repeats itself. ${first(speed(now))} it beats at ${hertz(now.frequency)}.`,
+        `The solver looks for a wingbeat that repeats itself. It beats at ${hertz(now.frequency)} ${speed(now)}.`,
         ...amplitude(now),
         "Arrows show the air load on each strip of the wing.",
       ],
@@ -39,7 +53,8 @@ export const robot = {
       view: { camera: "side", arrows: true },
       look: "gauges",
       tell: ({ now }) => [
-        `The hinges of the wings need ${watts(now.power)}: the mean over a beat, braking not counted. That is ${watts(now.power / now.mass)} for each kilogram of the robot.`,
+        `The hinges of the wings need ${watts(now.power)}: the mean over a beat, braking not counted.`,
+        `That is ${watts(now.power / now.mass)} for each kilogram of the robot.`,
         "Gears and motor lose some of what they draw, so the battery must give more.",
       ],
     },
@@ -51,7 +66,10 @@ export const robot = {
       look: "curve",
       tell: ({ now, seen }) => [
         `The slowest flight computed here, ${speed(now)}, needs ${watts(now.power)}.`,
-        ...(seen.gait ? [`Against the cheapest flight the frequency ${moved(seen.gait.frequency, now.frequency, hertz)}.`] : []),
+        ...since(
+          seen.gait,
+          (gait) => `Against the cheapest flight the frequency ${moved(gait.frequency, now.frequency, hertz)}.`,
+        ),
       ],
     },
     {
@@ -62,7 +80,10 @@ export const robot = {
       look: "curve",
       tell: ({ now, seen }) => [
         `${first(speed(now))} it needs ${watts(now.power)}.`,
-        ...(seen.gait ? [`A motor sized for the cheapest flight, with ${watts(seen.gait.power)}, ${enough(seen.gait.power, now.power)}.`] : []),
+        ...since(
+          seen.gait,
+          ({ power }) => `A motor sized for the cheapest flight, with ${watts(power)}, ${enough(power, now.power)}.`,
+        ),
         "For a robot of your own, write its numbers into a species file and drop it on this page.",
       ],
     },
@@ -84,7 +105,7 @@ export const tumbling = {
       view: { camera: "side", arrows: false },
       look: "picture",
       tell: ({ now }) => [
-        `${first(speed(now))} the pigeon flies a beat that ends as it began, so in still air, undisturbed, it would go on for ever.`,
+        `${first(speed(now))} the pigeon flies a beat that ends as it began. Undisturbed, it would go on for ever.`,
         ...stability(now),
       ],
     },
@@ -108,7 +129,7 @@ export const tumbling = {
       push: { ...FREE, feedback: true },
       look: "picture",
       tell: ({ push }) => [
-        `Again ${gust(push)}. Now, once in each beat, feedback changes the wingbeat by what it sees of attitude and velocity.`,
+        `Again ${gust(push)}. Now feedback sees attitude and velocities once in each beat, and changes the wingbeat.`,
         `It is ${push.outcome}.`,
       ],
     },
@@ -121,7 +142,8 @@ export const tumbling = {
       look: "picture",
       tell: ({ push }) => [
         `Last, without feedback, ${gust(push)}. It is ${push.outcome}.`,
-        "Below the picture you can choose the gust. The feedback is ours, designed from the equations; how birds do it is not modelled.",
+        "Below the picture you can choose the gust yourself.",
+        "The feedback follows from the equations of motion; how birds do it is not modelled.",
       ],
     },
   ],

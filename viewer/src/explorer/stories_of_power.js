@@ -1,6 +1,6 @@
 // Two guided tours about what flight costs: a hummingbird that slows down, and one bat in two kinds of air loads.
 
-import { first, gauge, hertz, judgement, largest, moved, percent, shareOf, speed, watts } from "./words.js";
+import { first, gauge, hertz, judgement, largest, moved, percent, shareOf, since, speed, watts } from "./words.js";
 
 export const hovering = {
   name: "hovering",
@@ -16,7 +16,7 @@ export const hovering = {
       tell: ({ now }) => [
         `Of the speeds computed here, this hummingbird needs least power ${speed(now)}: ${watts(now.power)}.`,
         "To stay up it must push air down. The downwash tilts the air loads back, and that costs induced power.",
-        `Here induced power is ${watts(now.spent.induced)}, ${percent(shareOf(now, "induced"))} of what is spent on the air.`,
+        `It is ${watts(now.spent.induced)} here, ${percent(shareOf(now, "induced"))} of what is spent on the air.`,
       ],
     },
     {
@@ -27,7 +27,7 @@ export const hovering = {
       look: "curve",
       tell: ({ now, seen }) => [
         `${first(speed(now))} less air passes the wings in each second, and all of it must go down faster.`,
-        ...(seen.cheap ? [`Induced power ${moved(seen.cheap.spent.induced, now.spent.induced)}.`] : []),
+        ...since(seen.cheap, (cheap) => `Induced power ${moved(cheap.spent.induced, now.spent.induced)}.`),
       ],
     },
     {
@@ -39,20 +39,26 @@ export const hovering = {
       tell: ({ now, seen }) => [
         `${first(speed(now))} the bird beats at ${hertz(now.frequency)}.`,
         ...(now.speed ? [] : ["What moves the air past its wings is their beat alone."]),
-        ...(seen.cheap ? [`Against the cheapest flight, power ${moved(seen.cheap.power, now.power)}.`] : []),
-        `Induced power is ${watts(now.spent.induced)}. The largest part of what is spent on the air is ${largest(now)}.`,
+        ...since(seen.cheap, (cheap) => `Against the cheapest flight, power ${moved(cheap.power, now.power)}.`),
+        `Of what is spent on the air, the largest part is ${largest(now)}.`,
       ],
     },
     {
       name: "fast",
-      title: "Why the curve rises again",
+      title: "Fast flight",
       flight: { animal: "annas-hummingbird", model: "animal", speed: "fastest" },
       view: { camera: "side", arrows: true },
       look: "curve",
       tell: ({ now, seen }) => [
         `${first(speed(now))} air is plentiful, but it drags on body and wings.`,
-        ...(seen.hover ? [`Against the slowest flight, induced power ${moved(seen.hover.spent.induced, now.spent.induced)}.`] : []),
-        ...(seen.hover ? [`Drag of body and tail costs ${watts(now.spent.parasite)}; there it cost ${watts(seen.hover.spent.parasite)}.`] : []),
+        ...since(
+          seen.hover,
+          (hover) => `Against the slowest flight, induced power ${moved(hover.spent.induced, now.spent.induced)}.`,
+        ),
+        ...since(
+          seen.hover,
+          (hover) => `The power against the drag of body and tail ${moved(hover.spent.parasite, now.spent.parasite)}.`,
+        ),
       ],
     },
     {
@@ -85,7 +91,8 @@ export const coefficients = {
       look: "picture",
       tell: ({ now }) => [
         "What a wing feels in the air is measured once, on another wing, and then used for every strip.",
-        `Here it was a flat plate (Su et al. 2023). The bat beats at ${hertz(now.frequency)} and needs ${watts(now.power)} ${speed(now)}.`,
+        "Here it was a flat plate (Su et al. 2023).",
+        `So the bat beats at ${hertz(now.frequency)} and needs ${watts(now.power)} ${speed(now)}.`,
       ],
     },
     {
@@ -97,8 +104,10 @@ export const coefficients = {
       pin: "plate",
       look: "picture",
       tell: ({ now, seen }) => [
-        "Animal, speed and question are the same. The coefficients now come from a model of a fruit fly's wing in oil (Dickinson et al. 1999).",
-        ...(seen.plate ? [`The frequency ${moved(seen.plate.frequency, now.frequency, hertz)}, power ${moved(seen.plate.power, now.power)}. The ghost is the flight on plates.`] : []),
+        "The coefficients now come from a model of a fruit fly's wing in oil (Dickinson et al. 1999).",
+        ...since(seen.plate, () => "Animal and speed are the same; the ghost in the picture flies on plates."),
+        ...since(seen.plate, (plate) => `The frequency ${moved(plate.frequency, now.frequency, hertz)}.`),
+        ...since(seen.plate, (plate) => `Power ${moved(plate.power, now.power)}.`),
       ],
     },
     {
@@ -109,7 +118,7 @@ export const coefficients = {
       look: "curve",
       tell: ({ now, seen }) => [
         `${first(speed(now))}, on plates again, the bat needs ${watts(now.power)}.`,
-        ...(seen.plate ? [`The frequency ${moved(seen.plate.frequency, now.frequency, hertz)}.`] : []),
+        ...since(seen.plate, (plate) => `The frequency ${moved(plate.frequency, now.frequency, hertz)}.`),
       ],
     },
     {
@@ -121,8 +130,11 @@ export const coefficients = {
       pin: "fast",
       look: "curve",
       tell: ({ now, seen }) => [
-        ...(seen.fast ? [`With the fruit fly's coefficients, power ${moved(seen.fast.power, now.power)} ${speed(now)}.`] : []),
-        "Neither wing is a bat's. How far the two answers lie apart shows how much a result depends on that choice; it is no error bar.",
+        ...since(
+          seen.fast,
+          (fast) => `With the fruit fly's coefficients, power ${moved(fast.power, now.power)} ${speed(now)}.`,
+        ),
+        "Neither wing is a bat's. The two answers show how much a result depends on that choice.",
       ],
     },
   ],

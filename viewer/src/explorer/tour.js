@@ -124,7 +124,7 @@ export class Tour {
     if (answer?.species !== animal || answer.model !== model) return this.request({ animal, model });
     const { pending = [], points } = face.curve.data;
     this.waitsForCurve = pending.length > 0;
-    if (this.waitsForCurve) return this.say([`Computing the curve; ${pending.length} of ${pending.length + points.length} speeds are left.`]);
+    if (this.waitsForCurve) return this.say([`Computing the curve; ${pending.length} more speeds to go.`]);
     const speed = this.speed(points.filter((point) => point.certified));
     if (speed !== undefined && Math.abs(speed - answer.speed) > 1e-9) return this.request({ speed });
     if (step.push && !answer.scene?.pushes && answer.status === "converged") {
@@ -150,12 +150,12 @@ export class Tour {
   arrive(answer) {
     const { step, seen } = this;
     this.ready = true;
-    seen[step.name] = answer;
+    if (answer.status === "converged") seen[step.name] = answer;
     this.pin(seen[step.pin]);
     this.look();
     if (answer.status !== "converged") return this.finish([answer.sentence]);
     const push = step.push && this.push(answer.scene.pushes);
-    if (step.push && !push) return this.finish(["No feedback was found that holds this flight, so there is nothing to see here."]);
+    if (step.push && !push) return this.finish(["No feedback was found that holds this flight."]);
     this.finish(step.tell({ now: answer, seen, push, semiSpan: answer.scene.flights[0].semi_span }));
   }
 

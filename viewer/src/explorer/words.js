@@ -17,6 +17,9 @@ export function gauge(answer, name) {
   return answer.gauges.find((each) => each.name === name && each.value !== null);
 }
 
+// A sentence about an earlier step's answer, if there is one.
+export const since = (before, tell) => (before ? [tell(before)] : []);
+
 // How a number differs from one before, in words that are true whichever way it went.
 export function moved(before, now, write = watts) {
   const [from, to] = [write(before), write(now)];
@@ -55,7 +58,8 @@ export function judgement({ value, low, high, unit, inside }) {
   const write = (number) => [short(number), unit].filter(Boolean).join(" ");
   if (inside === null) return `${write(value)}; no plausible range is known`;
   if (inside) return `${write(value)}, inside the plausible range`;
-  return value > high ? `${write(value)}; plausible is at most ${write(high)}` : `${write(value)}; plausible is at least ${write(low)}`;
+  const bound = value > high ? `at most ${write(high)}` : `at least ${write(low)}`;
+  return `${write(value)}; plausible is ${bound}`;
 }
 
 const FROM = { upward: "from below", downward: "from above", head: "from ahead", tail: "from behind" };
@@ -83,6 +87,6 @@ export function enough(have, need) {
 
 export function stability(answer) {
   const fate = listed(answer, "a small disturbance");
-  if (fate === "grows") return ["But a small disturbance grows from beat to beat, as long as the wingbeat does not react."];
-  return fate === "decays" ? ["A small disturbance decays."] : [];
+  if (fate === "decays") return ["A small disturbance decays."];
+  return fate === "grows" ? ["But a small disturbance grows, as long as the wingbeat does not react."] : [];
 }

@@ -23,16 +23,20 @@ FLYERS = {
     "annas-hummingbird": (0.0, 1.0, 2.0, 4.0, 6.0, 8.0, 10.0, 12.0),
     "robofalcon2": (4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0),
 }
+# What the guided tours need beyond both models of each flyer, with gusts for live animals and robots.
+MODELS = {"bat": ("animal", "paper", "dickinson")}
+PUSHED = ("pigeon", "paper")
 
 
 def lattices(kept: Path) -> Iterator[dict[str, Any]]:
     """Yield each flyer by each model, read from the folder `kept` if the same program has solved it."""
     kept.mkdir(exist_ok=True)
     for name, speeds in FLYERS.items():
-        for model in ("animal", "paper"):
+        for model in MODELS.get(name, ("animal", "paper")):
             path = kept / f"{name}-{model}-{_program()}.json"
             if not path.exists():
-                found = solve_lattice(wb.load_species(name), model, speeds, starts=STARTS)
+                push = model == "animal" or (name, model) == PUSHED
+                found = solve_lattice(wb.load_species(name), model, speeds, starts=STARTS, push=push)
                 write_atomically(path, json.dumps(found).encode())
             yield json.loads(path.read_text("utf-8"))
 

@@ -1,5 +1,9 @@
 """A small static explorer, and pages that show it."""
 
+import base64
+import gzip
+import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
@@ -35,15 +39,39 @@ def orbits() -> dict[str, list[wb.Orbit]]:
 
 
 @pytest.fixture(scope="session")
+def plates_and_flies(orbits) -> dict[str, list[wb.Orbit]]:
+    """The bat's orbits, and those of the same bat with the coefficients of a fruit fly's wing."""
+    bat = wb.load_species("bat")
+    problems = [wb.models.paper().problem(bat, speed=speed, aero="dickinson") for speed in SPEEDS["bat"]]
+    found = wb.solve_orbits(problems, starts=1, in_order=True)
+    assert all(orbit.status is wb.Status.CONVERGED for orbit in found)
+    return {"paper": orbits["bat"], "dickinson": found}
+
+
+@pytest.fixture(scope="session")
 def answers(orbits) -> dict[str, list[dict]]:
     return {name: [face_of(orbit, "paper") for orbit in row] for name, row in orbits.items()}
 
 
 @pytest.fixture(scope="session")
-def folder(orbits, tmp_path_factory) -> Path:
+def pushed(orbits) -> dict:
+    """The pigeon's lattice, with flights through gusts."""
+    return lattice_of(wb.load_species("pigeon"), "paper", orbits["pigeon"], push=True)
+
+
+@pytest.fixture(scope="session")
+def folder(pushed, plates_and_flies, tmp_path_factory) -> Path:
     place = tmp_path_factory.mktemp("explorer")
-    write_explorer(place, [lattice_of(wb.load_species(name), "paper", row) for name, row in orbits.items()])
+    bats = [lattice_of(wb.load_species("bat"), model, row) for model, row in plates_and_flies.items()]
+    write_explorer(place, [pushed, *bats])
     return place
+
+
+def read_script(path: Path) -> list:
+    """Return the arguments of a data file's call; the last one is compressed."""
+    called = re.fullmatch(r"wingbeatExplorer\.\w+\((.*)\);\n", path.read_text("utf-8"))
+    *names, text = json.loads(f"[{called[1]}]")
+    return [*names, json.loads(gzip.decompress(base64.b64decode(text)))]
 
 
 @pytest.fixture

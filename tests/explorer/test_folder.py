@@ -1,42 +1,68 @@
 """The folder of the static explorer: its files, what they hold, and the command that writes it."""
 
 import itertools
-import json
 import re
 
 import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.explorer.conftest import read_script
 from wingbeat.cli.app import main
 from wingbeat.errors import InvalidInputError
-from wingbeat.explorer import default_speeds, measured_points, write_explorer
+from wingbeat.explorer import default_speeds, measured_points, solve_lattice, write_explorer
 from wingbeat.explorer.lattice import SPEEDS
-from wingbeat.explorer.thinning import thinned, unpacked
-
-
-def lattice_in(path):
-    called = re.fullmatch(r"wingbeatExplorer\.hold\((.*)\);\n", path.read_text("utf-8"), re.DOTALL)
-    return json.loads(f"[{called[1]}]")
+from wingbeat.explorer.pushed import pushes_of
+from wingbeat.explorer.thinning import in_16_bits, thinned, unpacked
 
 
 def test_the_folder_holds_all_it_needs_and_names_no_other_host(folder):
     names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
-    assert names == ["catalogue.js", "data/bat-paper.js", "data/pigeon-paper.js", "explorer.js", "index.html"]
+    data = [f"data/{name}.js" for name in ("bat-dickinson", "bat-paper", "pigeon-paper-pushes", "pigeon-paper")]
+    assert names == ["catalogue.js", *data, "explorer.js", "index.html"]
     page = (folder / "index.html").read_text("utf-8")
     assert "default-src 'none'" in page
     for text in (page, (folder / "catalogue.js").read_text("utf-8")):
         assert "//" not in text
 
 
-def test_all_animals_by_both_models_fit_into_15_megabytes(folder):
+def test_all_animals_by_both_models_and_with_gusts_fit_into_15_megabytes(folder):
     """All flyers, two models, nine speeds; a flight of each lattice here takes the same room."""
-    each = max(path.stat().st_size / len(lattice_in(path)[2]["answers"]) for path in (folder / "data").iterdir())
-    assert len(wb.species_names()) * 2 * SPEEDS * each + (folder / "explorer.js").stat().st_size < 15e6
+    pushes = folder / "data" / "pigeon-paper-pushes.js"
+    lattices = set((folder / "data").iterdir()) - {pushes}
+    each = max(path.stat().st_size / len(read_script(path)[2]["answers"]) for path in lattices)
+    animals = len(wb.species_names()) * (2 * SPEEDS * each + pushes.stat().st_size)
+    assert animals + (folder / "explorer.js").stat().st_size < 15e6
+
+
+def test_the_gusts_are_those_of_fly_pushes_from_two_sides(folder, orbits):
+    species, model, pushes = read_script(folder / "data" / "pigeon-paper-pushes.js")
+    assert (species, model) == ("pigeon", "paper")
+    assert [(push["direction"], push["size"], push["feedback"]) for push in pushes] == [
+        (direction, 1.0, feedback) for direction in ("upward", "tail") for feedback in (False, True)
+    ]
+    cheapest = min(orbits["pigeon"], key=lambda orbit: orbit.record()["mean_positive_power"])
+    flown = wb.fly_pushes(cheapest, delay=None, beats=12, directions=("tail",), sizes=(1.0,))
+    assert [push.outcome for push in flown] == [pushes[2]["outcome"]]
+    shown = unpacked(pushes[2]["scene"]["flights"][0]["arrays"]["pitch_away"])
+    np.testing.assert_allclose(shown, flown[0].pitch, rtol=0, atol=1e-4)
+
+
+def test_an_orbit_that_is_not_certified_has_no_gusts():
+    heavy = wb.load_species("pigeon").with_values({"body.mass": 3.0})
+    assert pushes_of(wb.solve_orbit(wb.OrbitProblem(heavy, 3.0), starts=1)) == []
+
+
+def test_the_fruit_fly_s_coefficients_are_those_of_the_paper_s_model(plates_and_flies):
+    bat = wb.load_species("bat")
+    lattice = solve_lattice(bat, "dickinson", [6.0], starts=1)
+    assert lattice["model"] == "dickinson"
+    found = plates_and_flies["dickinson"][0].record()["mean_positive_power"]
+    assert lattice["answers"][0]["power"] == pytest.approx(found, rel=1e-6)
 
 
 def test_a_data_file_holds_the_answers_and_the_curve(folder, answers):
-    species, model, lattice = lattice_in(folder / "data" / "pigeon-paper.js")
+    species, model, lattice = read_script(folder / "data" / "pigeon-paper.js")
     assert (species, model) == ("pigeon", "paper")
     assert [one["sentence"] for one in lattice["answers"]] == [one["sentence"] for one in answers["pigeon"]]
     for point, answer in zip(lattice["curve"]["points"], answers["pigeon"], strict=True):
@@ -55,6 +81,11 @@ def test_thinning_keeps_the_flight(answers):
     for name, packed in small.items():
         exact = unpacked(whole[name]).reshape(count, -1)[:: (count - 1) // 64].ravel()
         np.testing.assert_allclose(unpacked(packed), exact, rtol=1e-6, atol=2e-5 * np.abs(exact).max())
+
+
+def test_packing_keeps_steps_across_the_whole_range():
+    values = np.array([[-1.0, 0.0], [1.0, 1e-9], [-1.0, 0.5], [1.0, -1.0]])
+    np.testing.assert_allclose(unpacked(in_16_bits(values)), values.ravel(), rtol=0, atol=1 / 65000)
 
 
 def test_measured_points_are_those_of_the_package():
@@ -81,7 +112,7 @@ def test_the_command_writes_a_folder(tmp_path, capsys):
     words = ["--animals", "pigeon", "--models", "paper", "--speeds", "11", "12", "--starts", "1"]
     assert main(["explore", "--static", str(tmp_path / "new"), *words]) == 0
     assert re.search(r"index.html and 3 other files, \d\.\d MB", capsys.readouterr().err)
-    assert [one["speed"] for one in lattice_in(tmp_path / "new" / "data" / "pigeon-paper.js")[2]["answers"]] == [
+    assert [one["speed"] for one in read_script(tmp_path / "new" / "data" / "pigeon-paper.js")[2]["answers"]] == [
         11,
         12,
     ]

@@ -33,7 +33,7 @@ export class Card {
     this.choice = { ys: x === PHASE ? ys : ys.slice(0, 1), x };
     const { flights, last, range, seek, named } = this.plots;
     const curves = this.choice.ys.map(named);
-    const hooks = { seek, zoom: (to) => this.plots.zoom(to) };
+    const hooks = { seek, zoom: (to) => this.plots.zoom(to), own: () => this.plots.own };
     this.axes =
       x === PHASE ? new Panel(curves, flights, last, hooks) : new Portrait(named(x), curves[0], flights, hooks);
     if (x === PHASE) this.axes.draw(range);

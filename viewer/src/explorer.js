@@ -12,7 +12,9 @@ globalThis.wingbeatExplorer = {
   explore: (element, options = {}) => new Face(element, options),
   // Build a viewer alone.
   mount: (element, scene, options = {}) => new Viewer(element, scene, options),
-  // The static explorer: `open` is called by the catalogue of a folder, `hold` by each of its data files.
+  // The static explorer: `open` is called by the catalogue of a folder, `hold` by each of its data files, and
+  // `holdPushes` by those with flights through gusts.
   open: (catalogue) => (folder = new Folder(document.querySelector("main"), catalogue)),
   hold: (animal, model, lattice) => folder.hold(animal, model, lattice),
+  holdPushes: (animal, model, pushes) => folder.holdPushes(animal, model, pushes),
 };

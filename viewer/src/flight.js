@@ -1,12 +1,27 @@
 // A flight as it is handed over from Python: arrays over the samples of a flight, read at any phase.
 
-const KINDS = { f4: Float32Array, f8: Float64Array, i2: Int16Array };
+const KINDS = { f4: Float32Array, f8: Float64Array };
 
-// Whole numbers of 16 bits come with the size of one step.
-function unpacked({ kind, data, scale }) {
+function unpacked({ kind, data, scale, samples }) {
   const bytes = Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0));
-  const values = new KINDS[kind](bytes.buffer);
-  return scale === undefined ? values : Float32Array.from(values, (value) => value * scale);
+  return kind === "d2" ? summed(bytes, samples, scale) : new KINDS[kind](bytes.buffer);
+}
+
+// Whole numbers of 16 bits, packed as steps from sample to sample, one number of a sample after the other; the low bytes
+// of all come before their high bytes. The scale is the size of one.
+function summed(bytes, samples, scale) {
+  const count = bytes.length / 2;
+  const width = count / samples;
+  const values = new Float32Array(count);
+  for (let place = 0; place < width; place++) {
+    let whole = 0;
+    for (let k = 0; k < samples; k++) {
+      const at = place * samples + k;
+      whole = ((whole + (bytes[at] | (bytes[count + at] << 8))) << 16) >> 16; // as a signed number of 16 bits
+      values[k * width + place] = whole * scale;
+    }
+  }
+  return values;
 }
 
 export class Flight {

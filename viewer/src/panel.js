@@ -5,12 +5,14 @@ import { draw } from "./elements.js";
 import { ends, sentence, valueAt, valuesOf } from "./series.js";
 
 export class Panel extends Axes {
-  // `curves`: series of one unit; `seek(phase)` and `zoom(range)`: what the reader chooses here.
-  constructor(curves, flights, last, { seek, zoom }) {
+  // `curves`: series of one unit; `seek(phase)` and `zoom(range)`: what the reader chooses here; `own()`: curves of the
+  // reader's own.
+  constructor(curves, flights, last, { seek, zoom, own }) {
     super(`${sentence(curves.map((curve) => curve.label).join(" and "))} along the beat`, ["", curves[0].unit]);
     [this.series, this.flights, this.whole] = [curves, flights, [0, last]];
     this.seek = seek;
     this.zoom = zoom;
+    this.own = own;
     this.cursor = draw("line", { class: "wb-cursor", y1: 0, y2: 150 });
     this.dots = this.each((curve, nth, flight, which) =>
       draw("circle", { class: `wb-dot wb-dot-${nth} wb-at-${which}`, r: 3 }),
@@ -32,14 +34,27 @@ export class Panel extends Axes {
     const inSight = this.each((curve, _, flight, which) =>
       valuesOf(flight, curve).subarray(seen[which][0], seen[which][1] + 1),
     );
-    this.setEnds(range, ends(inSight.flat()), ...this.flights[0].downstrokes);
+    const own = this.owned();
+    this.setEnds(range, ends([...inSight.flat(), ...own.map(({ values }) => values)]), ...this.flights[0].downstrokes);
     const lines = this.each((curve, nth, flight, which) =>
       draw("polyline", {
         class: `wb-curve wb-curve-${nth} wb-flight-${which}`,
         points: this.path(flight.phase, valuesOf(flight, curve), ...seen[which]),
       }),
     );
-    this.curves.replaceChildren(...lines.flat());
+    const ownLines = own.map(({ phase, values, file }) =>
+      draw("polyline", { class: "wb-curve wb-own", points: this.path(phase, values) }, draw("title", {}, file)),
+    );
+    this.curves.replaceChildren(...lines.flat(), ...ownLines);
+  }
+
+  // The reader's own curves of these series, in the units of this plot.
+  owned() {
+    return this.series.flatMap(({ name, scale }) =>
+      this.own()
+        .filter((one) => one.name === name)
+        .map((one) => ({ ...one, values: one.values.map((value) => value * scale) })),
+    );
   }
 
   zoomBy(factor, phase) {

@@ -9,7 +9,7 @@ const MOST = 8;
 export class Plots {
   // `scene`: its series and the curves that it starts with; `seek(phase)`: what a click in a plot asks for.
   constructor(scene, flights, last, seek) {
-    Object.assign(this, { flights, last, seek, phase: 0, range: [0, last], cards: [] });
+    Object.assign(this, { flights, last, seek, phase: 0, range: [0, last], cards: [], own: [] });
     this.series = offered(scene.series, flights);
     this.named = (name) => this.series.find((one) => one.name === name);
     this.first = scene.panels.map((ys) => ({ ys, x: PHASE }));
@@ -49,6 +49,20 @@ export class Plots {
   fit(ys) {
     const [first, second] = ys.map(this.named);
     return first && ys.length <= 2 && (ys.length === 1 || second?.unit === first.unit);
+  }
+
+  // Draw curves of the reader's own over those of the same name, where the plots have them; returns the names of these.
+  overlay(curves) {
+    this.own = curves.filter(({ name }) => this.named(name) && !this.named(name).per);
+    this.zoom(this.range);
+    return this.own.map(({ name }) => name);
+  }
+
+  // Show each of these series in at least one plot along the beat.
+  include(names) {
+    const isShown = (name) => this.cards.some(({ choice }) => choice.x === PHASE && choice.ys.includes(name));
+    const missing = names.filter((name) => !isShown(name)).map((name) => ({ ys: [name], x: PHASE }));
+    if (missing.length) this.choose([...missing, ...this.choices]);
   }
 
   add(choice) {

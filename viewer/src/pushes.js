@@ -53,11 +53,19 @@ export class Pushes {
     );
   }
 
+  // Choose one of the pushes, and show its flight.
+  choose({ direction, size, feedback }) {
+    this.direction.select.value = direction;
+    this.size.select.value = size;
+    this.feedback.checked = feedback;
+    this.push();
+  }
+
   push() {
     const { scene, outcome } = this.chosen;
     this.outcome.textContent = outcome;
     this.back.hidden = false;
-    this.show({ series: this.scene.series, ...scene }, true);
+    this.show(scene, true);
   }
 
   reset() {

@@ -213,6 +213,7 @@ export class Viewer {
     });
     this.plots.choose(before?.choices ?? []);
     if (before?.last === this.last) this.plots.zoom(before.range);
+    this.plots.overlay(this.overlaid ?? []);
     this.side.replaceChildren(this.plots.element);
     const lines = this.flights.map((flight) => `${flight.label}: ${flight.summary}`);
     this.heading.replaceChildren(...(lines.length > 1 ? lines : [this.flights[0].summary]).map((line) => make("p", {}, line)));
@@ -226,6 +227,16 @@ export class Viewer {
     this.arrange();
     this.setCamera(this.stage.view);
     this.set(Math.min(this.phase, this.last));
+  }
+
+  // Draw curves of the reader's own into the plots, each with name, phase and values in SI units; returns the names of
+  // those that the plots have.
+  overlay(curves) {
+    this.overlaid = curves;
+    const names = this.plots.overlay(curves);
+    this.plots.include(names);
+    if (names.length) this.side.closest("details")?.setAttribute("open", "");
+    return names;
   }
 
   makeStage() {

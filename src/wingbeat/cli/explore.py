@@ -14,8 +14,7 @@ from wingbeat.cli.options import Seed, Whole
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
 from wingbeat.errors import FaultList
-from wingbeat.explorer import default_speeds, solve_lattice, write_explorer
-from wingbeat.models import MODELS
+from wingbeat.explorer import LATTICE_MODELS, default_speeds, solve_lattice, write_explorer
 from wingbeat.species import Species, load_species, species_names
 
 _MOST_SPEEDS = 200
@@ -28,7 +27,12 @@ def explore(
         str | None,
         Parameter(help="Species, or paths of species files, with commas between them; default: all built-in ones."),
     ] = None,
-    models: Annotated[str, Parameter(help="Models, with commas between them.")] = "animal,paper",
+    models: Annotated[
+        str,
+        Parameter(
+            help="Models, with commas between them; `dickinson` is `paper` with the coefficients of a fruit fly."
+        ),
+    ] = "animal,paper",
     speeds: Annotated[
         list[str] | None,
         Parameter(
@@ -39,6 +43,13 @@ def explore(
     ] = None,
     starts: Annotated[Whole | None, Parameter(help="Number of starts at each speed; default: as `orbit`.")] = None,
     seed: Seed = 0,
+    push: Annotated[
+        bool,
+        Parameter(
+            negative="",
+            help="Let the reader push each animal: add flights through gusts at one speed, some 0.4 MB an animal.",
+        ),
+    ] = False,
 ) -> int:
     """Write an explorer that needs no server: drag along the power curve, and the animal flies at that speed.
 
@@ -50,9 +61,9 @@ def explore(
     """
     faults = FaultList()
     names = _listed(faults, "--animals", animals, species_names())
-    chosen = _listed(faults, "--models", models, MODELS)
+    chosen = _listed(faults, "--models", models, LATTICE_MODELS)
     for name in chosen:
-        faults.choice("--models", name, MODELS)
+        faults.choice("--models", name, LATTICE_MODELS)
     row = sorted({float(one) for text in speeds or [] for one in parse_range(text, "--speeds")})
     if len(row) > _MOST_SPEEDS:
         faults.add("--speeds", len(row), f"are more than {_MOST_SPEEDS} speeds", "take a larger step")
@@ -62,7 +73,7 @@ def explore(
     species = [load_species(name) for name in names]
     tasks = [(one, model) for one in species for model in chosen]
     with progress_bar("flights") as progress:
-        written = write_explorer(static, _solved(tasks, row, starts, seed, progress))
+        written = write_explorer(static, _solved(tasks, row, starts, seed, progress, push))
     size = sum(path.stat().st_size for path in written)
     print(f"wrote {static / 'index.html'} and {len(written) - 1} other files, {size / 1e6:.1f} MB", file=sys.stderr)
     return EXIT_GOOD
@@ -78,16 +89,24 @@ def _listed(faults: FaultList, option: str, text: str | None, default: Sequence[
 
 
 def _solved(
-    tasks: list[tuple[Species, str]], row: list[float], starts: int | None, seed: int, progress: Any
+    tasks: list[tuple[Species, str]],
+    row: list[float],
+    starts: int | None,
+    seed: int,
+    progress: Any,
+    push: bool,
 ) -> Iterator[dict[str, Any]]:
-    """Yield the lattice of each animal and model; progress counts speeds over all of them."""
+    """Yield the lattice of each animal and model, of each animal the first with pushes; progress counts speeds."""
     speeds = [row or default_speeds(species) for species, _ in tasks]
     done, total = 0, sum(map(len, speeds))
+    pushed = set[str]()
     for (species, model), each in zip(tasks, speeds, strict=True):
         before = done
 
         def tell(count: int, _: int, before: int = before) -> None:
             progress(before + count, total)
 
-        yield solve_lattice(species, model, each, starts, seed, tell if progress else None)
+        pushes = push and species.name not in pushed
+        pushed.add(species.name)
+        yield solve_lattice(species, model, each, starts, seed, tell if progress else None, pushes)
         done += len(each)

@@ -11,6 +11,8 @@ from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.plausibility import statements
+from wingbeat.results.power import SPENT
+from wingbeat.results.record import beat_mean
 from wingbeat.results.rows import mass_of
 from wingbeat.viewer import scene
 
@@ -30,14 +32,15 @@ def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
     """Return what the explorer shows of an orbit, fit for JSON.
 
     The keys are species, title, kind, model, speed and climb [m/s], status, power [W], frequency [Hz], sentence,
-    lights, gauges, numbers, warnings and scene. Power is the mean of the positive part at the wing hinges. Gauges
-    and numbers are in the units that readers prefer. The scene is None if the flight tumbles before there is
-    anything to show; a certified flight never does.
+    spent, mass, lights, gauges, numbers, warnings and scene. Power is the mean of the positive part at the wing
+    hinges. What is spent on the air (profile, induced, parasite and unsteady) are means over the beat [W], or None
+    without a certified beat. The mass is in kg. Gauges and numbers are in the units that readers prefer. The scene
+    is None if the flight tumbles before there is anything to show; a certified flight never does.
 
     Parameters
     ----------
     orbit : certified or not.
-    model : name of the model that made the problem, ``"animal"`` or ``"paper"``.
+    model : name of the model that made the problem, such as ``"animal"`` or ``"paper"``.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -56,6 +59,8 @@ def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
         "status": record["status"],
         "power": record["mean_positive_power"],
         "frequency": record["wingbeat"]["frequency"],
+        "spent": _spent(orbit),
+        "mass": mass_of(record["vehicle"]),
         "sentence": sentence_of(record, title),
         "lights": lights_of(record),
         "gauges": gauges_of(record),
@@ -73,6 +78,12 @@ def _scene_of(orbit: Orbit, title: str) -> dict[str, Any] | None:
         if orbit.status is Status.CONVERGED:
             raise
         return None
+
+
+def _spent(orbit: Orbit) -> dict[str, float] | None:
+    if orbit.status is not Status.CONVERGED:
+        return None
+    return {name: beat_mean(orbit.dataset[series].values) for name, series in SPENT.items()}
 
 
 def sentence_of(record: dict[str, Any], title: str) -> str:

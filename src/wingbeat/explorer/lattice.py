@@ -9,8 +9,10 @@ import numpy as np
 
 from wingbeat.explorer.face import face_of
 from wingbeat.explorer.measured import measured_points
+from wingbeat.explorer.pushed import pushes_of
 from wingbeat.explorer.thinning import thinned
-from wingbeat.models import model_of
+from wingbeat.models import MODELS, model_of, paper
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.solving import solve_orbits
@@ -18,6 +20,8 @@ from wingbeat.species import Species
 from wingbeat.species.scaling import CRUISE_BY_MASS
 
 SPEEDS = 9
+# The models, and that of Su et al. 2023 with the coefficients that Dickinson et al. 1999 measured for a fruit fly.
+LATTICE_MODELS = (*MODELS, "dickinson")
 # What speeds to show, as shares of the cruise of a bird of the same mass. Robots fly slower.
 _SHARES = {"robot": (0.25, 0.85)}
 _OTHERS = (0.35, 1.5)
@@ -50,20 +54,23 @@ def solve_lattice(
     starts: int | None = None,
     seed: int = 0,
     progress: Progress | None = None,
+    push: bool = False,
 ) -> dict[str, Any]:
     """Find the wingbeats of an animal at several speeds, and return what the static explorer shows of them.
 
     The result is fit for JSON. It has species, title, model, the speed to begin with, the curve (points and what
     was measured on animals), the sources of the plausible ranges and the answers, one for each speed, from
-    `face_of`. Speeds are solved as a series, so that neighbours help each other.
+    `face_of`. Speeds are solved as a series, so that neighbours help each other. With `push` it has pushes too:
+    flights through gusts at the speed to begin with.
 
     Parameters
     ----------
     species : the animal or robot.
-    model : ``"animal"`` or ``"paper"``.
+    model : one of `LATTICE_MODELS`.
     speeds : increasing [m/s].
     starts, seed : as in `solve_orbits`.
     progress : called with (speeds done, speeds in all).
+    push : whether to fly through gusts as well, which takes some seconds.
 
     Raises
     ------
@@ -74,13 +81,12 @@ def solve_lattice(
     >>> lattice["speed"], [point["certified"] for point in lattice["curve"]["points"]]
     (11.0, [True, True])
     """
-    chosen = model_of(model, species)
-    problems = [chosen.problem(species, speed=float(speed)) for speed in speeds]
+    problems = [_problem(model, species, float(speed)) for speed in speeds]
     orbits = solve_orbits(problems, starts, seed, in_order=True, progress=progress)
-    return lattice_of(species, model, orbits)
+    return lattice_of(species, model, orbits, push)
 
 
-def lattice_of(species: Species, model: str, orbits: Sequence[Orbit]) -> dict[str, Any]:
+def lattice_of(species: Species, model: str, orbits: Sequence[Orbit], push: bool = False) -> dict[str, Any]:
     """Return what the static explorer shows of orbits that are solved already; `solve_lattice` says what it is.
 
     Parameters
@@ -88,20 +94,30 @@ def lattice_of(species: Species, model: str, orbits: Sequence[Orbit]) -> dict[st
     species : the animal or robot.
     model : name of the model of all orbits.
     orbits : in increasing order of speed.
+    push : as in `solve_lattice`.
     """
     answers = [face_of(orbit, model) for orbit in orbits]
     points = [point_of(answer) for answer in answers]
+    first = _first(points)
     # The source of a range is long, and most often the same at all speeds.
     sources = {gauge["name"]: gauge["source"] for gauge in answers[0]["gauges"]}
-    return {
+    lattice = {
         "species": species.name,
         "title": species.common_name or species.name,
         "model": model,
-        "speed": _first(points),
+        "speed": first,
         "curve": {"points": points, "measured": measured_points(species)},
         "sources": sources,
         "answers": [_small(answer, sources) for answer in answers],
     }
+    pushed = next(orbit for orbit, point in zip(orbits, points, strict=True) if point["speed"] == first)
+    return lattice | ({"pushes": pushes_of(pushed)} if push else {})
+
+
+def _problem(model: str, species: Species, speed: float) -> OrbitProblem:
+    if model == "dickinson":
+        return paper().problem(species, speed, aero=model)
+    return model_of(model, species).problem(species, speed)
 
 
 def _small(answer: dict[str, Any], sources: dict[str, str]) -> dict[str, Any]:

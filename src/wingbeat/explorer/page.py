@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import base64
+import gzip
 import json
 import os
 from collections.abc import Iterable
@@ -15,7 +17,7 @@ from wingbeat.files import write_atomically
 from wingbeat.viewer import bundle_path
 
 # What models are called on the page.
-_MODELS = {"animal": "live animal", "paper": "Su et al. 2023"}
+_MODELS = {"animal": "live animal", "paper": "Su et al. 2023", "dickinson": "Su et al. 2023, as a fruit fly"}
 # Only files of this folder may be loaded; `file:` is for browsers to which a file is not 'self'.
 _PAGE = f"""<!doctype html>
 <html lang="en">
@@ -47,9 +49,9 @@ number is fitted to a measured flight.</footer>
 def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any]]) -> list[Path]:
     """Write the static explorer, and return the paths of its files.
 
-    The folder holds ``index.html``, ``explorer.js``, ``catalogue.js`` and a file in ``data`` for each lattice. Each
-    lattice is written as soon as it comes, so a generator keeps one at a time in memory. The page begins with the
-    first one.
+    The folder holds ``index.html``, ``explorer.js``, ``catalogue.js`` and a file in ``data`` for each lattice, with
+    another one for its pushes, which the page reads when they are asked for. Each lattice is written as soon as it
+    comes, so a generator keeps one at a time in memory. The page begins with the first one.
 
     Parameters
     ----------
@@ -70,7 +72,12 @@ def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any
     for lattice in lattices:
         species, model = lattice["species"], lattice["model"]
         written.append(place / "data" / f"{species}-{model}.js")
-        _call(written[-1], "hold", species, model, lattice)
+        pushes = lattice.get("pushes")
+        shown = {name: value for name, value in lattice.items() if name != "pushes"}
+        _call(written[-1], "hold", species, model, _compressed(shown))
+        if pushes:
+            written.append(place / "data" / f"{species}-{model}-pushes.js")
+            _call(written[-1], "holdPushes", species, model, _compressed(pushes))
         titles[species] = lattice["title"]
         models += [] if model in models else [model]
         start = start or {"animal": species, "model": model, "speed": lattice["speed"]}
@@ -93,5 +100,11 @@ def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any
 
 def _call(path: Path, function: str, *arguments: Any) -> None:
     """Write a script that calls a function of the explorer."""
-    texts = ", ".join(json.dumps(one, allow_nan=False, separators=(",", ":")) for one in arguments)
+    texts = ", ".join(json.dumps(one) for one in arguments)
     write_atomically(path, f"wingbeatExplorer.{function}({texts});\n".encode())
+
+
+def _compressed(data: Any) -> str:
+    """Return data as a text that browsers can decompress; half the size of its JSON."""
+    text = json.dumps(data, allow_nan=False, separators=(",", ":"))
+    return base64.b64encode(gzip.compress(text.encode(), 9, mtime=0)).decode()

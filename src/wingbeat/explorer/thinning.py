@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 SAMPLES = 64  # of a beat; the viewer draws straight lines between them
-_TYPES = {"f4": "<f4", "f8": "<f8", "i2": "<i2"}
+_TYPES = {"f4": "<f4", "f8": "<f8"}
 _WHOLE = 32767
 # The viewer shows resultants first; without the two parts, a page has room for half as many flights again.
 _LEFT_OUT = ("lift", "drag")
@@ -35,14 +35,31 @@ def thinned(scene: dict[str, Any]) -> dict[str, Any]:
     return scene | {"flights": [_thinned(flight) for flight in scene["flights"]]}
 
 
+def thinned_pushes(pushes: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Return the pushes of a scene with arrays in 16 bits; they keep all their samples, which are few.
+
+    Parameters
+    ----------
+    pushes : from the key ``pushes`` of `wingbeat.viewer.scene`.
+    """
+    return [
+        push | {"scene": push["scene"] | {"flights": [_smaller(push["scene"]["flights"][0])]}} for push in pushes
+    ]
+
+
 def _thinned(flight: dict[str, Any]) -> dict[str, Any]:
     count = len(unpacked(flight["arrays"]["phase"]))
-    kept = np.unique(np.round(np.linspace(0, count - 1, min(count, SAMPLES + 1))).astype(int))
+    return _smaller(flight, np.unique(np.round(np.linspace(0, count - 1, min(count, SAMPLES + 1))).astype(int)))
+
+
+def _smaller(flight: dict[str, Any], kept: Any = slice(None)) -> dict[str, Any]:
+    """Return a flight with these of its samples, in 16 bits."""
+    count = len(unpacked(flight["arrays"]["phase"]))
     arrays = {}
     for name, packed in flight["arrays"].items():
         if name not in _LEFT_OUT:
             values = unpacked(packed).reshape(count, -1)[kept]
-            arrays[name] = _packed(values, "f4") if name in _EXACT else _in_16_bits(values)
+            arrays[name] = _packed(values, "f4") if name in _EXACT else in_16_bits(values)
     return flight | {"arrays": arrays}
 
 
@@ -51,15 +68,30 @@ def unpacked(packed: dict[str, Any]) -> np.ndarray:
 
     Parameters
     ----------
-    packed : with ``kind``, ``data`` and, for 16 bits, ``scale``.
+    packed : with ``kind``, ``data`` and, for 16 bits, ``scale`` and ``samples``.
     """
-    values = np.frombuffer(base64.b64decode(packed["data"]), _TYPES[packed["kind"]])
-    return values * packed["scale"] if packed["kind"] == "i2" else values
+    data = base64.b64decode(packed["data"])
+    if packed["kind"] != "d2":
+        return np.frombuffer(data, _TYPES[packed["kind"]])
+    steps = np.frombuffer(data, np.uint8).reshape(2, -1).T.copy().view("<i2").reshape(-1, packed["samples"])
+    return np.cumsum(steps, axis=1, dtype=np.int16).T.ravel() * packed["scale"]
 
 
-def _in_16_bits(values: np.ndarray) -> dict[str, Any]:
+def in_16_bits(values: np.ndarray) -> dict[str, Any]:
+    """Return an array of a scene in 16 bits that compress well: steps from sample to sample, low bytes first.
+
+    Parameters
+    ----------
+    values : finite, shape (samples, numbers in each).
+
+    >>> unpacked(in_16_bits(np.array([[0.0], [2.0], [1.0]]))).round(4).tolist()
+    [0.0, 2.0, 1.0]
+    """
     scale = float(np.abs(values).max()) / _WHOLE or 1.0
-    return _packed(np.round(values / scale), "i2") | {"scale": scale}
+    whole = np.round(values / scale).astype(np.int16).T
+    steps = np.diff(whole, axis=1, prepend=np.int16(0)).astype("<i2")  # modulo 2^16, as the sums that undo it
+    data = base64.b64encode(steps.ravel().view(np.uint8).reshape(-1, 2).T.tobytes())
+    return {"kind": "d2", "data": data.decode(), "scale": scale, "samples": len(values)}
 
 
 def _packed(values: np.ndarray, kind: str) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -28,9 +29,11 @@ def fly_pushes(
     delay: int | None = 0,
     beats: int = 16,
     options: ManyOptions = DEFAULTS,
+    directions: Sequence[str] = tuple(DIRECTIONS),
+    sizes: Sequence[float] = SIZES,
     progress: Progress | None = None,
 ) -> tuple[Push, ...]:
-    """Fly an orbit through gusts of 1 and 3 m/s from four sides, without and with feedback.
+    """Fly an orbit through gusts, by default of 1 and 3 m/s from four sides, without and with feedback.
 
     Each gust rises and falls once in the first two beats (1-cosine). `write_page` puts the flights into a page.
 
@@ -40,12 +43,14 @@ def fly_pushes(
     delay : of the feedback [beats], as in `feedback`; None for flights without feedback only.
     beats : number of beats of a flight.
     options : say when a flight is lost.
+    directions : of the gusts, of ``"upward"``, ``"downward"``, ``"head"`` and ``"tail"``.
+    sizes : largest velocities of the gusts [m/s].
     progress : called with (flights done, flights in all).
 
     Raises
     ------
-    InvalidInputError : an orbit that is not certified; beats that are no whole number from 3 to 100; what
-        `feedback` refuses, such as a mode that no input reaches.
+    InvalidInputError : an orbit that is not certified; beats that are no whole number from 3 to 100; an unknown
+        direction; what `feedback` refuses, such as a mode that no input reaches.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
@@ -55,11 +60,13 @@ def fly_pushes(
     """
     faults = FaultList()
     faults.whole("beats", beats, _LASTS + 1, 100, "beats of a flight")
+    for name in directions:
+        faults.choice("directions", name, tuple(DIRECTIONS))
     if orbit.status is not Status.CONVERGED:
         faults.add("orbit", orbit.status.value, "is not certified", "solve it again with more starts")
     faults.raise_if_any()
     held: list[Feedback | None] = [None] if delay is None else [None, feedback(orbit, delay=delay)]
-    asked = list(itertools.product(DIRECTIONS, SIZES, held))
+    asked = list(itertools.product(directions, sizes, held))
     flown = []
     for done, (name, size, one) in enumerate(asked):
         if progress is not None:
@@ -95,4 +102,6 @@ def _outcome(flown: GustFlight, kept: int) -> str:
     largest = f"body pitch within {np.degrees(np.abs(flown.pitch).max()):.0f} deg of the orbit's"
     beats = f"{flown.settled} beat{'' if flown.settled == 1 else 's'}"
     ending = "not settled at the end" if flown.settled is None else f"settled after {beats}"
+    if flown.settled == 0:
+        ending = "hardly disturbed"
     return f"{ending}, {largest}"

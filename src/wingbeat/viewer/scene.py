@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -63,31 +63,34 @@ def scene(flights: Sequence[tuple[str, xr.Dataset]], pushes: Sequence[Push] = ()
     faults.raise_if_any()
     found = {
         "flights": [_flight(label, dataset) for label, dataset in flights],
-        "series": _series([dataset for _, dataset in flights], bool(pushes)),
+        "series": _series(dict.fromkeys(name for _, dataset in flights for name in _along_the_beat(dataset))),
         "panels": _PANELS,
     }
     return found | ({"pushes": [_push(one) for one in pushes]} if pushes else {})
 
 
-def _series(datasets: Sequence[xr.Dataset], pushed: bool) -> list[dict[str, Any]]:
+def _series(names: Iterable[str]) -> list[dict[str, Any]]:
     """Return what the plots can show: how a page calls each series, and how it makes the series from an array.
+
+    Series over the weight and at places of the span come before those of these names.
 
     The array's values times ``scale`` are in ``unit``. With ``per``, they are divided by that number of the flight;
     with ``station``, the values of the strips are interpolated to this span fraction.
     """
-    names = dict.fromkeys(name for dataset in datasets for name in _along_the_beat(dataset))
     made = [
         _term("force_x") | {"name": "thrust", "label": "forward air load over weight", "unit": "", "per": "weight"},
         _term("force_z") | {"name": "support", "label": "upward air load over weight", "unit": "", "per": "weight"},
         _term("alpha") | {"name": "alpha_arm", "label": "effective alpha, 1/4 span", "station": 0.25},
         _term("alpha") | {"name": "alpha_hand", "label": "effective alpha, 3/4 span", "station": 0.75},
     ]
-    away = [
-        _term("body_pitch")
-        | {"name": "pitch_away", "label": "body pitch away from the orbit's", "array": "pitch_away"},
-        _term("z") | {"name": "height", "label": "height above the path", "array": "height"},
-    ]
-    return [*(away if pushed else []), *made, *(_term(name) for name in names)]
+    return [*made, *(_term(name) for name in names)]
+
+
+def _series_away() -> list[dict[str, Any]]:
+    """Return the two series that a disturbed flight has beside those of every flight."""
+    pitch = {"name": "pitch_away", "label": "body pitch away from the orbit's", "array": "pitch_away"}
+    height = {"name": "height", "label": "height above the path", "array": "height"}
+    return [_term("body_pitch") | pitch, _term("z") | height]
 
 
 def _term(name: str) -> dict[str, Any]:
@@ -103,7 +106,8 @@ def _along_the_beat(dataset: xr.Dataset) -> list[str]:
 def _push(push: Push) -> dict[str, Any]:
     flight = _flight(push.label, push.dataset)
     # Of the arrows, the resultants are enough.
-    left_out = {"lift", "drag"} | ({*_along_the_beat(push.dataset)} - {*_BASE, *_PUSHED_SERIES})
+    names = _along_the_beat(push.dataset)
+    left_out = {"lift", "drag"} | ({*names} - {*_BASE, *_PUSHED_SERIES})
     for name in left_out:
         del flight["arrays"][name]
     flight["arrays"]["pitch_away"] = _packed(push.pitch, "f4")
@@ -114,7 +118,11 @@ def _push(push: Push) -> dict[str, Any]:
         "size": push.size,
         "feedback": push.feedback,
         "outcome": push.outcome,
-        "scene": {"flights": [flight], "panels": _PUSHED},
+        "scene": {
+            "flights": [flight],
+            "series": [*_series_away(), *_series(name for name in names if name not in left_out)],
+            "panels": _PUSHED,
+        },
     }
 
 

@@ -3,6 +3,7 @@
 import { draw, make } from "../elements.js";
 import { axes, dots, lines, MARGIN, measured, rings, ticks } from "./chart.js";
 import { ends, judged, short } from "./numbers.js";
+import { ownMarks } from "./own_marks.js";
 
 const QUANTITIES = [
   { name: "power", label: "Power", unit: "W" },
@@ -18,6 +19,7 @@ export class Curve {
     this.snap = snap;
     this.quantity = QUANTITIES[0];
     this.data = { points: [], measured: [], pending: [] };
+    this.own = [];
     this.speed = 0;
     this.svg = draw("svg", { class: "wbx-chart" });
     this.buttons = QUANTITIES.map((each) =>
@@ -26,7 +28,7 @@ export class Curve {
     const choice = make("div", { class: "wbx-pair", role: "group", "aria-label": "Curve shown" }, ...this.buttons);
     this.note = make("p", { class: "wbx-note" });
     const head = make("div", { class: "wbx-row" }, make("h2", {}, "Drag the point to fly faster or slower"), choice);
-    this.element = make("div", { class: "wbx-curve-box" }, head, this.svg, this.note);
+    this.element = make("div", { class: "wbx-curve-box", "data-part": "curve" }, head, this.svg, this.note);
     this.buildHandle();
     this.svg.addEventListener("pointerdown", (event) => this.take(event));
     this.svg.addEventListener("pointermove", (event) => this.dragging && this.drag(event));
@@ -54,6 +56,12 @@ export class Curve {
   // `range` [m/s] is what the point can reach where nothing is computed yet; `pending` are speeds that are being computed.
   show({ points, measured = [], range, pending = [] }) {
     this.data = { points: [...points].sort((one, other) => one.speed - other.speed), measured, range, pending };
+    this.draw();
+  }
+
+  // Show measured flights of the reader's own, each with title and points, behind the curve.
+  showOwn(own) {
+    this.own = own;
     this.draw();
   }
 
@@ -87,6 +95,7 @@ export class Curve {
     this.svg.replaceChildren(
       axes(this.scale, this.quantity),
       ...shown.map((one) => measured(one, this.scale, name, tell)),
+      ...this.own.map((one, nth) => ownMarks(one, nth, this.scale, this.quantity, tell)),
       lines(points, this.scale, name),
       rings(this.data.pending, this.scale),
       dots(points, this.scale, name),
@@ -104,12 +113,15 @@ export class Curve {
     const speeds = [...points.map((point) => point.speed), ...(this.data.range ?? [])];
     const [first, last] = speeds.length ? [Math.min(...speeds), Math.max(...speeds)] : [0, 20];
     // Measured speeds are in the picture too, even where the point cannot go.
-    const all = [first, last, ...measured.flatMap(({ speed }) => ends(speed))];
+    const own = this.own.flatMap((each) => each.points);
+    const ownSpeeds = own.map((point) => point.speed);
+    const all = [first, last, ...measured.flatMap(({ speed }) => ends(speed)), ...ownSpeeds];
     const room = Math.max(0.04 * (last - first), 0.2);
     const [low, high] = [Math.max(Math.min(...all) - room, 0), Math.max(...all) + room];
     const values = points.filter((point) => point.certified).map((point) => point[name]);
     const tops = measured.filter((one) => one[name] !== undefined).map((one) => ends(one[name])[1]);
-    const top = 1.12 * Math.max(...values, ...tops, 1e-9);
+    const ownTops = own.filter((point) => point[name] !== undefined).map((point) => point[name]);
+    const top = 1.12 * Math.max(...values, ...tops, ...ownTops, 1e-9);
     const x = (speed) => MARGIN.left + ((speed - low) / (high - low)) * (width - MARGIN.left - MARGIN.right);
     const y = (value) => height - MARGIN.bottom - (value / top) * (height - MARGIN.bottom - MARGIN.top);
     const speedAt = (px) => low + ((px - MARGIN.left) / (width - MARGIN.left - MARGIN.right)) * (high - low);

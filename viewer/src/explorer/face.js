@@ -4,8 +4,12 @@ import { make } from "../elements.js";
 import { Viewer } from "../viewer.js";
 import { Curve } from "./curve.js";
 import { Gauges } from "./gauges.js";
+import { short } from "./numbers.js";
+import { OwnData } from "./own_data.js";
 import { Pins } from "./pins.js";
+import extraStyles from "./extras.css";
 import styles from "./style.css";
+import { Tour } from "./tour.js";
 import { Verdict } from "./verdict.js";
 
 let made = 0;
@@ -15,13 +19,19 @@ export class Face {
   // page itself chooses what to compare with.
   constructor(element, { theme = "system", snap = true, pinning = true } = {}) {
     this.onask = () => {};
+    // Set before `setChoices` by a page that can: `onpush()` brings flights of the answer on the page through gusts, by
+    // `showPushes`; `onfile(file)` takes a species file.
+    this.onpush = undefined;
+    this.onfile = undefined;
     this.theme = theme;
     this.id = `wbx${++made}`;
     this.verdict = new Verdict();
     this.curve = new Curve((speed) => this.ask({ speed }), snap);
     this.gauges = new Gauges();
     this.pins = new Pins(() => this.show(), pinning);
-    this.root = make("section", { class: "wbx", "aria-label": "Explorer" }, make("style", {}, styles));
+    this.tour = new Tour(this);
+    this.own = new OwnData(this);
+    this.root = make("section", { class: "wbx", "aria-label": "Explorer" }, make("style", {}, styles + extraStyles));
     this.root.face = this;
     this.build();
     this.setTheme(theme);
@@ -33,16 +43,20 @@ export class Face {
     this.model = this.choice("Model", (model) => this.ask({ model }));
     this.choices = make("div", { class: "wbx-choices" }, this.animal.element, this.model.element);
     this.state = make("p", { class: "wbx-state", role: "status" });
-    this.picture = make("div", { class: "wbx-picture" });
+    this.picture = make("div", { class: "wbx-picture", "data-part": "picture" });
+    this.pushButton = make("button", { type: "button", class: "wbx-push", hidden: true, onclick: () => this.push() });
     this.numbers = make("tbody");
     const table = make("table", {}, this.numbers);
     const folded = make("details", { class: "wbx-more" }, make("summary", {}, "More numbers"), table);
     const judged = [make("h2", {}, "Could an animal fly so?"), this.gauges.element, this.pins.element, folded];
+    const below = make("div", { class: "wbx-judged", "data-part": "gauges" }, ...judged);
     this.root.append(
       make("header", { class: "wbx-say" }, this.choices, this.verdict.sentence, this.verdict.spoken),
       // Beside the picture, or on a narrow page the verdict before it and the gauges after it.
-      make("div", { class: "wbx-side" }, this.verdict.element, make("div", { class: "wbx-judged" }, ...judged)),
-      make("div", { class: "wbx-stage" }, this.picture, this.state, this.curve.element),
+      make("div", { class: "wbx-side" }, this.verdict.element, below),
+      make("div", { class: "wbx-stage" }, this.picture, this.pushButton, this.state, this.curve.element),
+      make("div", { class: "wbx-extras" }, this.tour.element, this.own.element),
+      this.tour.panel,
     );
   }
 
@@ -60,10 +74,12 @@ export class Face {
       select.replaceChildren(...options.map(({ name, title }) => make("option", { value: name }, title)));
       select.value = chosen;
     }
+    this.tour.offer();
   }
 
   showCurve(data) {
     this.curve.show(data);
+    this.tour.heardCurve();
   }
 
   showAnswer(answer) {
@@ -74,6 +90,15 @@ export class Face {
     this.pins.now(answer);
     this.say("");
     this.show();
+    if (this.pushing && this.pushSpeed(answer) === answer.speed) this.push();
+    queueMicrotask(() => this.tour.heard()); // after the page's source has done what belongs to this answer
+  }
+
+  // Flights of the answer on the page through gusts, as the viewer's scene holds them.
+  showPushes(pushes) {
+    const asked = document.activeElement === this.pushButton;
+    this.showAnswer({ ...this.answer, scene: { ...this.answer.scene, pushes } });
+    if (asked) this.viewer.pushes.element.querySelector("select")?.focus();
   }
 
   // Show an answer beside the one on the page; without one the comparison ends.
@@ -92,11 +117,39 @@ export class Face {
     this.viewer?.setTheme(theme);
   }
 
+  // Whether the page has flights of this animal and model, or can compute them; with `push`, also through gusts.
+  has({ animal, model, push }) {
+    const known = ({ select }, name) => [...select.options].some((option) => option.value === name);
+    return known(this.animal, animal) && known(this.model, model) && !(push && !this.onpush);
+  }
+
+  // The speed [m/s] at which the flight of an answer can be pushed; undefined if at none.
+  pushSpeed(answer) {
+    return this.onpush && answer.status === "converged" ? answer.speed : undefined;
+  }
+
   // Inside ----------------------------------------------------------------------------------------------------------
 
   ask(change) {
     this.asked = { ...this.asked, ...change };
     this.onask({ ...this.asked });
+  }
+
+  // Have the flight pushed; if another speed has the gusts, at that one.
+  push() {
+    const speed = this.pushSpeed(this.answer);
+    this.pushing = speed !== this.answer.speed;
+    if (this.pushing) this.ask({ speed });
+    else this.onpush();
+  }
+
+  tellPush() {
+    const { answer } = this;
+    const speed = this.pushSpeed(answer);
+    this.pushButton.hidden = speed === undefined || Boolean(answer.scene?.pushes);
+    if (speed === undefined) return;
+    const where = speed === answer.speed ? "" : `, at ${short(speed)} m/s`;
+    this.pushButton.textContent = `Push it with a gust${where}`;
   }
 
   show() {
@@ -112,13 +165,17 @@ export class Face {
     this.picture.hidden = !answer.scene;
     if (answer.scene) this.fly(this.pins.scene(answer), answer.species);
     else this.say("This flight tumbles before there is anything to show.");
+    this.tellPush();
   }
 
   // `whose`: the species.
   fly(scene, whose) {
     const count = scene.flights.length;
     if (this.viewer) this.replace(scene, whose === this.whose && count === this.count);
-    else this.viewer = new Viewer(this.picture, scene, { theme: this.theme, compact: true });
+    else {
+      this.viewer = new Viewer(this.picture, scene, { theme: this.theme, compact: true });
+      this.own.overlay();
+    }
     // A beat takes about a second; of one animal the rate stays, so that one sees it beat faster or slower.
     if (whose !== this.whose) this.viewer.setBeat(1);
     [this.whose, this.count] = [whose, count];
@@ -137,6 +194,7 @@ export class Face {
   }
 
   destroy() {
+    this.own.destroy();
     this.curve.destroy();
     this.viewer?.destroy();
     this.root.remove();

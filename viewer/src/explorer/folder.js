@@ -8,10 +8,14 @@ export class Folder {
   constructor(element, catalogue) {
     this.catalogue = catalogue;
     this.lattices = new Map();
+    this.pushes = new Map();
     const given = this.fragment();
     this.asked = { ...catalogue.start, ...(given.animal ? { speed: undefined } : {}), ...given };
     this.face = new Face(element, {});
     this.face.onask = (asked) => this.ask(asked);
+    this.face.onpush = () => this.push();
+    this.face.has = ({ animal, model, push }) => catalogue.files.includes(file(animal, model, push));
+    this.face.pushSpeed = ({ species, model }) => this.pushSpeed(species, model);
     this.ask(this.asked);
   }
 
@@ -27,7 +31,7 @@ export class Folder {
 
   // The models with which an animal was computed.
   models(animal) {
-    return this.catalogue.models.filter(({ name }) => this.catalogue.files.includes(`${animal}-${name}.js`));
+    return this.catalogue.models.filter(({ name }) => this.catalogue.files.includes(file(animal, name)));
   }
 
   ask(asked) {
@@ -46,15 +50,41 @@ export class Folder {
     const key = `${asked.animal}/${asked.model}`;
     if (this.lattices.has(key)) return this.show(this.lattices.get(key));
     this.face.say("Loading …");
-    const src = `data/${asked.animal}-${asked.model}.js`;
-    const failed = () => this.face.say(`The file ${src} could not be read.`);
-    document.head.append(make("script", { src, onerror: failed }));
+    this.read(file(asked.animal, asked.model));
   }
 
-  hold(animal, model, lattice) {
+  read(name) {
+    const failed = () => this.face.say(`The file data/${name} could not be read.`);
+    document.head.append(make("script", { src: `data/${name}`, onerror: failed }));
+  }
+
+  async hold(animal, model, text) {
+    const lattice = await decompressed(text);
     for (const { gauges } of lattice.answers) for (const gauge of gauges) gauge.source ??= lattice.sources[gauge.name];
     this.lattices.set(`${animal}/${model}`, lattice);
     if (this.asked.animal === animal && this.asked.model === model) this.show(lattice);
+  }
+
+  // Flights through gusts lie in a file of their own, and are of the flight that an animal begins with.
+  pushSpeed(animal, model) {
+    const lattice = this.lattices.get(`${animal}/${model}`);
+    return this.catalogue.files.includes(file(animal, model, true)) ? lattice?.speed : undefined;
+  }
+
+  push() {
+    const { animal, model } = this.asked;
+    const held = this.pushes.get(`${animal}/${model}`);
+    if (held) return this.face.showPushes(held);
+    this.face.say("Loading the gusts …");
+    this.read(file(animal, model, true));
+  }
+
+  async holdPushes(animal, model, text) {
+    const pushes = await decompressed(text);
+    this.pushes.set(`${animal}/${model}`, pushes);
+    const { asked } = this;
+    const wanted = asked.animal === animal && asked.model === model && asked.speed === this.pushSpeed(animal, model);
+    if (wanted) this.face.showPushes(pushes);
   }
 
   // Show the answer that is nearest in speed.
@@ -68,4 +98,14 @@ export class Folder {
     this.face.showAnswer(answer);
     history.replaceState(null, "", `#${new URLSearchParams({ animal, model, speed: answer.speed })}`);
   }
+}
+
+async function decompressed(text) {
+  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return JSON.parse(await new Response(stream).text());
+}
+
+function file(animal, model, push = false) {
+  return `${animal}-${model}${push ? "-pushes" : ""}.js`;
 }

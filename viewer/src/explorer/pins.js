@@ -26,6 +26,7 @@ export class Pins {
     this.pin(this.answer ? undefined : this.current);
   }
 
+  // Pin an answer, or none.
   pin(answer) {
     this.answer = answer;
     this.tell();

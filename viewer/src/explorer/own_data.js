@@ -1,0 +1,152 @@
+// The reader's own files: measured flights behind the curve, a wing's motion in the plots, and species files.
+
+import { make } from "../elements.js";
+import { Faults, tableOf, tooLarge } from "./csv.js";
+import { flightsOf, kindOf, motionOf } from "./own_tables.js";
+
+const HELP =
+  "A CSV file of measured flights has the columns speed [m/s] and power [W] or frequency [Hz], and may have error " +
+  "and label. A CSV file of a wingbeat has phase or time [s], and columns such as flap_deg or pitch_deg. With time, the " +
+  "rows are one beat from the first to the last, unless a line “# frequency [Hz] = 8.2” says how long a beat is.";
+const UNKNOWN =
+  "The first line must name the columns: speed with power or frequency, for measured flights; or phase or time with " +
+  "flap_deg and others, for a wingbeat.";
+const PRIVATE =
+  "Drop a file anywhere on this page, or choose one. A CSV file stays in your browser: nothing of it is uploaded.";
+
+export class OwnData {
+  // `face`: the explorer whose curve and plots show the data.
+  constructor(face) {
+    this.face = face;
+    this.shown = []; // {title, kind, points or curves}
+    const about = { type: "file", multiple: true, accept: ".csv,.txt,.tsv,.toml" };
+    this.input = make("input", { ...about, onchange: () => this.chosen() });
+    const choose = make("label", { class: "wbx-file" }, make("span", {}, "Choose a file"), this.input);
+    this.list = make("ul", { class: "wbx-own-list" });
+    this.state = make("div", { class: "wbx-own-state", role: "status" });
+    this.element = make(
+      "section",
+      { class: "wbx-own-data" },
+      make("h2", {}, "Your own data"),
+      make("p", {}, PRIVATE),
+      choose,
+      this.list,
+      this.state,
+      make("details", { class: "wbx-more" }, make("summary", {}, "What the file must hold"), make("p", {}, HELP)),
+    );
+    this.listen();
+  }
+
+  // Files may be dropped anywhere on the page, for a browser would else open them in its place.
+  listen() {
+    const stop = new AbortController();
+    const holdsFiles = (event) => event.dataTransfer?.types.includes("Files");
+    const { signal } = stop;
+    const on = (name, act) => document.addEventListener(name, (event) => holdsFiles(event) && act(event), { signal });
+    const mark = (state) => this.face.root.classList.toggle("wbx-dropping", state);
+    on("dragover", (event) => {
+      event.preventDefault();
+      mark(true);
+    });
+    on("dragleave", (event) => event.relatedTarget === null && mark(false));
+    on("drop", (event) => {
+      event.preventDefault();
+      mark(false);
+      this.take([...event.dataTransfer.files]);
+    });
+    this.destroy = () => stop.abort();
+  }
+
+  chosen() {
+    this.take([...this.input.files]);
+    this.input.value = "";
+  }
+
+  async take(files) {
+    this.state.replaceChildren();
+    for (const file of files) await this.read(file);
+  }
+
+  async read(file) {
+    if (!/\.(csv|tsv|txt)$/i.test(file.name)) return this.other(file);
+    const faults = new Faults();
+    const large = tooLarge(file);
+    if (large) faults.add(large);
+    else this.interpret(file.name, await file.text(), faults);
+    if (faults.texts.length) this.refuse(file.name, faults.told);
+  }
+
+  interpret(title, text, faults) {
+    const table = tableOf(text, faults);
+    if (!table) return;
+    const { kind, clock, columns } = kindOf(table.header);
+    if (kind === "flights") this.add({ title, kind, points: flightsOf(table, columns, faults) }, faults);
+    else if (kind === "motion") this.add({ title, kind, curves: motionOf(table, clock, columns, faults) }, faults);
+    else faults.add(UNKNOWN);
+  }
+
+  // A species file has to be solved, which a page without a server cannot do.
+  other(file) {
+    if (this.face.onfile) return this.face.onfile(file);
+    if (!/\.toml$/i.test(file.name)) {
+      return this.refuse(file.name, ["Its name must end in .csv, or in .toml for a species file."]);
+    }
+    const command = `wingbeat explore --static my-explorer --animals ${file.name}`;
+    const words = `${file.name} is a species file. Its flights must be solved, which this page cannot do.`;
+    this.say(make("p", {}, `${words} This command makes a page with them:`), make("code", {}, command));
+  }
+
+  refuse(title, texts) {
+    this.say(make("p", {}, `${title} is not shown:`), make("ul", {}, ...texts.map((text) => make("li", {}, text))));
+  }
+
+  say(...parts) {
+    this.state.append(...parts);
+  }
+
+  // What is shown -----------------------------------------------------------------------------------------------------
+
+  add(data, faults) {
+    if (faults.texts.length) return;
+    this.shown = [...this.shown.filter(({ title }) => title !== data.title), data];
+    this.show();
+  }
+
+  remove(data) {
+    this.shown = this.shown.filter((each) => each !== data);
+    this.show();
+    this.input.focus();
+  }
+
+  show() {
+    const flights = this.shown.filter(({ kind }) => kind === "flights");
+    this.face.curve.showOwn(flights);
+    this.overlay();
+    this.list.replaceChildren(...this.shown.map((data) => this.row(data, flights.indexOf(data))));
+  }
+
+  // Draw the curves of a wingbeat over the viewer's plots, where the plots have such series.
+  overlay() {
+    const { viewer } = this.face;
+    const curves = this.shown.flatMap(({ title, curves = [] }) => curves.map((curve) => ({ ...curve, file: title })));
+    this.drawn = viewer?.overlay(curves) ?? [];
+  }
+
+  row(data, nth) {
+    const kind = nth < 0 ? "wbx-own-line" : `wbx-own-${nth % 3}`;
+    const sign = make("span", { class: `wbx-own-key ${kind}`, "aria-hidden": "true" });
+    const about = { type: "button", "aria-label": `Remove ${data.title}` };
+    const button = make("button", { ...about, onclick: () => this.remove(data) }, "Remove");
+    return make("li", {}, sign, make("span", {}, this.words(data)), button);
+  }
+
+  words({ title, points, curves }) {
+    if (points) return `${title}: ${points.length} ${points.length === 1 ? "point" : "points"} behind the curve`;
+    const [found, others] = [true, false].map((drawn) => {
+      const those = curves.filter(({ name }) => this.drawn.includes(name) === drawn);
+      return those.map((curve) => curve.title).join(", ");
+    });
+    const left = others && `; not drawn, because the plots have no such series: ${others}`;
+    return found ? `${title}: ${found} as dashed lines in the plots${left}` : `${title}${left}`;
+  }
+}

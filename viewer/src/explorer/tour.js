@@ -1,0 +1,218 @@
+// Runs a guided tour: asks for the flight of a step, sets the view, and says what the reader sees.
+
+import { make } from "../elements.js";
+import { SPEEDS, STORIES } from "./stories.js";
+import { emphasised } from "./words.js";
+
+const MOST_TRIES = 6; // of asking for the flight of one step; a page that shows another one every time has it not
+
+export class Tour {
+  // `face`: the explorer that the tour moves.
+  constructor(face) {
+    this.face = face;
+    this.calm = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.cards = STORIES.map((story) => this.card(story));
+    const list = make("ul", {}, ...this.cards.map(({ element }) => element));
+    this.element = make("section", { class: "wbx-tours" }, make("h2", {}, "Guided tours"), list);
+    this.build();
+  }
+
+  card(story) {
+    const button = make("button", { type: "button", onclick: () => this.start(story, button) }, story.title);
+    const words = make("span");
+    return { story, button, words, element: make("li", {}, button, words) };
+  }
+
+  // Offer the tours of which the page has at least one flight.
+  offer() {
+    for (const { story, button, words } of this.cards) {
+      button.disabled = !story.steps.some((step) => this.flight(step));
+      words.textContent = button.disabled ? "This page has no flight of this tour." : story.teaser;
+    }
+  }
+
+  build() {
+    const button = (text, act, more = {}) => make("button", { type: "button", onclick: act, ...more }, text);
+    this.count = make("p", { class: "wbx-note" });
+    this.title = make("h2", { tabindex: "-1" });
+    this.text = make("div", { class: "wbx-tour-text", "aria-live": "polite" });
+    this.back = button("Back", () => this.go(this.nth - 1, -1));
+    this.again = button("Show this step again", () => this.go(this.nth, 1), { hidden: true });
+    this.next = button("Next", () => (this.isLast ? this.close() : this.go(this.nth + 1, 1)), { "data-go": "next" });
+    const close = button("×", () => this.close(), { class: "wbx-close", "aria-label": "Close the tour" });
+    this.panel = make(
+      "section",
+      { class: "wbx-tour", "aria-label": "Guided tour", hidden: true, onkeydown: (event) => this.key(event) },
+      make("div", { class: "wbx-row" }, this.count, close),
+      this.title,
+      this.text,
+      make("div", { class: "wbx-row" }, this.back, this.again, this.next),
+    );
+  }
+
+  key(event) {
+    const act = { ArrowRight: this.next, ArrowLeft: this.back }[event.key];
+    if (event.key === "Escape") this.close();
+    else if (act && !act.disabled) act.click();
+    else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  // Steps -----------------------------------------------------------------------------------------------------------
+
+  start(story, opener) {
+    Object.assign(this, { story, opener, seen: {} });
+    this.panel.hidden = false;
+    this.face.root.dataset.tour = story.name;
+    this.title.focus({ preventScroll: true });
+    this.go(0, 1);
+  }
+
+  close() {
+    this.pin(undefined);
+    this.panel.hidden = true;
+    this.step = undefined;
+    delete this.face.root.dataset.tour;
+    delete this.face.root.dataset.look;
+    this.opener.focus();
+  }
+
+  // The flight of a step, with the first of its models that the page has; nothing if it has none.
+  flight({ flight }) {
+    const push = flight.speed === "pushed";
+    const model = [flight.model].flat().find((each) => this.face.has({ animal: flight.animal, model: each, push }));
+    return model && { ...flight, model };
+  }
+
+  // Show a step, or the next one in this direction whose flight the page has.
+  go(nth, way) {
+    const { steps } = this.story;
+    const left = [];
+    let at = nth;
+    for (; steps[at] && !this.flight(steps[at]); at += way) left.push(steps[at].title);
+    const rest = steps.slice(at + 1);
+    const isLast = !rest.some((step) => this.flight(step));
+    if (isLast) left.push(...rest.map(({ title }) => title));
+    this.left = left.map((title) => `Left out, because this page has no such flight: “${title}”.`);
+    Object.assign(this, { nth: at, step: steps[at], ready: false, tries: 0, isLast });
+    this.count.textContent = `${this.story.title}: ${at + 1} of ${steps.length}`;
+    this.title.textContent = this.step.title;
+    this.back.disabled = !steps.slice(0, at).some((step) => this.flight(step));
+    this.next.textContent = this.isLast ? "Finish" : "Next";
+    this.again.hidden = true;
+    this.say(["Looking for this flight …"]);
+    this.ask();
+  }
+
+  // The page shows an answer or more of a curve: does the step go on, or has the reader left its flight?
+  heard() {
+    if (!this.step) return;
+    if (this.ready) this.again.hidden = same(this.face.answer, this.shown);
+    else this.ask();
+  }
+
+  heardCurve() {
+    if (this.step && this.waitsForCurve) this.ask();
+  }
+
+  // Ask for the animal and the model, then, when their curve is known, for the speed, then for flights through gusts.
+  ask() {
+    const { face, step } = this;
+    const { animal, model } = this.flight(step);
+    const { answer } = face;
+    if (answer?.species !== animal || answer.model !== model) return this.request({ animal, model });
+    const { pending = [], points } = face.curve.data;
+    this.waitsForCurve = pending.length > 0;
+    if (this.waitsForCurve) return this.say([`Computing the curve; ${pending.length} more speeds to go.`]);
+    const speed = this.speed(points.filter((point) => point.certified));
+    if (speed !== undefined && Math.abs(speed - answer.speed) > 1e-9) return this.request({ speed });
+    if (step.push && !answer.scene?.pushes && answer.status === "converged") {
+      this.say(["Flying through the gusts …"]);
+      return face.onpush();
+    }
+    this.arrive(answer);
+  }
+
+  request(change) {
+    this.tries += 1;
+    if (this.tries > MOST_TRIES) this.finish(["This page does not have the flight of this step."]);
+    else this.face.ask(change);
+  }
+
+  speed(points) {
+    const { step, seen, face } = this;
+    if (step.flight.speed === "pushed") return face.pushSpeed(face.answer);
+    if (seen[step.speedOf]) return seen[step.speedOf].speed;
+    return points.length ? SPEEDS[step.flight.speed](points) : undefined;
+  }
+
+  arrive(answer) {
+    const { step, seen } = this;
+    this.ready = true;
+    if (answer.status === "converged") seen[step.name] = answer;
+    this.pin(seen[step.pin]);
+    this.look();
+    if (answer.status !== "converged") return this.finish([answer.sentence]);
+    const push = step.push && this.push(answer.scene.pushes);
+    if (step.push && !push) return this.finish(["No feedback was found that holds this flight."]);
+    this.finish(step.tell({ now: answer, seen, push, semiSpan: answer.scene.flights[0].semi_span }));
+  }
+
+  finish(sentences) {
+    this.ready = true;
+    this.shown = this.face.answer;
+    this.say(sentences);
+  }
+
+  say(sentences) {
+    const notes = this.left.map((text) => make("p", { class: "wbx-note" }, text));
+    this.text.replaceChildren(...notes, ...sentences.map((text) => make("p", {}, ...emphasised(text))));
+  }
+
+  // View ------------------------------------------------------------------------------------------------------------
+
+  // Compare with the answer of an earlier step; what the reader pinned stays.
+  pin(answer) {
+    const { pins } = this.face;
+    const isOurs = this.pinned && pins.answer === this.pinned;
+    if (answer !== pins.answer && (answer || isOurs)) pins.pin(answer);
+    this.pinned = answer;
+  }
+
+  // Show the flight of a push, which begins at once unless the reader asked for less motion.
+  push(pushes) {
+    const { direction, feedback } = this.step.push;
+    const found = pushes.find((each) => each.direction === direction && each.feedback === feedback);
+    if (found) this.face.viewer.pushes.choose(found);
+    return found;
+  }
+
+  look() {
+    const { viewer, root } = this.face;
+    const { camera, arrows } = this.step.view;
+    const shown = { resultant: arrows, lift: false, drag: false, trails: true };
+    viewer.setCamera(camera);
+    for (const label of viewer.root.querySelectorAll(".wb-toggle")) {
+      const box = label.querySelector("input");
+      const wanted = shown[label.textContent.trim()];
+      if (wanted !== undefined && box.checked !== wanted) box.click();
+    }
+    root.dataset.look = this.step.look;
+    this.scroll(root, root.querySelector(`[data-part="${this.step.look}"]`));
+  }
+
+  // Show the page from its top, if that shows the part to look at as well; else that part. On a narrow page the tour
+  // covers the lower part.
+  scroll(root, part) {
+    const behavior = this.calm ? "auto" : "smooth";
+    const covered = this.panel.offsetWidth < window.innerWidth ? 0 : this.panel.offsetHeight;
+    const needed = part.getBoundingClientRect().bottom - root.getBoundingClientRect().top;
+    if (needed <= window.innerHeight - covered) root.scrollIntoView({ block: "start", behavior });
+    else part.scrollIntoView({ block: "nearest", behavior });
+  }
+}
+
+function same(one, other) {
+  return ["species", "model", "speed"].every((name) => one[name] === other[name]);
+}

@@ -12,7 +12,7 @@ NO_CLIPBOARD = "Object.defineProperty(navigator, 'clipboard', { value: undefined
 EYE = f"{VIEWER}.stage.camera.position.clone().sub({VIEWER}.stage.controls.target).toArray()"
 SEEN = f"""(() => {{
   const {{ phase, stage, look, plots }} = {VIEWER};
-  return [phase, stage.view, look.colour, look.trails, plots.choices, plots.range];
+  return [phase, stage.view, look.strips && look.colour, look.trails, plots.choices, plots.range];
 }})()"""
 
 
@@ -62,7 +62,7 @@ def test_the_link_restores_phase_camera_and_choices(show, page_of_one):
     again.page.evaluate("location.hash = '#wb=1&phase=0.5&camera=top'")
     again.page.wait_for_function(f"{VIEWER}.phase === 0.5")
     phase, camera, colour, trails, choices, zoom = again.page.evaluate(SEEN)
-    assert (phase, camera, colour, trails, zoom) == (0.5, "top", "alpha", True, [0, 1])
+    assert (phase, camera, colour, trails, zoom) == (0.5, "top", False, True, [0, 1])
     assert {choice["x"] for choice in choices} == {"phase"}
 
 
@@ -77,7 +77,7 @@ def test_the_link_restores_phase_camera_and_choices(show, page_of_one):
 def test_a_fragment_that_makes_no_sense_changes_nothing_that_matters(show, page_of_one, fragment):
     shown = show(page_of_one, fragment=fragment)
     phase, camera, colour, _, choices, zoom = shown.page.evaluate(SEEN)
-    assert (phase, camera, colour, zoom) == (1 if "99" in fragment else 0, "oblique", "alpha", [0, 1])
+    assert (phase, camera, colour, zoom) == (1 if "99" in fragment else 0, "oblique", False, [0, 1])
     assert len(choices) == 4
     assert shown.complaints == []
 

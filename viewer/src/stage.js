@@ -7,6 +7,7 @@ import { themeOf } from "./colours.js";
 import { Ground } from "./ground.js";
 import { pixelsPerMetre } from "./scale_bar.js";
 import { Shadow } from "./shadow.js";
+import { drawsInSoftware, Sharpness } from "./sharpness.js";
 
 // From where each camera looks, in semi-spans: ahead, to the left, above.
 export const CAMERAS = {
@@ -20,7 +21,9 @@ const GHOST = 0.32;
 
 export class Stage {
   constructor(canvas, flights) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+    const inSoftware = drawsInSoftware();
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !inSoftware, alpha: true });
+    this.sharpness = new Sharpness(this.renderer, inSoftware, () => this.render());
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
     this.camera.up.set(0, 0, 1);
@@ -124,7 +127,7 @@ export class Stage {
 
   resize(width, height) {
     const was = this.camera.aspect;
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.sharpness.fit();
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
@@ -136,6 +139,7 @@ export class Stage {
   draw() {
     this.due ??= requestAnimationFrame(() => {
       this.due = undefined;
+      this.sharpness.moves();
       this.render();
     });
   }
@@ -153,6 +157,7 @@ export class Stage {
 
   dispose() {
     cancelAnimationFrame(this.due);
+    this.sharpness.dispose();
     for (const animal of this.animals) animal.dispose();
     this.ground.dispose();
     this.shadow.dispose();

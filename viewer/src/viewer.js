@@ -1,6 +1,7 @@
 // The viewer: picture, controls and plots in step at one phase of the beat.
 
-import { ARROWS, gradient, round, written } from "./colours.js";
+import { gradient, round, written } from "./colours.js";
+import { addControls, fold, FORCES, RATES, TINTS } from "./controls.js";
 import { make } from "./elements.js";
 import { Flight } from "./flight.js";
 import { Measures } from "./measures.js";
@@ -13,21 +14,7 @@ import shareStyles from "./share.css";
 import { restore, stateOf } from "./state.js";
 import styles from "./style.css";
 
-const RATES = [
-  [1, "real time"],
-  [0.25, "1/4 speed"],
-  [0.1, "1/10 speed"],
-  [0.03, "1/30 speed"],
-];
-const TINTS = {
-  alpha: { label: "effective angle of attack", unit: "deg", scale: 180 / Math.PI, most: Math.PI / 3 },
-  strip_lift: { label: "lift of a strip", unit: "N", scale: 1, most: Infinity },
-};
-const AIR = { trails: "trails", ground: "ground", wake: "wake (a sketch, not computed)" };
-const NAMES = { lift: "lift", drag: "drag", force: "resultant" };
 let made = 0;
-
-const slug = (label) => label.toLowerCase().replace(/\W+/g, "-");
 
 export class Viewer {
   // With `compact` all but picture and player is folded; the page that holds the viewer sets its theme.
@@ -47,7 +34,7 @@ export class Viewer {
     this.canvas = make("canvas", { class: "wb-canvas", role: "img" });
     this.share = new Share(this, share);
     this.build();
-    if (compact) this.fold();
+    if (compact) fold(this);
     element.append(this.root);
     this.root.addEventListener("keydown", (event) => this.key(event));
     this.setTheme(theme);
@@ -60,104 +47,18 @@ export class Viewer {
     if (playing && !this.calm) this.play();
   }
 
-  // Page ----------------------------------------------------------------------------------------------------------
-
   build() {
-    const button = (text, label, act) => make("button", { type: "button", "aria-label": label, title: label, onclick: act }, text);
-    this.playButton = button("▶", "Play (space)", () => (this.playing ? this.pause() : this.play()));
-    this.scrubber = make("input", {
-      type: "range",
-      min: 0,
-      step: "any",
-      "aria-label": "Phase of the beat",
-      oninput: () => {
-        this.pause();
-        this.set(Number(this.scrubber.value));
-      },
-    });
-    this.readout = make("output", { class: "wb-readout" });
-    this.rates = this.choice("Speed", RATES, this.rate, (value) => (this.rate = Number(value)));
-    this.cameras = Object.keys(CAMERAS).map((name, nth) =>
-      make(
-        "button",
-        { type: "button", "aria-pressed": "false", title: `${name} view (${nth + 1})`, onclick: () => this.setCamera(name) },
-        name,
-      ),
-    );
-    const tints = [["off", "off"], ...Object.entries(TINTS).map(([name, { label }]) => [name, label])];
-    const toggles = Object.entries(NAMES).map(([name, label]) =>
-      this.toggle(label, this.look.arrows.has(name), ARROWS[name], (on) => {
-        this.look.arrows[on ? "add" : "delete"](name);
-        this.set(this.phase);
-      }),
-    );
-    const [trails, ground, wake] = Object.entries(AIR).map(([name, label]) =>
-      this.toggle(label, this.look[name], null, (on) => {
-        this.look[name] = on;
-        this.measure();
-        this.set(this.phase);
-      }),
-    );
-    this.wakeToggle = wake;
-    this.pairing = this.choice("Two flights", [["ghost", "second as ghost"], ["beside", "side by side"]], "ghost", (value) => {
-      this.ghost = value === "ghost";
-      this.arrange();
-    });
-    this.theme = this.choice("Theme", [["system", "as system"], ["light", "light"], ["dark", "dark"]], "system", (value) =>
-      this.setTheme(value),
-    );
+    const { above, player, below } = addControls(this);
     this.heading = make("div", { class: "wb-heading" });
     this.legend = make("div", { class: "wb-scale" });
     this.measures = new Measures();
     this.picture = make("div", { class: "wb-picture" }, this.canvas, this.heading);
-    const foot = make("div", { class: "wb-legends" }, this.legend, this.measures.element);
-    const frame = make("div", { class: "wb-frame" }, this.picture, foot);
-    this.side = make("div", { class: "wb-side" });
-    const tint = this.choice("Strips", tints, "off", (value) => {
-      this.look.strips = value !== "off";
-      if (this.look.strips) this.look.colour = value;
-      this.scaleTint();
-      this.set(this.phase);
-    });
+    const legends = make("div", { class: "wb-legends" }, this.legend, this.measures.element);
+    const frame = make("div", { class: "wb-frame" }, this.picture, legends);
     this.pushes = new Pushes(this.id, (scene, once) => this.demonstrate(scene, once));
-    const cameras = make("div", { class: "wb-group", role: "group", "aria-label": "Camera" }, ...this.cameras);
-    const air = make("fieldset", { class: "wb-group" }, make("legend", {}, "Air"), trails, ground, wake);
-    this.toggles = toggles;
-    const forces = make("fieldset", { class: "wb-group" }, make("legend", {}, "Forces"), ...toggles);
-    this.root.append(
-      make(
-        "div",
-        { class: "wb-stage" },
-        make("div", { class: "wb-bar" }, cameras),
-        frame,
-        make("div", { class: "wb-bar wb-player" }, this.playButton, this.scrubber, this.readout, this.rates),
-        make("div", { class: "wb-bar" }, tint, forces, air, this.pairing, this.theme, this.share.element),
-        this.pushes.element,
-      ),
-      this.side,
-    );
-  }
-
-  fold() {
-    const bars = this.root.querySelectorAll(".wb-bar:not(.wb-player, .wb-push)");
-    const folded = make("details", { class: "wb-folded" }, make("summary", {}, "Views, forces and plots"), ...bars, this.side);
-    this.theme.remove();
-    this.rates.querySelector("label").textContent = "Playback"; // the page's speed is that of the flight
-    this.root.dataset.compact = "";
-    this.root.append(folded);
-  }
-
-  choice(label, options, chosen, act) {
-    const id = `${this.id}-${label.replace(/\W/g, "")}`;
-    const select = make("select", { id, "data-choice": slug(label), onchange: () => act(select.value) });
-    for (const [value, text] of options) select.append(make("option", { value, selected: value === chosen }, text));
-    return make("span", { class: "wb-choice" }, make("label", { for: id }, label), select);
-  }
-
-  toggle(label, on, colour, act) {
-    const box = make("input", { type: "checkbox", checked: on, "data-choice": slug(label), onchange: () => act(box.checked) });
-    const swatch = colour ? [make("span", { class: "wb-swatch", style: `background:${colour}`, "aria-hidden": "true" })] : [];
-    return make("label", { class: "wb-toggle" }, box, ...swatch, label);
+    this.side = make("div", { class: "wb-side" });
+    const stage = make("div", { class: "wb-stage" }, above, frame, player, below, this.pushes.element);
+    this.root.append(stage, this.side);
   }
 
   key(event) {
@@ -200,8 +101,8 @@ export class Viewer {
     this.pairing.hidden = this.flights.length < 2;
     this.wakeToggle.hidden = !this.flights.some((flight) => flight.wake);
     if (this.wakeToggle.hidden) this.look.wake = this.wakeToggle.querySelector("input").checked = false;
-    Object.keys(NAMES).forEach((name, nth) => {
-      this.toggles[nth].hidden = !this.flights.some((flight) => name in flight.arrays);
+    Object.keys(FORCES).forEach((name, nth) => {
+      this.forces[nth].hidden = !this.flights.some((flight) => name in flight.arrays);
     });
     this.look.laps = 0;
     this.look.tipForce = Measures.tipForce(this.flights);

@@ -93,7 +93,7 @@ def test_measurements_say_their_source_on_focus(show):
     page.get_by_role("button", name="Wingbeats").click()
     mark = page.locator(".wbx-measured").first
     mark.focus()
-    assert "Usherwood et al. 2005" in page.locator(".wbx-note").inner_text()
+    assert "Usherwood et al. 2005" in page.locator(".wbx-curve-box > .wbx-note").inner_text()
 
 
 def test_a_pinned_flight_stays_as_ghost(show, answers):

@@ -2,6 +2,7 @@
 
 import copy
 import math
+from types import SimpleNamespace
 
 import pytest
 
@@ -95,14 +96,16 @@ def test_who_flies_and_how(record, title, speed, climb, start):
     assert sentence_of(record | {"speed": speed, "climb": climb}, title).startswith(start)
 
 
-def test_a_flight_that_tumbles_at_once_has_words_but_no_picture(orbits, monkeypatch):
+def test_a_flight_that_tumbles_at_once_has_no_picture(monkeypatch):
     def refuse(flights):
         raise FileError("fewer than two samples")
 
     monkeypatch.setattr(face, "scene", refuse)
-    answer = face.face_of(orbits["pigeon"][0], "paper")
-    assert answer["scene"] is None
-    assert answer["sentence"].startswith("A rock pigeon at 8 m/s")
+    flight = SimpleNamespace(status=wb.Status.NOT_CONVERGED, dataset=None)
+    assert face._scene_of(flight, "rock pigeon") is None
+    flight.status = wb.Status.CONVERGED
+    with pytest.raises(FileError, match="fewer than two"):
+        face._scene_of(flight, "rock pigeon")
 
 
 def test_the_face_has_the_record_s_numbers_in_the_units_of_readers(orbits, answers):

@@ -2,9 +2,11 @@
 
 import itertools
 
+import numpy as np
 import pytest
 
 from tests.helpers.browsers import AXE
+from wingbeat.explorer.thinning import unpacked
 
 ACROSS = """speed => {
     const { curve } = document.querySelector(".wbx").face;
@@ -50,6 +52,15 @@ def test_dragging_changes_the_speed_the_numbers_and_the_animal(show, answers):
     assert "speed=14" in page.evaluate("location.hash")
     slider = page.get_by_role("slider", name="Speed")
     assert slider.get_attribute("aria-valuenow") == "14"
+
+
+def test_the_strips_are_those_of_the_whole_flight(show, answers):
+    page = show(fragment="#animal=pigeon&model=paper&speed=10").page
+    flight = answers["pigeon"][1]["scene"]["flights"][0]
+    whole = unpacked(flight["arrays"]["corners"]).reshape(-1, flight["strips"] * 12)
+    shown = page.evaluate("Array.from(document.querySelector('.wb-viewer').viewer.flights[0].arrays.corners)")
+    exact = whole[:: (len(whole) - 1) // 64].ravel()
+    np.testing.assert_allclose(shown, exact, rtol=0, atol=1e-4 * np.abs(exact).max())
 
 
 def test_the_keyboard_moves_the_point(show, answers):

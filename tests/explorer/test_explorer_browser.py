@@ -8,6 +8,7 @@ import pytest
 from tests.helpers.browsers import AXE
 from wingbeat.explorer.thinning import unpacked
 
+FACE = "document.querySelector('.wbx').face"
 ACROSS = """speed => {
     const { curve } = document.querySelector(".wbx").face;
     const box = curve.svg.getBoundingClientRect();
@@ -84,6 +85,13 @@ def test_another_animal_is_loaded_and_its_link_opens_it(show, answers):
     assert sentence(page) in [answer["sentence"] for answer in answers["bat"]]
     page = show(fragment="#animal=bat&model=paper&speed=7.9").page
     assert sentence(page) == answers["bat"][1]["sentence"]
+
+
+def test_numbers_stand_out_in_the_sentence_but_not_those_of_a_name(show):
+    page = show().page
+    words = "A RoboFalcon2.0 robot at 6 m/s beats 3.8 times a second and needs 112 W."
+    page.evaluate(f"(({{ verdict, answer }}) => verdict.show({{ ...answer, sentence: '{words}' }}))({FACE})")
+    assert page.locator(".wbx h1 b").all_inner_texts() == ["6 m/s", "3.8 times a second", "112 W"]
 
 
 def test_gauges_say_in_words_where_the_number_lies(show, answers):

@@ -2,10 +2,13 @@
 
 import itertools
 
+import numpy as np
 import pytest
 
 from tests.helpers.browsers import AXE
+from wingbeat.explorer.thinning import unpacked
 
+FACE = "document.querySelector('.wbx').face"
 ACROSS = """speed => {
     const { curve } = document.querySelector(".wbx").face;
     const box = curve.svg.getBoundingClientRect();
@@ -52,6 +55,15 @@ def test_dragging_changes_the_speed_the_numbers_and_the_animal(show, answers):
     assert slider.get_attribute("aria-valuenow") == "14"
 
 
+def test_the_strips_are_those_of_the_whole_flight(show, answers):
+    page = show(fragment="#animal=pigeon&model=paper&speed=10").page
+    flight = answers["pigeon"][1]["scene"]["flights"][0]
+    whole = unpacked(flight["arrays"]["corners"]).reshape(-1, flight["strips"] * 12)
+    shown = page.evaluate("Array.from(document.querySelector('.wb-viewer').viewer.flights[0].arrays.corners)")
+    exact = whole[:: (len(whole) - 1) // 64].ravel()
+    np.testing.assert_allclose(shown, exact, rtol=0, atol=1e-4 * np.abs(exact).max())
+
+
 def test_the_keyboard_moves_the_point(show, answers):
     page = show(fragment="#animal=pigeon&model=paper&speed=10").page
     slider = page.get_by_role("slider", name="Speed")
@@ -73,6 +85,13 @@ def test_another_animal_is_loaded_and_its_link_opens_it(show, answers):
     assert sentence(page) in [answer["sentence"] for answer in answers["bat"]]
     page = show(fragment="#animal=bat&model=paper&speed=7.9").page
     assert sentence(page) == answers["bat"][1]["sentence"]
+
+
+def test_numbers_stand_out_in_the_sentence_but_not_those_of_a_name(show):
+    page = show().page
+    words = "A RoboFalcon2.0 robot at 6 m/s beats 3.8 times a second and needs 112 W."
+    page.evaluate(f"(({{ verdict, answer }}) => verdict.show({{ ...answer, sentence: '{words}' }}))({FACE})")
+    assert page.locator(".wbx h1 b").all_inner_texts() == ["6 m/s", "3.8 times a second", "112 W"]
 
 
 def test_gauges_say_in_words_where_the_number_lies(show, answers):

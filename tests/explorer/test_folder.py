@@ -82,6 +82,10 @@ def test_thinning_keeps_the_flight(answers):
     assert set(whole) - set(small) == {"lift", "drag"}
     for name, packed in small.items():
         exact = unpacked(whole[name]).reshape(count, -1)[:: (count - 1) // 64].ravel()
+        if name == "corners":
+            corner = np.moveaxis(exact.reshape(-1, 4, 3), 1, 0)
+            np.testing.assert_allclose(corner[3], corner[0] - corner[1] + corner[2], rtol=0, atol=1e-6)
+            exact = np.moveaxis(corner[:3], 0, 1).ravel()
         np.testing.assert_allclose(unpacked(packed), exact, rtol=1e-6, atol=2e-5 * np.abs(exact).max())
 
 

@@ -199,7 +199,7 @@ def test_a_wingbeat_is_drawn_at_its_phase_over_the_plots(show):
     assert "no such series: feathers" in row
     for name, wanted in (
         ("flap", [[0, 40], [0.25, 10], [0.5, -30], [0.75, 0]]),
-        ("pitch", [[0, math.degrees(0.1)], [0.5, math.degrees(-0.2)], [0.75, math.degrees(0.1)]]),
+        ("wing_pitch", [[0, math.degrees(0.1)], [0.5, math.degrees(-0.2)], [0.75, math.degrees(0.1)]]),
     ):
         found = page.evaluate(PLOT.replace("WANTED", str(wanted)), name)
         assert found["places"] == [pytest.approx(place, abs=0.006) for place in found["wanted"]]

@@ -24,12 +24,23 @@ function summed(bytes, samples, scale) {
   return values;
 }
 
+// Four corners of every strip from three, for a strip is a parallelogram.
+function completed(three) {
+  const four = new Float32Array((three.length * 4) / 3);
+  for (let from = 0, to = 0; from < three.length; from += 9, to += 12) {
+    for (let i = 0; i < 9; i++) four[to + i] = three[from + i];
+    for (let i = 0; i < 3; i++) four[to + 9 + i] = three[from + i] - three[from + 3 + i] + three[from + 6 + i];
+  }
+  return four;
+}
+
 export class Flight {
   constructor(raw) {
     Object.assign(this, raw);
     this.arrays = Object.fromEntries(Object.entries(raw.arrays).map(([name, packed]) => [name, unpacked(packed)]));
     this.phase = this.arrays.phase;
     this.samples = this.phase.length;
+    if (this.arrays.corners.length === 9 * this.samples * this.strips) this.arrays.corners = completed(this.arrays.corners);
     this.last = this.phase[this.samples - 1];
     this.advance = this.arrays.x[this.samples - 1] - this.arrays.x[0]; // m, from the start to the end
   }

@@ -20,7 +20,7 @@ def thinned(scene: dict[str, Any]) -> dict[str, Any]:
     """Return a scene with about 64 samples of each flight, its arrays in 16 bits, and without lift and drag.
 
     An array keeps its values to a thirty-thousandth of its largest one; phase, time and the body's path are in
-    single precision.
+    single precision. Of a strip's four corners three are kept: it is a parallelogram.
 
     Parameters
     ----------
@@ -59,6 +59,8 @@ def _smaller(flight: dict[str, Any], kept: Any = slice(None)) -> dict[str, Any]:
     for name, packed in flight["arrays"].items():
         if name not in _LEFT_OUT:
             values = unpacked(packed).reshape(count, -1)[kept]
+            if name == "corners":
+                values = values.reshape(len(values), -1, 4, 3)[:, :, :3].reshape(len(values), -1)
             arrays[name] = _packed(values, "f4") if name in _EXACT else in_16_bits(values)
     return flight | {"arrays": arrays}
 

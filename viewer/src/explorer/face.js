@@ -43,7 +43,7 @@ export class Face {
     this.model = this.choice("Model", (model) => this.ask({ model }));
     this.choices = make("div", { class: "wbx-choices" }, this.animal.element, this.model.element);
     this.state = make("p", { class: "wbx-state", role: "status" });
-    this.picture = make("div", { class: "wbx-picture", "data-part": "picture" });
+    this.picture = make("div", { class: "wbx-picture" });
     this.pushButton = make("button", { type: "button", class: "wbx-push", hidden: true, onclick: () => this.push() });
     this.numbers = make("tbody");
     const table = make("table", {}, this.numbers);

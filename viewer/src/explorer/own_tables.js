@@ -97,6 +97,8 @@ function phasesOf({ rows, frequency }, clock, faults) {
   return clocks.map((value) => ((((value - from) * beats) % 1) + 1) % 1);
 }
 
+// Columns of a film whose series is called otherwise.
+const SERIES = { pitch: "wing_pitch", span_fraction: "span_ratio" };
 const ANGLES = ["flap", "pitch", "twist", "fold", "sweep", "alpha"];
 
 function curveOf({ text, words, unit, place }, rows, phase, faults) {
@@ -110,5 +112,6 @@ function curveOf({ text, words, unit, place }, rows, phase, faults) {
     const value = numberIn(cells[place], text, at, faults);
     return scale * (value ?? NaN);
   });
-  return { name: words.join("_"), title: text, phase, values };
+  const name = words.join("_");
+  return { name: SERIES[name] ?? name, title: text, phase, values };
 }

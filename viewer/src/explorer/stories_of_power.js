@@ -14,7 +14,7 @@ export const hovering = {
       view: { camera: "side", arrows: true },
       look: "curve",
       tell: ({ now }) => [
-        `Of the speeds computed here, this hummingbird needs least power ${speed(now)}: ${watts(now.power)}.`,
+        `Of the speeds computed here, this hummingbird needs the least power ${speed(now)}: ${watts(now.power)}.`,
         "To stay up it must push air down. The downwash tilts the air loads back, and that costs induced power.",
         `It is ${watts(now.spent.induced)} here, ${percent(shareOf(now, "induced"))} of what is spent on the air.`,
       ],

@@ -33,7 +33,7 @@ export class Tour {
 
   build() {
     const button = (text, act, more = {}) => make("button", { type: "button", onclick: act, ...more }, text);
-    this.count = make("p", { class: "wbx-note" });
+    this.count = make("p", { class: "wbx-hint" });
     this.title = make("h2", { tabindex: "-1" });
     this.text = make("div", { class: "wbx-tour-text", "aria-live": "polite" });
     this.back = button("Back", () => this.go(this.nth - 1, -1));
@@ -166,7 +166,7 @@ export class Tour {
   }
 
   say(sentences) {
-    const notes = this.left.map((text) => make("p", { class: "wbx-note" }, text));
+    const notes = this.left.map((text) => make("p", { class: "wbx-hint" }, text));
     this.text.replaceChildren(...notes, ...sentences.map((text) => make("p", {}, ...emphasised(text))));
   }
 
@@ -199,7 +199,8 @@ export class Tour {
       if (wanted !== undefined && box.checked !== wanted) box.click();
     }
     root.dataset.look = this.step.look;
-    this.scroll(root, root.querySelector(`[data-part="${this.step.look}"]`));
+    const part = this.step.look === "picture" ? viewer.picture : root.querySelector(`[data-part="${this.step.look}"]`);
+    this.scroll(root, part);
   }
 
   // Show the page from its top, if that shows the part to look at as well; else that part. On a narrow page the tour

@@ -3,7 +3,7 @@
 import { make } from "../elements.js";
 
 const NAMES = { closes: ["Closes", "Does not close"], plausible: ["Plausible", "Not plausible"] };
-const NUMBERS = /(\d[\d.,]*(?:e[+-]?\d+)?(?: m\/s| W| times a second| times)?)/;
+const NUMBERS = /(?<![\w.])(\d[\d.,]*(?:e[+-]?\d+)?(?: m\/s| W| times a second| times)?)/;
 
 export class Verdict {
   constructor() {

@@ -89,6 +89,7 @@ class Curve:
         speeds = scenario.speeds()
         # Outwards from the answer, so that each point has a neighbour to continue from.
         self._waiting = [speed for speed in speeds if speed >= now] + [s for s in reversed(speeds) if s < now]
+        self.state = f"0 of {len(speeds)} speeds."
         self._next()
 
     def cancel(self) -> None:

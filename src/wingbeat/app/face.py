@@ -19,7 +19,7 @@ from wingbeat.viewer import bundle_path
 
 BUNDLE = "/wingbeat/explorer.js"
 READY = "/wingbeat/first.json"  # the face that was solved beforehand
-_MODELS = {"paper": "paper: the plate of Su et al.", "animal": "animal: air loads of a bird, bat or robot"}
+_MODELS = {"paper": "Su et al. 2023", "animal": "live animal"}
 # What the face asks is sent at most about twenty times a second while its point is dragged.
 _THROTTLE = 0.05
 

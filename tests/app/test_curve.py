@@ -66,7 +66,7 @@ def test_it_goes_outwards_from_the_answer_each_point_from_the_nearest(curve, sol
     for _ in HERE.speeds():
         order.append((solver.speed, solver.asked[-1]["near"]))
         solver.solve(status="infeasible" if solver.speed == 12.0 else "converged")
-    assert order == [(10, "of the answer"), (11, "of the answer"), (12, "of 11"), (9, "of the answer"), (8, "of 9")]
+    assert order == [(10, "of the answer"), (11, "of 10"), (12, "of 11"), (9, "of 10"), (8, "of 9")]
     assert not curve.is_running
     words = "4 speeds certified, 1 without an orbit. Lowest power of the certified speeds: 5 W at 8 m/s. "
     assert curve.state == f"{words}Each speed was continued from its neighbour."

@@ -30,8 +30,8 @@ def bundle() -> bytes:
 
 
 @functools.cache
-def _animals() -> tuple[tuple[str, str], ...]:
-    """Return name and title of every built-in species, by title."""
+def animals() -> tuple[tuple[str, str], ...]:
+    """Return name and title of every built-in species, by title; the first call reads all their files."""
     named = ((name, load_species(name).common_name or name) for name in species_names())
     return tuple(sorted(named, key=lambda pair: pair[1].lower()))
 
@@ -72,8 +72,8 @@ class Face:
         if not isinstance(asked, dict):
             return
         changed = {name: asked[name] for name in now if name in asked and asked[name] != now[name]}
-        animals = {name for name, _ in _animals()}
-        if changed.get("animal") in animals:
+        known = {name for name, _ in animals()}
+        if changed.get("animal") in known:
             self._ask(species=changed["animal"])
         elif changed.get("model") in MODELS:
             self._ask(model=changed["model"])
@@ -119,10 +119,10 @@ class Face:
 
 def _choices(scenario: Scenario) -> dict[str, Any]:
     own = scenario.species if scenario.species_file else None
-    animals = [{"name": name, "title": title} for name, title in _animals() if name != own]
+    listed = [{"name": name, "title": title} for name, title in animals() if name != own]
     if own is not None:
-        animals.insert(0, {"name": own, "title": f"{own} (loaded file)"})
-    return {"animals": animals, "models": [{"name": name, "title": _MODELS[name]} for name in MODELS]}
+        listed.insert(0, {"name": own, "title": f"{own} (loaded file)"})
+    return {"animals": listed, "models": [{"name": name, "title": _MODELS[name]} for name in MODELS]}
 
 
 def _chosen(scenario: Scenario) -> dict[str, Any]:

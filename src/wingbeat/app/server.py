@@ -24,7 +24,7 @@ from starlette.requests import ClientDisconnect
 from wingbeat.app.curve import drawn
 from wingbeat.app.door import Door, guard_events, is_loopback
 from wingbeat.app.downloads import DOWNLOADS, Downloads
-from wingbeat.app.face import BUNDLE, READY, bundle
+from wingbeat.app.face import BUNDLE, READY, animals, bundle
 from wingbeat.app.first import First, read_first
 from wingbeat.app.page import Page
 from wingbeat.app.uploads import MOST_BYTES, clean_label
@@ -61,6 +61,7 @@ class House:
         self.pool = FairPool(_WORK, processes)
         self.downloads = Downloads()
         self.first = read_first()
+        animals()  # now, so that the first visitor need not wait for it
         self.pages: dict[str, Page] = {}
         self.folder = tempfile.TemporaryDirectory(prefix="wingbeat-")
 

@@ -56,7 +56,7 @@ def test_a_visit(visit, capsys, tmp_path):
     # and back again, on a page that asks for something else
     page = visit()
     solved(page, "pigeon")
-    page.locator("input[type=file]").set_input_files(path)
+    page.locator(".menu input[type=file]").set_input_files(path)
     page.wait_for_function("document.querySelector('.message').textContent.includes('From the file bat.nc')")
     fields = [drawer(page).get_by_label(label, exact=True).first for label in ("Animal", "Model", "Speed [m/s]")]
     assert [field.input_value() for field in fields] == ["bat", "dickinson", "8"]
@@ -68,17 +68,17 @@ def test_a_broken_species_file_is_refused_in_words(visit, tmp_path):
     solved(page, "pigeon")
     path = tmp_path / "<img src=x onerror=alert(1)>.toml"
     path.write_text('name = "<script>alert(1)</script>"\n[vehicle.wing]\nmass = "heavy"\n')
-    page.locator("input[type=file]").set_input_files(path)
+    page.locator(".menu input[type=file]").set_input_files(path)
     trouble = page.locator(".trouble li")
     trouble.first.wait_for()
     assert "vehicle.wing.mass: must be a number; write the number without quotes" in trouble.first.inner_text()
     path.write_text(
         (Path(wb.__file__).parent / "data" / "pigeon.toml").read_text().replace('"pigeon"', '"<b>x</b>"', 1)
     )
-    page.locator("input[type=file]").set_input_files(path)
+    page.locator(".menu input[type=file]").set_input_files(path)
     solved(page, "b>")  # the name of a species is only ever shown
     path.write_text(path.read_text().replace('kind = "bird"', "", 1).replace("<b>x</b>", "kindless", 1))
-    page.locator("input[type=file]").set_input_files(path)
+    page.locator(".menu input[type=file]").set_input_files(path)
     solved(page, "kindless")
     choose(page, "Flight model", "animal")
     page.locator(".fault", has_text='write kind = "bird", "bat" or "robot" into the file of kindless').wait_for()

@@ -12,21 +12,14 @@ from wingbeat.nomenclature import NOMENCLATURE, for_people
 
 
 class Brief:
-    """One line below the face: what was solved, and what can be done with it.
+    """One line below the face: what was solved, and a button that pins it; `pin` is called."""
 
-    Parameters
-    ----------
-    acts : the function that each button calls, by the button's text.
-    """
-
-    def __init__(self, acts: dict[str, Callable[[], Any]]) -> None:
+    def __init__(self, pin: Callable[[], Any]) -> None:
         with tag("section", classes="brief", aria_label="Result in brief"):
             with tag("div", classes="words"):
                 self._title = tag("h2", "", "what")
                 self._message = tag("p", "", "message")
-            with tag("div", classes="acts"):
-                self._buttons = [button(text, act, disabled=True) for text, act in acts.items()]
-            self._state = tag("p", "", "note", role="status")
+            self._pin = button("Pin", pin, disabled=True, title="Keep this result to compare it with the next one")
 
     def show(self, answer: dict[str, Any]) -> None:
         """Show what was solved."""
@@ -36,13 +29,7 @@ class Brief:
         self._title.set_text(f"{record['species']} at {number(record['speed'])} m/s{climb}, {aero}")
         self._title.props["data-solver-seconds"] = answer["solver_seconds"]
         self._message.set_text(_message(answer))
-        self.say("")
-        for each in self._buttons:
-            each.props.pop("disabled", None)
-
-    def say(self, text: str) -> None:
-        """Show the progress of what was asked for here, or what came of it."""
-        self._state.set_text(text)
+        self._pin.props.pop("disabled", None)
 
 
 def _message(answer: dict[str, Any]) -> str:

@@ -151,32 +151,39 @@ class Controls:
         name = aliases.get(where.partition("[")[0], where)
         return self._fields.get(name) or self._numbers.field_of(where)
 
-    def choose(self, **chosen: Any) -> None:
-        """Change animal, model or speed, as the controls do."""
-        if "species" in chosen:
-            self._choose_animal(chosen["species"])
-        elif "model" in chosen:
-            self._choose_model(chosen["model"])
-        else:
-            self._change(**chosen)
+    def choose(self, **asked: Any) -> None:
+        """Change animal, model or speed, as the controls do.
 
-    def _choose_animal(self, name: str) -> None:
+        Parameters
+        ----------
+        asked : what is to change: species, model (its name in the face), speed [m/s].
+        """
+        if "species" in asked:
+            self._choose_animal(asked["species"], asked.get("model"))
+        elif "model" in asked:
+            self._choose_model(asked["model"])
+        else:
+            self._change(**asked)
+
+    def _choose_animal(self, name: str, model: str | None = None) -> None:
         if name == _OWN:
             return
         # The changed numbers belonged to another animal, and a model depends on the kind of flyer.
-        model, species = self._scenario.model, own_species(Scenario(species=name))
-        loads = {} if model == "paper" else choices_of(model, species)
+        species = own_species(Scenario(species=name))
+        if model is None and self._scenario.model != "paper":
+            model = self._scenario.model
+        loads = {} if model is None else _modelled(model, species)
         speed, sweep = speeds_for(species, self._scenario.speed)
         self._change(species=name, species_file="", values={}, bounds={}, speed=speed, sweep=sweep, **loads)
 
     def _choose_model(self, name: str) -> None:
         """Take the air loads and objective of a model; drop changed numbers, which the new model may not have."""
         try:
-            chosen = choices_of(name, own_species(self._scenario))
+            chosen = _modelled(name, own_species(self._scenario))
         except InvalidInputError as error:
             self._fields["model"].refuse("; ".join(fault.fix for fault in error.faults))
             return
-        self._change(model=name, values={}, bounds={}, **chosen)
+        self._change(values={}, bounds={}, **chosen)
 
     def _word(self, name: str) -> Callable[[str], None]:
         return lambda text: self._change(**{name: text})
@@ -209,6 +216,13 @@ def choices_of(name: str, species: Species) -> dict[str, Any]:
     model = model_of(name, species)
     loads = {place: getattr(model.aero, place) for place in OF_ELEMENTS if place != "strips"}
     return {"aero": model.aero.coefficients.name, "minimise": model.objective(model.species(species)), **loads}
+
+
+def _modelled(name: str, species: Species) -> dict[str, Any]:
+    """Return the choices of the page for a model by its name in the face."""
+    model = "paper" if name == "dickinson" else name
+    chosen = {"model": model, **choices_of(model, species)}
+    return chosen | ({"aero": name} if name != model else {})
 
 
 def speeds_for(species: Species, speed: float) -> tuple[float, tuple[float, float, float]]:

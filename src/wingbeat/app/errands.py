@@ -8,11 +8,12 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat.app.answer import Brief, Influence
+from wingbeat.app.answer import Influence
 from wingbeat.app.downloads import Download, Downloads
 from wingbeat.app.face import Face
 from wingbeat.app.formatting import sentence
 from wingbeat.app.links import from_plain, to_json
+from wingbeat.app.scenario import Scenario
 from wingbeat.app.session import BUSY, Session, View, known
 from wingbeat.app.widgets import run_script
 from wingbeat.workers.fair_pool import Event, Job
@@ -32,32 +33,39 @@ class Errands:
     def __init__(self, session: Session, downloads: Downloads, view: View) -> None:
         self._session, self._downloads, self._view = session, downloads, view
         self._pushing: Job | None = None
+        self._pushed: Scenario | None = None
 
-    def push(self, face: Face, brief: Brief) -> None:
+    def push(self, face: Face) -> None:
         """Fly the orbit through gusts, and offer these flights below the picture."""
         answer = self._session.answer
         if answer is None or answer["record"]["status"] != "converged":
-            brief.say("Only a certified flight can be pushed.")
             return
-        self.stop_pushing()
+        self._stop_pushing()
+        self._pushed = self._session.answered
 
         def show(found: dict[str, Any]) -> None:
             if self._session.answer is answer:
-                face.push(found["pushes"])
-                without = f" Without feedback: {found['why_not']}." if found["why_not"] else ""
-                brief.say(f"Choose a gust below the picture, then press Push.{without}")
+                self._pushing = None
+                words = f"Flights with feedback are left out: {found['why_not']}." if found["why_not"] else ""
+                face.push(found["pushes"], words)
 
         def told(done: int, total: int) -> str:
             return f"Flying through gusts: {done} of {total} flights."
 
         doing = "Computing the feedback that holds this flight; the first time takes some seconds."
-        self._pushing = self._start({"do": "pushes", "of": known(answer)}, doing, show, brief.say, told=told)
+        self._pushing = self._start({"do": "pushes", "of": known(answer)}, doing, show, face.say, told=told)
 
-    def stop_pushing(self) -> None:
-        """Fly no more gusts, because the answer has changed."""
-        if self._pushing is not None:
-            self._session.cancel(self._pushing)
-            self._pushing = None
+    def push_again(self, face: Face) -> None:
+        """Push the new answer in place of the one before, if that is being pushed and had the same scenario."""
+        if self._stop_pushing() and self._pushed is not None and self._session.answered.asks_as(self._pushed):
+            self.push(face)
+
+    def _stop_pushing(self) -> bool:
+        """Fly no more gusts; return whether there were more to fly."""
+        job, self._pushing = self._pushing, None
+        if job is not None:
+            self._session.cancel(job)
+        return job is not None
 
     def differentiate(self, influence: Influence) -> None:
         """Compute the sensitivities of the answer."""

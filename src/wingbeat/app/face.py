@@ -13,13 +13,13 @@ from nicegui import ui
 from wingbeat.app.downloads import Download, Downloads
 from wingbeat.app.scenario import Scenario
 from wingbeat.app.widgets import run_script, tag
-from wingbeat.models import MODELS
+from wingbeat.explorer.lattice import LATTICE_MODELS
+from wingbeat.explorer.page import MODEL_TITLES
 from wingbeat.species import load_species, species_names
 from wingbeat.viewer import bundle_path
 
 BUNDLE = "/wingbeat/explorer.js"
 READY = "/wingbeat/first.json"  # the face that was solved beforehand
-_MODELS = {"paper": "Su et al. 2023", "animal": "live animal"}
 # What the face asks is sent at most about twenty times a second while its point is dragged.
 _THROTTLE = 0.05
 
@@ -45,10 +45,17 @@ class Face:
     scenario : what is chosen at first.
     is_ready : whether the answer to the first choice was solved beforehand.
     ask : called with the choices that were changed: species, model or speed [m/s].
+    push : called when the visitor wants the flight on the page pushed.
     """
 
     def __init__(
-        self, downloads: Downloads, session: str, scenario: Scenario, is_ready: bool, ask: Callable[..., Any]
+        self,
+        downloads: Downloads,
+        session: str,
+        scenario: Scenario,
+        is_ready: bool,
+        ask: Callable[..., Any],
+        push: Callable[[], Any],
     ) -> None:
         self._downloads, self._session, self._ask = downloads, session, ask
         self._scenario = scenario
@@ -62,7 +69,9 @@ class Face:
             leading_events=True,
             trailing_events=True,
         )
+        self._place.on("push", push, args=[])
         about = {"choices": _choices(scenario), "chosen": _chosen(scenario), "ready": READY if is_ready else None}
+        about["session"] = session
         text = json.dumps(about).replace("<", "\\u003c")
         ui.add_head_html(f"<script>wingbeatPage.begin({text});</script>")
 
@@ -72,13 +81,16 @@ class Face:
         if not isinstance(asked, dict):
             return
         changed = {name: asked[name] for name in now if name in asked and asked[name] != now[name]}
-        known = {name for name, _ in animals()}
-        if changed.get("animal") in known:
-            self._ask(species=changed["animal"])
-        elif changed.get("model") in MODELS:
-            self._ask(model=changed["model"])
-        elif isinstance(speed := changed.get("speed"), int | float) and math.isfinite(speed):
-            self._ask(speed=float(speed))
+        wanted: dict[str, Any] = {}
+        if changed.get("animal") in [name for name, _ in animals()]:
+            wanted["species"] = changed["animal"]
+        if changed.get("model") in LATTICE_MODELS:
+            wanted["model"] = changed["model"]
+        speed = changed.get("speed")
+        if not wanted and isinstance(speed, int | float) and math.isfinite(speed):
+            wanted["speed"] = float(speed)
+        if wanted:
+            self._ask(**wanted)
 
     def choose(self, scenario: Scenario) -> None:
         """Show which animal and model are chosen."""
@@ -98,9 +110,9 @@ class Face:
         """Show another answer beside the one on the page; None ends the comparison."""
         self._run("compare", None if answer is None else self._address(answer["face"]))
 
-    def push(self, pushes: str) -> None:
-        """Offer flights through gusts, given as JSON text, beside the answer on the page."""
-        self._run("push", self._address(pushes))
+    def push(self, pushes: str, words: str) -> None:
+        """Offer flights through gusts, given as JSON text, and say something about them."""
+        self._run("push", self._address(pushes), words)
 
     def say(self, text: str) -> None:
         """Say what the visitor waits for."""
@@ -122,8 +134,8 @@ def _choices(scenario: Scenario) -> dict[str, Any]:
     listed = [{"name": name, "title": title} for name, title in animals() if name != own]
     if own is not None:
         listed.insert(0, {"name": own, "title": f"{own} (loaded file)"})
-    return {"animals": listed, "models": [{"name": name, "title": _MODELS[name]} for name in MODELS]}
+    return {"animals": listed, "models": [{"name": name, "title": MODEL_TITLES[name]} for name in LATTICE_MODELS]}
 
 
 def _chosen(scenario: Scenario) -> dict[str, Any]:
-    return {"animal": scenario.species, "model": scenario.model, "speed": scenario.speed}
+    return {"animal": scenario.species, "model": scenario.face_model, "speed": scenario.speed}

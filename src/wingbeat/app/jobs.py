@@ -61,10 +61,10 @@ def _orbit(what: dict[str, Any], context: Context) -> dict[str, Any]:
     problem = problem_of(scenario)
     continued = _continued(problem, what.get("near"))
     if continued is not None:
-        return answer_of(Orbit.of(continued, 1), scenario.model, begun) | {"continued": True}
+        return answer_of(Orbit.of(continued, 1), scenario.face_model, begun) | {"continued": True}
     orbit = solve_orbit(problem, scenario.starts, scenario.seed, context.progress)
     context.check()
-    return answer_of(orbit, scenario.model, begun)
+    return answer_of(orbit, scenario.face_model, begun)
 
 
 def _continued(problem: OrbitProblem, near: dict[str, Any] | None) -> Solution | None:

@@ -11,7 +11,7 @@ window.wingbeatPage = {
   shown: 0,
 
   // Build the face as soon as its place is on the page. What was solved beforehand is fetched meanwhile.
-  begin({ choices, chosen, ready }) {
+  begin({ choices, chosen, ready, session }) {
     const first = ready ? json(ready) : null;
     this.built = new Promise((built) => {
       const build = () => {
@@ -19,8 +19,13 @@ window.wingbeatPage = {
         if (!place || !window.wingbeatExplorer) return;
         watcher.disconnect();
         this.face = wingbeatExplorer.explore(place, { theme: this.theme, snap: false, pinning: false });
-        this.face.setChoices(choices, chosen);
         this.face.onask = (asked) => place.dispatchEvent(new CustomEvent("ask", { detail: asked }));
+        this.face.onpush = () => place.dispatchEvent(new CustomEvent("push"));
+        this.face.onfile = async (file) => {
+          const refused = await this.upload({ files: [file] }, session);
+          if (refused) this.face.own.refuse(file.name, [refused]);
+        };
+        this.face.setChoices(choices, chosen);
         if (!ready) this.face.say("Solving the first wingbeat. The first solve after the server starts takes some seconds.");
         watchRefusals();
         built();
@@ -66,12 +71,11 @@ window.wingbeatPage = {
   },
 
   // Add flights through gusts to the answer on the page.
-  async push(url) {
+  async push(url, words) {
     const pushes = await json(url);
-    await this.built;
-    const { answer } = this.face;
-    if (!pushes || !answer?.scene) return;
-    this.face.showAnswer({ ...answer, scene: { ...answer.scene, pushes } });
+    if (!pushes) return;
+    this.face.showPushes(pushes);
+    this.face.say(words);
     document.querySelector(".wb-push").scrollIntoView({ block: "nearest" });
   },
 

@@ -98,9 +98,9 @@ class Page:
             self._build_header()
         self._whole = tag("div", classes="whole")
         with self._whole:
-            self._face = Face(self._downloads, self.name, scenario, self._is_ready, self._controls.choose)
-            push = {"Push it": lambda: self._errands.push(self._face, self._brief)}
-            self._brief = Brief({"Pin": self._pin} | push)
+            ask, push = self._controls.choose, lambda: self._errands.push(self._face)
+            self._face = Face(self._downloads, self.name, scenario, self._is_ready, ask, push)
+            self._brief = Brief(self._pin)
             self._pins = Pins(self._face.compare, self._bring_back)
             with tag("div", classes="below"):
                 self._build_panels()
@@ -180,18 +180,20 @@ class Page:
         self._brief.show(answer)
         self._answer.show(answer)
         self._influence.clear()
-        self._errands.stop_pushing()
         if answer["scenario"] is not None and not answer.get("continued"):
             self._curve.follow(self._session.answered, answer)
         self._show_curve()
+        self._errands.push_again(self._face)
 
     def _show_curve(self) -> None:
         """Show the curve in the face and in its panel."""
-        curve, answer = self._curve, self._session.answer
-        belongs = answer is not None and answer["scenario"] is not None
-        if not belongs or not curve.suits(self._session.answered):
+        curve, answer, scenario = self._curve, self._session.answer, self._session.answered
+        if answer is not None and answer["scenario"] is None:  # from a file that the controls cannot represent
             answer = None
-        data = drawn(curve.asked or self._session.scenario, curve.points, answer, curve.measured, curve.pending)
+        if answer is None or curve.is_of(scenario):
+            data = drawn(curve.asked or scenario, curve.points, answer, curve.measured, curve.pending)
+        else:  # the answer was continued, and its curve begins when the controls are left alone
+            data = drawn(scenario, (), answer, answer["measured"], scenario.speeds())
         if data != self._curve_shown:
             self._curve_shown = data
             self._face.show_curve(data)

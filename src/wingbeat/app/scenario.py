@@ -82,6 +82,11 @@ class Scenario:
     seed: int = 0
     sweep: tuple[float, float, float] = (4.0, 16.0, 1.0)
 
+    @property
+    def face_model(self) -> str:
+        """The model by its name in the face, where the coefficients of a fruit fly make a model of their own."""
+        return "dickinson" if (self.model, self.aero) == ("paper", "dickinson") else self.model
+
     def faults(self) -> FaultList:
         """Return the faults of each choice by itself; `problem_of` checks the choices together."""
         faults = FaultList()

@@ -17,7 +17,7 @@ from wingbeat.files import write_atomically
 from wingbeat.viewer import bundle_path
 
 # What models are called on the page.
-_MODELS = {"animal": "live animal", "paper": "Su et al. 2023", "dickinson": "Su et al. 2023, as a fruit fly"}
+MODEL_TITLES = {"animal": "live animal", "paper": "Su et al. 2023", "dickinson": "Su et al. 2023, as a fruit fly"}
 # Only files of this folder may be loaded; `file:` is for browsers to which a file is not 'self'.
 _PAGE = f"""<!doctype html>
 <html lang="en">
@@ -87,7 +87,7 @@ def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any
     faults.raise_if_any()
     catalogue = {
         "animals": [{"name": name, "title": title} for name, title in titles.items()],
-        "models": [{"name": name, "title": _MODELS.get(name, name)} for name in models],
+        "models": [{"name": name, "title": MODEL_TITLES.get(name, name)} for name in models],
         "files": [path.name for path in written],
         "start": start,
     }

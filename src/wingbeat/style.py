@@ -21,6 +21,12 @@ BLUE, VERMILION, GREEN = "#0072B2", "#D55E00", "#009E73"
 PURPLE, ORANGE, SKY = "#CC79A7", "#E69F00", "#56B4E9"
 ALARM, GOOD = "#C00000", "#1B7F3B"
 GREY, SHADE, TINT = "0.45", "0.91", "#D6E6F2"
+# A schematic animal or robot: back, breast, head, wing, tip of the wing, bill.
+SCHEMATIC = {
+    "bird": ("#8a8f98", "#b9bdc4", "#7b808a", "#9a9fa8", "#5d626c", "#4a4d55"),
+    "bat": ("#7d6a5b", "#9c8a79", "#75624f", "#5b4a40", "#4a3b33", "#4a3b33"),
+    "robot": ("#4c535e", "#5d6570", "#4c535e", "#b9c4d0", "#a3afbd", "#4c535e"),
+}
 
 # Each line has a dash of its own, and each series of points a mark, for grey prints.
 FIRST: dict[str, Any] = {"color": BLUE, "linestyle": "-"}

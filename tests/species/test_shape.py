@@ -154,7 +154,7 @@ def test_faults_name_value_rule_and_fix(load: Any) -> None:
     text = GOOD.replace("trailing_edge = [0.95, 0.95, 0.5]", "trailing_edge = [1.65, 1.85, 0.5]")
     text = text.replace('bill = "#123aBC"', 'bill = "red"').replace("body_depth = 0.04", "")
     assert list(faults_of(load, text).values()) == [
-        'shape.colours.bill = \'red\': must be a colour; write it as "#rrggbb", for example "#8a8f98"',
+        "shape.colours.bill = 'red': must be a colour; write it as \"#rrggbb\"",
         "shape.body_depth = nothing: must be given; largest depth of the body [m]",
         "shape.trailing_edge = [1.65, 1.85, 0.5]: gives, with the leading edge, a mean chord of 1.625 mean chords; "
         "it must be 1; divide both edges by 1.625",
@@ -245,6 +245,19 @@ def test_no_model_reads_the_shape() -> None:
     )
     with pytest.raises(InvalidInputError, match="no number has this path"):
         species.with_values({"shape.camber": 0.1})
+
+
+def test_keys_of_studies_do_not_hang_on_how_the_animal_looks(tmp_path: Path) -> None:
+    pigeon, found = load_species("pigeon"), set()
+    red = dataclasses.replace(pigeon.shape, colours=dict.fromkeys(COLOURS, "#ff0000"))
+    for i, shape in enumerate((pigeon.shape, red, None)):
+        path = tmp_path / f"{i}.toml"
+        path.write_text(species_text(dataclasses.replace(pigeon, shape=shape)), encoding="utf-8")
+        plan = wb.plan_study({"species": str(path), "speed": 8.0}, store=tmp_path / "x.study.sqlite").plan
+        found.add(tuple(point.key for point in plan.points()))
+        told = plan.bases[0].recipe.inputs()["species"].get("shape")  # as it comes to a worker
+        assert (told and told["colours"]) == (shape and shape.colours)
+    assert len(found) == 1
 
 
 def test_the_schema_knows_every_key_and_what_it_may_hold() -> None:

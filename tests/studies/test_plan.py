@@ -1,6 +1,5 @@
 """From a study file to its points: which there are, their keys, and every fault told at once."""
 
-import dataclasses
 import itertools
 import math
 import re
@@ -11,7 +10,6 @@ from fuzz import STUDIES
 import wingbeat as wb
 from tests.helpers.species_texts import GOOD, SPECIES
 from wingbeat.cli import main
-from wingbeat.species import species_text
 from wingbeat.studies.form import check_form
 from wingbeat.studies.recipe import recipe_from
 
@@ -40,18 +38,6 @@ def test_the_form_of_the_issue(tmp_path):
     problem = study.plan.bases[3].recipe.problem(points[-1].changes)
     assert (problem.species.name, problem.aero.coefficients.name) == ("bat", "dickinson")
     assert (problem.speed, problem.vehicle.wing.mass) == (10.0, 1.2 * bat)
-
-
-def test_keys_do_not_hang_on_how_the_animal_looks(tmp_path):
-    pigeon, found = wb.load_species("pigeon"), []
-    red = dataclasses.replace(pigeon.shape, colours=dict.fromkeys(pigeon.shape.colours, "#ff0000"))
-    for i, shape in enumerate((pigeon.shape, red, None)):
-        path = tmp_path / f"{i}.toml"
-        path.write_text(species_text(dataclasses.replace(pigeon, shape=shape)), encoding="utf-8")
-        found.append(keys(species=str(path), speed=8.0))
-    assert found[0] == found[1] == found[2]
-    told = plan(species="bat", speed=8.0).bases[0].recipe.inputs()  # as it comes to a worker
-    assert told["species"]["shape"]["cover"] == "membrane"
 
 
 def test_keys_hang_on_inputs_alone():

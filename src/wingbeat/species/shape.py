@@ -14,8 +14,9 @@ from wingbeat.species_schema import COLOURS, COVERS, SHAPE, Key, Number, ShapeTe
 
 # The drawn wing has the area of the model's: the mean of its chord is one mean chord, to this fraction.
 _AREA = 0.02
-# Edges that stand in for a missing one, so that its fault does not hide others.
+# Edges and a colour that stand in for missing ones, so that their faults do not hide others.
 _STAND_IN = {"leading_edge": (0.25, 0.25), "trailing_edge": (0.75, 0.75)}
+_BLACK = f"#{0:06x}"
 _LONGEST = 100.0  # m
 _BODY = ("body_length", "body_width", "body_depth")
 
@@ -154,7 +155,7 @@ def shape_of(text: ShapeText | None, faults: FaultList) -> Shape | None:
     given = {path.removeprefix("shape."): number.value for path, number in text.numbers.items()}
     if not _STAND_IN.keys() <= given.keys():
         given |= _STAND_IN
-    colours = {name: text.texts.get(f"shape.colours.{name}", "#000000") for name in COLOURS}
+    colours = {name: text.texts.get(f"shape.colours.{name}", _BLACK) for name in COLOURS}
     missing = {name: _LONGEST for name in _BODY if name not in given}
     values: dict[str, Any] = given | missing
     try:

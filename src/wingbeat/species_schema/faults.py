@@ -118,7 +118,7 @@ def rule_of(kind: str, value: Any, context: dict[str, Any]) -> tuple[str, str]:
         case "string_type":
             return "must be a text", "put it in quotes"
         case "string_pattern_mismatch":
-            return "must be a colour", 'write it as "#rrggbb", for example "#8a8f98"'
+            return "must be a colour", 'write it as "#rrggbb"'
         case "string_too_short":
             return "must not be empty", ""
         case "bool_type":

@@ -9,6 +9,7 @@ import numpy as np
 
 from wingbeat.datasets import SHAPE
 from wingbeat.species_schema import COLOURS
+from wingbeat.style import SCHEMATIC
 from wingbeat.vehicle import Body, Tail, Wing
 from wingbeat.viewer.shape import body_axes, tail_corners
 
@@ -27,23 +28,13 @@ class _Plan(NamedTuple):
     camber: float
     thickness: float
     shares: tuple[float, float, float, float, float]  # head, bill, ear, tail length, tail width over body length
-    colours: tuple[str, str, str, str, str, str]
 
 
 _BODY_PARTS = ("head_length", "bill_length", "ear_length", "tail_length", "tail_width")
 _PLANS = {
-    "bird": _Plan(
-        *("feathers", 0.2, 4.0, 0.06, 0.04, (0.3, 0.1, 0.0, 0.5, 0.4)),
-        ("#8a8f98", "#b9bdc4", "#7b808a", "#9a9fa8", "#5d626c", "#4a4d55"),
-    ),
-    "bat": _Plan(
-        *("membrane", 0.45, 8.0, 0.08, 0.02, (0.3, 0.0, 0.15, 0.25, 0.35)),
-        ("#7d6a5b", "#9c8a79", "#75624f", "#5b4a40", "#4a3b33", "#4a3b33"),
-    ),
-    "robot": _Plan(
-        *("film", 0.3, 12.0, 0.03, 0.01, (0.0, 0.0, 0.0, 0.5, 0.5)),
-        ("#4c535e", "#5d6570", "#4c535e", "#b9c4d0", "#a3afbd", "#4c535e"),
-    ),
+    "bird": _Plan("feathers", 0.2, 4.0, 0.06, 0.04, (0.3, 0.1, 0.0, 0.5, 0.4)),
+    "bat": _Plan("membrane", 0.45, 8.0, 0.08, 0.02, (0.3, 0.0, 0.15, 0.25, 0.35)),
+    "robot": _Plan("film", 0.3, 12.0, 0.03, 0.01, (0.0, 0.0, 0.0, 0.5, 0.5)),
 }
 
 
@@ -106,7 +97,7 @@ def _schematic(vehicle: dict[str, Any], kind: str) -> dict[str, Any]:
         "camber": plan.camber,
         "thickness": plan.thickness,
         "body": {"length": length, "width": 2 * half_depth, "depth": 2 * half_depth} | parts | _tail(vehicle),
-        "colours": dict(zip(COLOURS, plan.colours, strict=True)),
+        "colours": dict(zip(COLOURS, SCHEMATIC[kind], strict=True)),
     }
 
 

@@ -48,7 +48,7 @@ COMMANDS = {
     "export": "Write the gait of a saved orbit for robots, MATLAB, motion capture or MuJoCo.",
     "view": "Show a saved flight in motion, in a page or an animated picture.",
     "explore": "Write an explorer that needs no server: drag along the power curve, and the animal flies.",
-    "app": "Open the explorer in a browser: choose a problem, move sliders, and see the animal fly.",
+    "app": "Open the explorer in a browser: choose an animal, drag its speed, and see it fly.",
     "paper": "Draw the figures of Su et al. and judge their claims.",
     "bench": "Measure how fast this machine solves.",
 }

@@ -25,7 +25,7 @@ def app(
     ] = None,
     open_: Annotated[bool, Parameter(name="--open", negative="--no-open", help="Open a browser.")] = True,
 ) -> int:
-    """Open the explorer in a browser: choose a problem, move sliders, and see the animal fly.
+    """Open the explorer in a browser: choose an animal, drag its speed, and see it fly.
 
     Ctrl-C ends the explorer. It needs the extra app: uv run --extra app wingbeat app.
 

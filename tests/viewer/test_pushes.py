@@ -77,7 +77,7 @@ def test_what_cannot_be_flown_is_refused(orbit):
         wb.fly_pushes(orbit, beats=2)
     with pytest.raises(InvalidInputError, match="delay = 9"):
         wb.fly_pushes(orbit, 9)
-    with pytest.raises(InvalidInputError, match="directions: 'left'"):
+    with pytest.raises(InvalidInputError, match="directions = 'left'"):
         wb.fly_pushes(orbit, None, directions=("left",))
     lost = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon").with_values({"body.mass": 3.0}), 3.0), starts=1)
     with pytest.raises(InvalidInputError, match="is not certified"):

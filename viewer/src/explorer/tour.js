@@ -210,7 +210,7 @@ export class Tour {
     const covered = this.panel.offsetWidth < window.innerWidth ? 0 : this.panel.offsetHeight;
     const needed = part.getBoundingClientRect().bottom - root.getBoundingClientRect().top;
     if (needed <= window.innerHeight - covered) root.scrollIntoView({ block: "start", behavior });
-    else part.scrollIntoView({ block: "nearest", behavior });
+    else part.scrollIntoView({ block: "end", behavior });
   }
 }
 

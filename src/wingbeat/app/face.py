@@ -99,8 +99,8 @@ class Face:
             self._run("choose", _choices(scenario), _chosen(scenario))
 
     def show(self, answer: dict[str, Any]) -> None:
-        """Show an answer."""
-        self._run("show", self._address(answer["face"]))
+        """Show an answer; one that was continued is provisional."""
+        self._run("show", self._address(answer["face"]), bool(answer.get("continued")))
 
     def show_curve(self, data: dict[str, Any]) -> None:
         """Show the curve, as `wingbeat.app.curve.drawn` returns it."""

@@ -44,14 +44,15 @@ window.wingbeatPage = {
     this.face.showAnswer(found.answer);
   },
 
-  // Each answer has its own request; one that arrives after a later one is not shown.
-  async show(url) {
+  // Each answer has its own request; one that arrives after a later one is not shown. A `provisional` one was continued,
+  // and a search from every start follows.
+  async show(url, provisional) {
     const mine = ++this.asked;
     const answer = await json(url);
     await this.built;
     if (!answer || mine < this.shown) return;
     this.shown = mine;
-    this.face.showAnswer(answer);
+    this.face.showAnswer({ ...answer, provisional });
   },
 
   async showCurve(data) {

@@ -91,7 +91,8 @@ export class Face {
     this.say("");
     this.show();
     if (this.pushing && this.pushSpeed(answer) === answer.speed) this.push();
-    queueMicrotask(() => this.tour.heard()); // after the page's source has done what belongs to this answer
+    // After the page's source has done what belongs to this answer; a provisional one is no ground for a tour's words.
+    if (!answer.provisional) queueMicrotask(() => this.tour.heard());
   }
 
   // Flights of the answer on the page through gusts, as the viewer's scene holds them.

@@ -1,9 +1,11 @@
 """The first screen of the explorer: an animal that flies at once, and a point on the curve that one drags."""
 
 import json
+from pathlib import Path
 
 import pytest
 
+import wingbeat as wb
 from tests.app.page import asks_for, drawer, enter, solved, unfold
 from wingbeat.app.first import read_first
 from wingbeat.app.jobs import do
@@ -128,3 +130,33 @@ def test_the_flight_is_pushed_and_says_how_it_ends(visit):
     enter(page, "Speed [m/s]", "10.5")
     solved(page, "pigeon at 10.5 m/s")
     page.locator(".wb-push").wait_for(state="hidden")  # these were flights of another orbit
+
+
+def test_a_species_file_that_is_dropped_on_the_page_is_solved(visit, tmp_path):
+    path = tmp_path / "mine.toml"
+    text = (Path(wb.__file__).parent / "data" / "pigeon.toml").read_text()
+    path.write_text(text.replace('"pigeon"', '"mine"', 1))
+    page = visit()
+    solved(page, "pigeon")
+    page.locator(".wbx-file input").set_input_files(path)
+    solved(page, "mine at 10 m/s")
+    chosen = page.locator(".wbx-choices option:checked").first
+    assert chosen.text_content() == "mine (loaded file)"
+    path = tmp_path / "large.toml"
+    path.write_bytes(b"#" * 5_000_001)
+    page.locator(".wbx-file input").set_input_files(path)
+    page.locator(".wbx-own-state", has_text="a file may have at most 5 million bytes").wait_for()
+
+
+def test_a_tour_says_nothing_of_an_answer_that_was_only_continued(visit):
+    page = visit("")
+    page.wait_for_function(FLIES)
+    heard = """async (provisional) => {
+        const { face } = wingbeatPage;
+        let heard = 0;
+        face.tour.heard = () => heard++;
+        face.showAnswer({ ...face.answer, provisional });
+        await new Promise((done) => setTimeout(done));
+        return heard;
+    }"""
+    assert [page.evaluate(heard, provisional) for provisional in (True, False)] == [0, 1]

@@ -1,4 +1,4 @@
-"""How soon the explorer answers a slider beyond the solver's own time, and what its processes hold afterwards.
+"""How soon the explorer answers a move of its point beyond the solver's own time, and what its processes hold afterwards.
 
 ``python benchmarks/explorer.py [--moves 30]``: needs the extra ``app``, Playwright and Chromium; two workers.
 """
@@ -20,11 +20,10 @@ FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--
 PATIENCE = 120_000  # ms
 
 MOVE = """async (speed) => {
-    const slider = document.querySelector('input.slider'), what = document.querySelector('.what');
+    const { face } = wingbeatPage, what = document.querySelector('.what');
     const begun = performance.now();
-    slider.value = speed;
-    slider.dispatchEvent(new Event('input', { bubbles: true }));
-    while (!what.textContent.includes(` ${speed} m/s`)) {
+    face.ask({ speed });
+    while (face.answer.speed !== speed || !what.textContent.includes(` ${speed} m/s`)) {
         await new Promise((done) => setTimeout(done, 2));
         if (performance.now() - begun > 60000) throw new Error('no answer');
     }
@@ -41,7 +40,7 @@ def resident(pid: str | int) -> float:
 
 
 def slide(page: Page, address: str, animal: str, moves: int) -> list[float]:
-    """Return the seconds beyond the solver's own of so many moves of the slider."""
+    """Return the seconds beyond the solver's own of so many moves of the point on the curve."""
     page.goto(f"{address}/?species={animal}&speed=8&starts=1")
     page.wait_for_function(SOLVED, arg=f"{animal} at 8 m/s", timeout=PATIENCE)
     beyond = []
@@ -56,7 +55,7 @@ def slide(page: Page, address: str, animal: str, moves: int) -> list[float]:
 def main() -> None:
     """Serve, slide, and print."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--moves", type=int, default=30, help="moves of the slider, for each animal")
+    parser.add_argument("--moves", type=int, default=30, help="moves of the point, for each animal")
     moves = parser.parse_args().moves
     house = House(2)
     listening = socket.create_server(("127.0.0.1", 0))

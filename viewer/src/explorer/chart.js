@@ -24,9 +24,9 @@ export function axes(scale, quantity) {
     { "aria-hidden": "true" },
     ...yTicks.flatMap((value) => [
       draw("line", { class: "wbx-grid", x1: MARGIN.left, x2: width - MARGIN.right, y1: y(value), y2: y(value) }),
-      text(MARGIN.left - 7, y(value) + 4, "end", short(value)),
+      text(MARGIN.left - 7, y(value) + 4, "end", String(value)),
     ]),
-    ...xTicks.map((value) => text(x(value), bottom + 16, "middle", short(value))),
+    ...xTicks.map((value) => text(x(value), bottom + 16, "middle", String(value))),
     draw("line", { class: "wbx-axis", x1: MARGIN.left, x2: width - MARGIN.right, y1: bottom, y2: bottom }),
     text(width - MARGIN.right, bottom + 31, "end", "speed [m/s]"),
     text(MARGIN.left + 2, MARGIN.top - 3, "start", `${quantity.label} [${quantity.unit}]`),

@@ -48,7 +48,7 @@ export class Face {
     this.numbers = make("tbody");
     const table = make("table", {}, this.numbers);
     const folded = make("details", { class: "wbx-more" }, make("summary", {}, "More numbers"), table);
-    const judged = [make("h2", {}, "Could an animal fly so?"), this.gauges.element, this.pins.element, folded];
+    const judged = [make("h2", {}, "Is this flight plausible?"), this.gauges.element, this.pins.element, folded];
     const below = make("div", { class: "wbx-judged", "data-part": "gauges" }, ...judged);
     this.root.append(
       make("header", { class: "wbx-say" }, this.choices, this.verdict.sentence, this.verdict.spoken),

@@ -4,6 +4,8 @@ const json = async (url) => {
   return answer.ok ? answer.json() : null;
 };
 
+const PATIENCE = 2000; // ms for the answer to the speed where the point was let go
+
 window.wingbeatPage = {
   face: undefined,
   theme: "system",
@@ -19,7 +21,10 @@ window.wingbeatPage = {
         if (!place || !window.wingbeatExplorer) return;
         watcher.disconnect();
         this.face = wingbeatExplorer.explore(place, { theme: this.theme, snap: false, pinning: false });
-        this.face.onask = (asked) => place.dispatchEvent(new CustomEvent("ask", { detail: asked }));
+        this.face.onask = (asked) => {
+          this.want(asked);
+          place.dispatchEvent(new CustomEvent("ask", { detail: asked }));
+        };
         this.face.onpush = () => place.dispatchEvent(new CustomEvent("push"));
         this.face.onfile = async (file) => {
           const refused = await this.upload({ files: [file] }, session);
@@ -53,6 +58,16 @@ window.wingbeatPage = {
     if (!answer || mine < this.shown) return;
     this.shown = mine;
     this.face.showAnswer({ ...answer, provisional });
+    // The point stays where it was let go, while answers to speeds on its way come in.
+    const { wanted } = this;
+    if (wanted && wanted.speed !== answer.speed && performance.now() < wanted.until) this.face.curve.mark(wanted.speed);
+  },
+
+  // Remember the speed of the same animal that was asked for last.
+  want({ animal, model, speed }) {
+    const { answer } = this.face;
+    const isSame = answer?.species === animal && answer.model === model;
+    this.wanted = isSame ? { speed, until: performance.now() + PATIENCE } : undefined;
   },
 
   async showCurve(data) {

@@ -2,6 +2,7 @@
 
 import json
 import math
+import types
 
 import numpy as np
 import pytest
@@ -23,7 +24,7 @@ from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.sensitivity import OptimumSlopes
 from wingbeat.orbits.solve import correct_guess, find_orbit
-from wingbeat.results.sensitivities import Comparison, _of_fit
+from wingbeat.results.sensitivities import Comparison, _compared, _of_fit
 
 POWER = QUANTITIES["mean_positive_power"]
 SHARE = 0.005
@@ -280,6 +281,24 @@ def test_the_command_uncertainty_prints_both_ways(capsys, monkeypatch):
     make_hasty(monkeypatch)
     assert main(["uncertainty", "pigeon", "--speed", "10", "--set", "body.mass=3"]) == 3
     assert "infeasible" in capsys.readouterr().err
+
+
+def test_a_quantity_that_a_limit_holds_has_no_deviation(capsys):
+    """Within plausible ranges each draw may have the largest frequency that is plausible."""
+    bar = ErrorBar("frequency", "Hz", 6.8, 0.0, 0.0, {})
+    drawn = wb.Samples(
+        ("body.mass",), np.array([[-0.02], [0.0], [0.02]]), np.full((3, 1), 6.8), np.ones(3, dtype=bool)
+    )
+    slope = types.SimpleNamespace(quantities={"frequency": 0.0})
+    found = _compared(bar, drawn, 0, {"body.mass": slope})
+    assert (found.mean, found.deviation, found.standard_error, found.explained) == (
+        pytest.approx(6.8),
+        0.0,
+        0.0,
+        1.0,
+    )
+    _print(found, Console())
+    assert "6.8 +- 0 Hz" in capsys.readouterr().out
 
 
 def test_a_first_order_that_draws_do_not_bear_out_is_shown_as_a_ranking(capsys):

@@ -251,6 +251,8 @@ def _of_fit(
 # range it predicts 97 to 99.9 %, and its standard deviation agrees with that of the draws. Over the bat's whole
 # ranges it predicts 6 %, and the two deviations disagree (docs/guide/sensitivities.md).
 _BORNE_OUT = 0.9
+# Share of a quantity's size below which its draws are the same: certified orbits agree to 1e-6.
+_SAME = 1e-7
 
 
 class Comparison(NamedTuple):
@@ -331,13 +333,15 @@ def uncertainty_by_samples(
 def _compared(bar: ErrorBar, drawn: Samples, column: int, slopes: dict[str, Sensitivity]) -> Comparison:
     values = drawn.quantities[drawn.certified, column]
     foretold = drawn.deviations[drawn.certified] @ [slopes[path].quantities[bar.quantity] for path in drawn.paths]
-    centred = values - values.mean()
-    deviation = float(values.std(ddof=1))
-    # The error of a deviation from n draws, by their fourth moment.
-    kurtosis = float(np.mean(centred**4)) / deviation**4
-    error = deviation * np.sqrt(max(kurtosis - 1.0, 0.0) / (4 * len(values)))
-    left = values - bar.value - foretold
-    explained = 1.0 - float(np.var(left) / np.var(values))
+    deviation, error, explained = 0.0, 0.0, 1.0
+    # All draws agree to their last digits if a bound or limit holds the quantity.
+    if np.ptp(values) > _SAME * np.abs(values).max():
+        centred = values - values.mean()
+        deviation = float(values.std(ddof=1))
+        # The error of a deviation from n draws, by their fourth moment.
+        kurtosis = float(np.mean(centred**4)) / deviation**4
+        error = deviation * np.sqrt(max(kurtosis - 1.0, 0.0) / (4 * len(values)))
+        explained = 1.0 - float(np.var(values - bar.value - foretold) / np.var(values))
     count = len(drawn.certified)
     stable = stable_share(values, count) if bar.quantity == "spectral_radius" else None
     return Comparison(bar, float(values.mean()), deviation, float(error), explained, len(values), count, stable)

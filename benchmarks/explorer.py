@@ -1,4 +1,4 @@
-"""How soon the explorer answers a move of its point beyond the solver's time, and what its processes hold afterwards.
+"""How soon the explorer answers a move of its point beyond the solver's time, and what its processes hold.
 
 ``python benchmarks/explorer.py [--moves 30]``: needs the extra ``app``, Playwright and Chromium; two workers.
 """

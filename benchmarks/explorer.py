@@ -23,7 +23,7 @@ MOVE = """async (speed) => {
     const { face } = wingbeatPage, what = document.querySelector('.what');
     const begun = performance.now();
     face.ask({ speed });
-    while (face.answer.speed !== speed || !what.textContent.includes(` ${speed} m/s`)) {
+    while (face.answer?.speed !== speed || !what.textContent.includes(` ${speed} m/s`)) {
         await new Promise((done) => setTimeout(done, 2));
         if (performance.now() - begun > 60000) throw new Error('no answer');
     }

@@ -38,8 +38,11 @@ PUSHED = ("pigeon", "paper")
 def lattices(kept: Path) -> Iterator[dict[str, Any]]:
     """Yield each flyer by each model, read from the folder `kept` if the same program has solved it."""
     kept.mkdir(exist_ok=True)
+    program = _program()
+    for old in set(kept.glob("*.json")) - set(kept.glob(f"*-{program}.json")):
+        old.unlink()
     for name, model in FLIGHTS:
-        path = kept / f"{name}-{model}-{_program()}.json"
+        path = kept / f"{name}-{model}-{program}.json"
         if not path.exists():
             push = (name, model) == PUSHED
             found = solve_lattice(wb.load_species(name), model, SPEEDS[name], starts=STARTS, push=push)
@@ -51,7 +54,7 @@ def _program() -> str:
     """Return a digest of all of wingbeat's Python and data, without which a kept result could be out of date."""
     digest = hashlib.sha256(Path(__file__).read_bytes())
     source = Path(wb.__file__).parent
-    for path in sorted([*source.rglob("*.py"), *source.rglob("*.toml")]):
+    for path in sorted(p for p in source.rglob("*") if p.suffix in (".py", ".toml", ".csv")):
         digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 

@@ -21,6 +21,20 @@ def test_files_for_nobody_are_not_taken(served):
         line.close()
 
 
+def test_an_address_cannot_choose_what_a_file_holds(served):
+    host, port = served.address.removeprefix("http://").split(":")
+    for path in ("page.js", "page.css", "explorer.js", "first.json"):
+        answers = []
+        for query in ("", "?kind=text/html&content=%3Cscript%3E"):
+            line = http.client.HTTPConnection(host, int(port), timeout=60)
+            line.request("GET", f"/wingbeat/{path}{query}")
+            answer = line.getresponse()
+            answers.append((answer.status, answer.headers["content-type"], answer.read()))
+            line.close()
+        assert answers[0][0] == 200
+        assert answers[1] == answers[0]
+
+
 def test_without_the_extra_the_command_says_how_to_get_it(monkeypatch, capsys):
     monkeypatch.setattr("importlib.util.find_spec", lambda name: None)
     assert main(["app", "--no-open"]) == 2

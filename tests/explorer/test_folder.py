@@ -12,6 +12,7 @@ from wingbeat.cli.app import main
 from wingbeat.errors import InvalidInputError
 from wingbeat.explorer import default_speeds, measured_points, solve_lattice, write_explorer
 from wingbeat.explorer.lattice import SPEEDS
+from wingbeat.explorer.page import check_names
 from wingbeat.explorer.pushed import pushes_of
 from wingbeat.explorer.thinning import in_16_bits, thinned, unpacked
 
@@ -143,6 +144,19 @@ def test_a_file_is_no_folder(tmp_path, capsys):
     (tmp_path / "file").write_text("")
     assert main(["explore", "--static", str(tmp_path / "file")]) == 2
     assert "is not a folder" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("flyers", "told"),
+    [
+        ([("../../x", "paper")], "species = '../../x': cannot name a file"),
+        ([("my bird", "paper")], "cannot name a file"),
+        ([("pigeon", "paper"), ("pigeon", "paper")], "comes twice with the model paper"),
+    ],
+)
+def test_names_that_cannot_be_those_of_files_are_refused(flyers, told):
+    with pytest.raises(InvalidInputError, match=re.escape(told)):
+        check_names(flyers)
 
 
 def test_nothing_to_show_is_refused(tmp_path):

@@ -287,7 +287,10 @@ def test_a_quantity_that_a_limit_holds_has_no_deviation(capsys):
     """Within plausible ranges each draw may have the largest frequency that is plausible."""
     bar = ErrorBar("frequency", "Hz", 6.8, 0.0, 0.0, {})
     drawn = wb.Samples(
-        ("body.mass",), np.array([[-0.02], [0.0], [0.02]]), np.full((3, 1), 6.8), np.ones(3, dtype=bool)
+        ("body.mass",),
+        np.array([[-0.02], [0.0], [0.02]]),
+        6.8 * (1 + np.array([[0.0], [5e-7], [-4e-7]])),
+        np.ones(3, dtype=bool),
     )
     slope = types.SimpleNamespace(quantities={"frequency": 0.0})
     found = _compared(bar, drawn, 0, {"body.mass": slope})

@@ -115,6 +115,9 @@ def test_a_push_is_shown_once_and_then_stands_still(show, page_of_pushes):
     page.evaluate(f"{VIEWER}.set({VIEWER}.last - 1e-6)")
     page.wait_for_function(f"!{VIEWER}.playing")
     assert page.evaluate(f"{VIEWER}.phase === {VIEWER}.last")
+    # The next flight goes on from beat to beat.
+    page.evaluate(f"{VIEWER}.replace({VIEWER}.pushes.scene)")
+    assert page.evaluate(f"[{VIEWER}.once, {VIEWER}.playing]") == [False, True]
 
 
 def test_a_page_without_pushes_offers_none(show, page_of_one):

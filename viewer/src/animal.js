@@ -86,6 +86,7 @@ export class Animal {
 
   dispose() {
     this.group.traverse((node) => {
+      node.dispose?.(); // of instanced meshes
       node.geometry?.dispose();
       node.material?.dispose();
     });

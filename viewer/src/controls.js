@@ -94,6 +94,7 @@ export function fold(viewer) {
   const bars = viewer.root.querySelectorAll(".wb-bar:not(.wb-player, .wb-push)");
   const summary = make("summary", {}, "Views, forces and plots");
   viewer.theme.remove();
+  viewer.pairing.remove(); // so has it for two flights
   viewer.rates.querySelector("label").textContent = "Playback"; // the page's speed is that of the flight
   viewer.root.dataset.compact = "";
   viewer.root.append(make("details", { class: "wb-folded" }, summary, ...bars, viewer.side));

@@ -69,6 +69,7 @@ export class Pushes {
   }
 
   reset() {
+    if (!this.back || this.back.hidden) return;
     this.outcome.textContent = "";
     this.back.hidden = true;
     this.show(this.scene, false);

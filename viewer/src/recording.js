@@ -137,6 +137,7 @@ class Film {
 
   // Put the viewer back as it was.
   end() {
+    if (!this.viewer.root.isConnected) return;
     this.viewer.resize();
     this.viewer.set(this.before.phase);
     if (this.before.playing) this.viewer.play();

@@ -122,7 +122,7 @@ export class Share {
       width.append(make("option", { value: pixels, selected: pixels === 640 }, `${pixels} px`));
     const bar = make("progress", { max: 1, value: 0, "aria-label": "Progress of the moving picture", hidden: true });
     const button = this.button("Save", () => {
-      if (this.work) this.work.abort();
+      if (this.work) this.stop();
       else
         this.make(
           kinds.find(({ name }) => name === kind.value),
@@ -141,6 +141,11 @@ export class Share {
       bar,
       make("p", { class: "wb-note" }, note),
     );
+  }
+
+  // Make no more of a moving picture, because somebody asks for that or another flight is shown.
+  stop() {
+    this.work?.abort();
   }
 
   async make(kind, width, bar, button) {

@@ -15,7 +15,7 @@ export function drawsInSoftware() {
 }
 
 export class Sharpness {
-  // `redraw()`: draw the picture again at once.
+  // `redraw()`: draw the picture again at once, unless something has moved since; return whether it was drawn.
   constructor(renderer, inSoftware, redraw) {
     Object.assign(this, { renderer, inSoftware, redraw });
   }
@@ -32,7 +32,7 @@ export class Sharpness {
     clearTimeout(this.rest);
     this.rest = setTimeout(() => {
       this.set(STILL);
-      this.redraw();
+      if (!this.redraw()) this.set(MOVING);
     }, REST);
   }
 

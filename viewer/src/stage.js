@@ -23,7 +23,11 @@ export class Stage {
   constructor(canvas, flights) {
     const inSoftware = drawsInSoftware();
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !inSoftware, alpha: true });
-    this.sharpness = new Sharpness(this.renderer, inSoftware, () => this.render());
+    this.sharpness = new Sharpness(this.renderer, inSoftware, () => {
+      if (this.due !== undefined) return false;
+      this.render();
+      return true;
+    });
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.01, 1000);
     this.camera.up.set(0, 0, 1);
@@ -62,6 +66,8 @@ export class Stage {
   // Two flights beside one another, or the second as a ghost in the place of the first.
   arrange(ghost) {
     const [first, second] = this.animals;
+    this.offsets = undefined;
+    this.spread = 1;
     if (!second) return;
     this.scene.remove(second.group);
     second.dispose();

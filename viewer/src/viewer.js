@@ -65,7 +65,7 @@ export class Viewer {
     if (event.target.matches("select") || event.ctrlKey || event.metaKey || event.altKey) return;
     const step = (event.shiftKey ? 0.05 : 0.01) * (event.key === "ArrowLeft" ? -1 : 1);
     const view = Object.keys(CAMERAS)[Number(event.key) - 1];
-    if (event.key === " " && !event.target.matches("button, input[type=checkbox]")) this.playing ? this.pause() : this.play();
+    if (event.key === " " && !event.target.matches("button, summary, input[type=checkbox]")) this.playing ? this.pause() : this.play();
     else if (event.key === "ArrowLeft" || event.key === "ArrowRight") this.step(step);
     else if (event.key === "Home" || event.key === "End") this.step(event.key === "Home" ? -this.phase : this.last - this.phase);
     else if (view) this.setCamera(view);
@@ -77,8 +77,11 @@ export class Viewer {
 
   // Show another scene, and keep phase, camera and choices.
   replace(scene) {
+    const ended = this.once && this.phase >= this.last; // the flight of a push stops by itself
+    this.once = false;
     this.pushes.offer(scene);
     this.show(scene);
+    if (ended && !this.calm) this.play();
   }
 
   // Show the flight of a push once from its start, or the scene before it.
@@ -92,6 +95,7 @@ export class Viewer {
   }
 
   show(scene) {
+    this.share.stop();
     this.flights = scene.flights.map((raw) => new Flight(raw));
     this.last = Math.min(...this.flights.map((flight) => flight.last));
     this.scrubber.max = this.last;
@@ -247,16 +251,20 @@ export class Viewer {
       this.clock = requestAnimationFrame(tick);
     };
     this.clock = requestAnimationFrame(tick);
-    this.playButton.textContent = "❚❚";
-    this.playButton.setAttribute("aria-label", "Pause (space)");
+    this.tellPlaying("❚❚", "Pause (space)");
   }
 
   pause() {
     cancelAnimationFrame(this.clock);
     this.clock = undefined;
     if (this.look.passing) this.set(this.phase); // the ground is sharp again
-    this.playButton.textContent = "▶";
-    this.playButton.setAttribute("aria-label", "Play (space)");
+    this.tellPlaying("▶", "Play (space)");
+  }
+
+  tellPlaying(sign, label) {
+    this.playButton.textContent = sign;
+    this.playButton.title = label;
+    this.playButton.setAttribute("aria-label", label);
   }
 
   // What the reader sees and has chosen, as a text for the fragment of an address; `restore` shows it again.
@@ -283,6 +291,7 @@ export class Viewer {
   }
 
   destroy() {
+    this.share.stop();
     this.pause();
     this.watcher.disconnect();
     this.media.removeEventListener("change", this.onTheme);

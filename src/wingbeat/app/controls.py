@@ -166,7 +166,7 @@ class Controls:
             self._change(**asked)
 
     def _choose_animal(self, name: str, model: str | None = None) -> None:
-        if name == _OWN:
+        if name not in species_names():  # the loaded file, which is chosen already
             return
         # The changed numbers belonged to another animal, and a model depends on the kind of flyer.
         species = own_species(Scenario(species=name))

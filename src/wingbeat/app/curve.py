@@ -72,13 +72,18 @@ class Curve:
         """Begin the curve of an answer, unless it is begun already: outwards from the answer."""
         if not self.is_of(scenario):
             self._begin(scenario, answer, whole=False)
+        self.measured = answer["measured"]
 
     def start(self) -> None:
         """Solve every point from every start, and from its neighbour."""
         if self._session.scenario.faults().faults:
             self._tell("Not started: a choice is invalid; see the mark beside it.")
             return
-        self._begin(self._session.scenario, self._session.answer, whole=True)
+        session = self._session
+        scenario, answer = session.scenario, session.answer
+        if answer is not None and not scenario.at(session.answered.speed).asks_as(session.answered):
+            answer = None  # of another scenario, whose measurements are of another animal
+        self._begin(scenario, answer, whole=True)
 
     def _begin(self, scenario: Scenario, answer: dict[str, Any] | None, whole: bool) -> None:
         self.cancel()

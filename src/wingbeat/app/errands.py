@@ -34,6 +34,8 @@ class Errands:
         self._session, self._downloads, self._view = session, downloads, view
         self._pushing: Job | None = None
         self._pushed: Scenario | None = None
+        self._pushes = 0
+        self._unread: set[Callable[[], Any]] = set()
 
     def push(self, face: Face) -> None:
         """Fly the orbit through gusts, and offer these flights below the picture."""
@@ -42,21 +44,27 @@ class Errands:
             return
         self._stop_pushing()
         self._pushed = self._session.answered
+        self._pushes += 1
+        mine = self._pushes
 
         def show(found: dict[str, Any]) -> None:
             if self._session.answer is answer:
-                self._pushing = None
                 words = f"Flights with feedback are left out: {found['why_not']}." if found["why_not"] else ""
                 face.push(found["pushes"], words)
 
         def told(done: int, total: int) -> str:
             return f"Flying through gusts: {done} of {total} flights."
 
+        def ended() -> None:
+            if mine == self._pushes:
+                self._pushing = None
+
         doing = "Computing the feedback that holds this flight; the first time takes some seconds."
-        self._pushing = self._start({"do": "pushes", "of": known(answer)}, doing, show, face.say, told=told)
+        what = {"do": "pushes", "of": known(answer)}
+        self._pushing = self._start(what, doing, show, face.say, end=ended, told=told)
 
     def push_again(self, face: Face) -> None:
-        """Push the new answer in place of the one before, if that is being pushed and had the same scenario."""
+        """Push the new answer, too, if the last one had its scenario and is still being pushed."""
         if self._stop_pushing() and self._pushed is not None and self._session.answered.asks_as(self._pushed):
             self.push(face)
 
@@ -147,6 +155,11 @@ class Errands:
 
     def read(self, path: str, label: str, done: Callable[[], Any]) -> None:
         """Read a file that the visitor sent, in a worker; `done` is called when the file is no longer needed."""
+        self._unread.add(done)
+
+        def end() -> None:
+            self._unread.discard(done)
+            done()
 
         def show(found: dict[str, Any]) -> None:
             if "answer" in found:
@@ -161,4 +174,9 @@ class Errands:
                 self._session.scenario = from_plain(found["scenario"])
                 self._session.ask(whole=True)
 
-        self._start({"do": "read", "path": path, "label": label}, f"Reading {label}.", show, end=done)
+        self._start({"do": "read", "path": path, "label": label}, f"Reading {label}.", show, end=end)
+
+    def leave(self) -> None:
+        """Release the files that are not read yet, because the visitor has left."""
+        for done in self._unread:
+            done()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import json
-import math
 from collections.abc import Callable
 from typing import Any
 
@@ -15,6 +14,7 @@ from wingbeat.app.scenario import Scenario
 from wingbeat.app.widgets import run_script, tag
 from wingbeat.explorer.lattice import LATTICE_MODELS
 from wingbeat.explorer.page import MODEL_TITLES
+from wingbeat.orbits.problem.problem import FASTEST
 from wingbeat.species import load_species, species_names
 from wingbeat.viewer import bundle_path
 
@@ -87,7 +87,7 @@ class Face:
         if changed.get("model") in LATTICE_MODELS:
             wanted["model"] = changed["model"]
         speed = changed.get("speed")
-        if not wanted and isinstance(speed, int | float) and math.isfinite(speed):
+        if not wanted and type(speed) in (int, float) and abs(speed) <= FASTEST:
             wanted["speed"] = float(speed)
         if wanted:
             self._ask(**wanted)

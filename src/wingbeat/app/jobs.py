@@ -14,7 +14,7 @@ from wingbeat.app.links import from_plain
 from wingbeat.app.scenario import problem_of
 from wingbeat.app.uploads import read_upload, scenario_of
 from wingbeat.errors import FileError, InvalidInputError, first_line
-from wingbeat.explorer.face import face_of, lights_of
+from wingbeat.explorer.face import face_of, is_plausible, lights_of
 from wingbeat.explorer.measured import measured_points
 from wingbeat.models import MODELS
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -105,7 +105,7 @@ def _point_of(orbit: Orbit, speed: float) -> dict[str, Any]:
         "status": record["status"],
         "frequency": record["wingbeat"]["frequency"],
         "mean_positive_power": record["mean_positive_power"],
-        "plausible": all(light["good"] for light in lights_of(record)),
+        "plausible": is_plausible(lights_of(record)),
         "near": near,
     }
 
@@ -122,7 +122,7 @@ def answer_of(orbit: Orbit, model: str, begun: float) -> dict[str, Any]:
         "inputs": orbit.inputs,
         "groups": orbit_groups(record),
         "near": _near(orbit) if orbit.status is Status.CONVERGED else None,
-        "plausible": all(light["good"] for light in lights_of(record)),
+        "plausible": is_plausible(lights_of(record)),
         "measured": measured_points(orbit.problem.species),
         "face": json.dumps(face_of(orbit, model), allow_nan=False),
         "seconds": time.perf_counter() - begun,

@@ -11,6 +11,7 @@ window.wingbeatPage = {
   theme: "system",
   asked: 0,
   shown: 0,
+  compared: 0,
 
   // Build the face as soon as its place is on the page. What was solved beforehand is fetched meanwhile.
   begin({ choices, chosen, ready, session }) {
@@ -44,14 +45,18 @@ window.wingbeatPage = {
   async showFirst(first) {
     const found = await first;
     await this.built;
-    if (!found || this.shown) return;
+    if (!found || this.asked) return;
     this.face.showCurve(found.curve);
     this.face.showAnswer(found.answer);
   },
 
   // Each answer has its own request; one that arrives after a later one is not shown. A `provisional` one was continued,
   // and a search from every start follows.
-  async show(url, provisional) {
+  show(url, provisional) {
+    this.showing = this.fetchAndShow(url, provisional);
+  },
+
+  async fetchAndShow(url, provisional) {
     const mine = ++this.asked;
     const answer = await json(url);
     await this.built;
@@ -81,15 +86,18 @@ window.wingbeatPage = {
   },
 
   async compare(url) {
+    const mine = ++this.compared;
     const answer = url && (await json(url));
     await this.built;
-    this.face.compare(answer ?? undefined);
+    if (mine === this.compared) this.face.compare(answer ?? undefined);
   },
 
   // Add flights through gusts to the answer on the page.
   async push(url, words) {
+    const mine = this.asked;
     const pushes = await json(url);
-    if (!pushes) return;
+    await this.showing;
+    if (!pushes || mine !== this.asked) return;
     this.face.showPushes(pushes);
     this.face.say(words);
     document.querySelector(".wb-push").scrollIntoView({ block: "nearest" });

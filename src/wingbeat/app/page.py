@@ -87,6 +87,7 @@ class Page:
     def leave(self) -> None:
         """Release everything of the page, because its visitor has left."""
         self._session.leave()
+        self._errands.leave()
         self._downloads.leave(self.name)
 
     # What stands where -------------------------------------------------------------------------------------------

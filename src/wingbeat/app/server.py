@@ -12,7 +12,7 @@ import sys
 import tempfile
 import threading
 import webbrowser
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from pathlib import Path
 from typing import Any
 
@@ -215,7 +215,7 @@ def _add_files(app: FastAPI, house: House) -> None:
         READY: (_face_of(house.first), "application/json"),
     }
     for path, (content, kind) in fixed.items():
-        app.add_api_route(path, lambda content=content, kind=kind: Response(content, media_type=kind))
+        app.add_api_route(path, _fixed(content, kind))
 
     @app.get(DOWNLOADS + "{name}")
     def fetch(name: str) -> Response:
@@ -226,6 +226,11 @@ def _add_files(app: FastAPI, house: House) -> None:
         if download.name:
             headers["content-disposition"] = f'attachment; filename="{download.name}"'
         return Response(download.content, media_type=download.kind, headers=headers)
+
+
+def _fixed(content: bytes, kind: str) -> Callable[[], Response]:
+    # Not a lambda with defaults: FastAPI takes those for parameters of the address.
+    return lambda: Response(content, media_type=kind)
 
 
 def _face_of(first: First) -> bytes:

@@ -15,6 +15,7 @@ from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
 from wingbeat.errors import FaultList
 from wingbeat.explorer import LATTICE_MODELS, default_speeds, solve_lattice, write_explorer
+from wingbeat.explorer.page import check_names
 from wingbeat.species import Species, load_species, species_names
 
 _MOST_SPEEDS = 200
@@ -72,6 +73,7 @@ def explore(
     faults.raise_if_any()
     species = [load_species(name) for name in names]
     tasks = [(one, model) for one in species for model in chosen]
+    check_names([(one.name, model) for one, model in tasks])
     with progress_bar("flights") as progress:
         written = write_explorer(static, _solved(tasks, row, starts, seed, progress, push))
     size = sum(path.stat().st_size for path in written)

@@ -137,6 +137,17 @@ def lights_of(record: dict[str, Any]) -> list[dict[str, Any]]:
     ]
 
 
+def is_plausible(lights: list[dict[str, Any]]) -> bool:
+    """Return whether a flight closes and none of its numbers is known to be outside its plausible range.
+
+    Parameters
+    ----------
+    lights : from `lights_of`.
+    """
+    closes, plausible = lights
+    return closes["good"] and (plausible["good"] or not plausible["known"])
+
+
 def numbers_of(record: dict[str, Any]) -> list[list[str]]:
     """Return label, value and unit of the main numbers, as texts; a number without a value is left out.
 

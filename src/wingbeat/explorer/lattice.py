@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat.explorer.face import face_of
+from wingbeat.errors import FaultList
+from wingbeat.explorer.face import face_of, is_plausible
 from wingbeat.explorer.measured import measured_points
 from wingbeat.explorer.pushed import pushes_of
 from wingbeat.explorer.thinning import thinned
@@ -74,13 +75,17 @@ def solve_lattice(
 
     Raises
     ------
-    InvalidInputError : a speed, a model or a number of starts out of range.
+    InvalidInputError : no speed, speeds that do not increase; a speed, a model or a number of starts out of range.
 
     >>> import wingbeat as wb
     >>> lattice = solve_lattice(wb.load_species("pigeon"), "paper", [11.0, 12.0], starts=1)
     >>> lattice["speed"], [point["certified"] for point in lattice["curve"]["points"]]
     (11.0, [True, True])
     """
+    faults = FaultList()
+    if not len(speeds) or any(np.diff(speeds) <= 0):
+        faults.add("speeds", list(speeds), "must be at least one, and increase", "for example 8, 10, 12")
+    faults.raise_if_any()
     problems = [_problem(model, species, float(speed)) for speed in speeds]
     orbits = solve_orbits(problems, starts, seed, in_order=True, progress=progress)
     return lattice_of(species, model, orbits, push)
@@ -133,16 +138,12 @@ def _small(answer: dict[str, Any], sources: dict[str, str]) -> dict[str, Any]:
 def point_of(answer: dict[str, Any]) -> dict[str, Any]:
     """Return a point of the curve: speed [m/s], power [W], frequency [Hz], whether certified and plausible.
 
-    A point is plausible unless one of its numbers is known to be outside its range.
-
     Parameters
     ----------
     answer : from `face_of`.
     """
-    closes, plausible = answer["lights"]
     numbers = {name: answer[name] for name in ("speed", "power", "frequency")}
-    fine = plausible["good"] or not plausible["known"]
-    return numbers | {"certified": closes["good"], "plausible": closes["good"] and fine}
+    return numbers | {"certified": answer["lights"][0]["good"], "plausible": is_plausible(answer["lights"])}
 
 
 def _first(points: Sequence[dict[str, Any]]) -> float:

@@ -6,7 +6,8 @@ import base64
 import gzip
 import json
 import os
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import Any
@@ -60,7 +61,7 @@ def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any
 
     Raises
     ------
-    InvalidInputError : no lattice.
+    InvalidInputError : no lattice, two of the same species and model, a species whose name cannot name a file.
     FileError : a file that cannot be written.
     """
     place = Path(folder)
@@ -71,6 +72,7 @@ def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any
     written, titles, models, start = [], {}, [], None
     for lattice in lattices:
         species, model = lattice["species"], lattice["model"]
+        check_names([(species, model)], [path.stem for path in written])
         written.append(place / "data" / f"{species}-{model}.js")
         pushes = lattice.get("pushes")
         shown = {name: value for name, value in lattice.items() if name != "pushes"}
@@ -96,6 +98,28 @@ def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any
     write_atomically(others[1], bundle_path("explorer").read_bytes())
     _call(others[2], "open", catalogue)
     return [*others, *written]
+
+
+def check_names(flyers: Iterable[tuple[str, str]], known: Sequence[str] = ()) -> None:
+    """Refuse species whose names cannot name a file, and a species and model that come twice.
+
+    Parameters
+    ----------
+    flyers : names of species and model.
+    known : names of files that are there already, without ending.
+
+    Raises
+    ------
+    InvalidInputError : all of them.
+    """
+    faults, seen = FaultList(), set(known)
+    for species, model in flyers:
+        if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]*", species):
+            faults.add("species", species, "cannot name a file", "use letters, digits, - and _ in its name")
+        elif f"{species}-{model}" in seen:
+            faults.add("species", species, f"comes twice with the model {model}", "give each animal its own name")
+        seen.add(f"{species}-{model}")
+    faults.raise_if_any()
 
 
 def _call(path: Path, function: str, *arguments: Any) -> None:

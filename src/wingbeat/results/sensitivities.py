@@ -252,7 +252,7 @@ def _of_fit(
 # ranges it predicts 6 %, and the two deviations disagree (docs/guide/sensitivities.md).
 _BORNE_OUT = 0.9
 # Share of a quantity's size below which its draws are the same: certified orbits agree to 1e-6.
-_SAME = 1e-7
+_SAME = 1e-6
 
 
 class Comparison(NamedTuple):

@@ -50,7 +50,7 @@ def fly_pushes(
     Raises
     ------
     InvalidInputError : an orbit that is not certified; beats that are no whole number from 3 to 100; an unknown
-        direction; what `feedback` refuses, such as a mode that no input reaches.
+        direction; a size that is not positive; what `feedback` refuses, such as a mode that no input reaches.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
@@ -62,6 +62,8 @@ def fly_pushes(
     faults.whole("beats", beats, _LASTS + 1, 100, "beats of a flight")
     for name in directions:
         faults.choice("directions", name, tuple(DIRECTIONS))
+    for size in sizes:
+        faults.number("sizes", size, above=0, unit="m/s")
     if orbit.status is not Status.CONVERGED:
         faults.add("orbit", orbit.status.value, "is not certified", "solve it again with more starts")
     faults.raise_if_any()

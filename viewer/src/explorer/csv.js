@@ -47,8 +47,9 @@ export function tableOf(text, faults) {
     const [here, named] = [cells.length, header.length];
     if (here !== named) faults.add(`Line ${at} has ${here} cells, the header has ${named}.`);
   }
-  const given = /^#\s*frequency\s*(?:\[hz\])?\s*=\s*([\d.]+)/im.exec(text);
-  return { header, rows: rows.slice(0, MOST_ROWS), frequency: given ? Number(given[1]) : undefined };
+  const given = /^#\s*frequency\s*(?:\[hz\])?\s*=\s*(.+)$/im.exec(text);
+  const frequency = given ? numberIn(given[1].trim(), "frequency", 1, faults, { low: 1e-9 }) : undefined;
+  return { header, rows: rows.slice(0, MOST_ROWS), frequency };
 }
 
 // Cells of a line; quotes may hold separators, and two quotes in a row are one.

@@ -102,7 +102,7 @@ export class Curve {
       ...this.drawPin(name),
       this.handle,
     );
-    if (focused) this.handle.focus();
+    if (focused) this.handle.focus({ preventScroll: true });
     tell("");
     this.place(this.speed);
   }

@@ -172,9 +172,18 @@ export class Face {
   // `whose`: the species.
   fly(scene, whose) {
     const count = scene.flights.length;
-    if (this.viewer) this.replace(scene, whose === this.whose && count === this.count);
+    if (this.blind) return;
+    const still = whose === this.whose && count === this.count && this.viewer?.ghost === this.pins.ghost;
+    if (this.viewer) this.replace(scene, still);
     else {
-      this.viewer = new Viewer(this.picture, scene, { theme: this.theme, compact: true });
+      try {
+        this.viewer = new Viewer(this.picture, scene, { theme: this.theme, compact: true });
+      } catch {
+        this.blind = true;
+        const text = "This browser cannot draw in three dimensions: WebGL is missing or switched off.";
+        this.picture.replaceChildren(make("p", {}, text));
+        return;
+      }
       this.own.overlay();
     }
     // A beat takes about a second; of one animal the rate stays, so that one sees it beat faster or slower.

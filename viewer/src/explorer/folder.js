@@ -59,7 +59,8 @@ export class Folder {
   }
 
   async hold(animal, model, text) {
-    const lattice = await decompressed(text);
+    const lattice = await this.decompressed(text);
+    if (!lattice) return;
     for (const { gauges } of lattice.answers) for (const gauge of gauges) gauge.source ??= lattice.sources[gauge.name];
     this.lattices.set(`${animal}/${model}`, lattice);
     if (this.asked.animal === animal && this.asked.model === model) this.show(lattice);
@@ -80,11 +81,21 @@ export class Folder {
   }
 
   async holdPushes(animal, model, text) {
-    const pushes = await decompressed(text);
+    const pushes = await this.decompressed(text);
+    if (!pushes) return;
     this.pushes.set(`${animal}/${model}`, pushes);
     const { asked } = this;
     const wanted = asked.animal === animal && asked.model === model && asked.speed === this.pushSpeed(animal, model);
     if (wanted) this.face.showPushes(pushes);
+  }
+
+  async decompressed(text) {
+    try {
+      return await decompressed(text);
+    } catch {
+      this.face.say("This browser cannot unpack the data; a newer one can.");
+      return undefined;
+    }
   }
 
   // Show the answer that is nearest in speed.

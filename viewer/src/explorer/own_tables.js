@@ -43,9 +43,10 @@ function flightColumns(columns, speed, isError) {
 // Points {speed, power, frequency, powerError, frequencyError, label} in m/s, W and Hz.
 export function flightsOf({ rows }, columns, faults) {
   for (const [name, units] of Object.entries(UNITS)) {
-    const column = columns[name];
-    if (column?.unit && !units.includes(column.unit)) {
-      faults.add(`Column “${column.text}” is in ${column.unit}; convert it to ${UNIT[name]}.`);
+    for (const column of [columns[name], columns[`${name}Error`]]) {
+      if (column?.unit && !units.includes(column.unit)) {
+        faults.add(`Column “${column.text}” is in ${column.unit}; convert it to ${UNIT[name]}.`);
+      }
     }
   }
   if (!columns.power && !columns.frequency) {
@@ -99,12 +100,16 @@ function phasesOf({ rows, frequency }, clock, faults) {
 
 // Columns of a film whose series is called otherwise.
 const SERIES = { pitch: "wing_pitch", span_fraction: "span_ratio" };
+// Units in which the viewer's series are.
+const KNOWN = ["", "-", "1", "rad", "rad/s", "m", "m/s", "n", "w", "s", "hz"];
 const ANGLES = ["flap", "pitch", "twist", "fold", "sweep", "alpha"];
 
 function curveOf({ text, words, unit, place }, rows, phase, faults) {
-  const isAngle = words.some((word) => ANGLES.includes(word));
-  const degrees = ["deg", "degrees", "°"].includes(unit);
-  if (isAngle && !degrees && unit !== "rad") {
+  const isAngle = words.some((word) => ANGLES.includes(word)) && !words.includes("rate");
+  const degrees = ["deg", "degrees", "°", "deg/s"].includes(unit);
+  if (!degrees && !KNOWN.includes(unit)) {
+    faults.add(`Column “${text}” is in ${unit}; convert it to SI units.`);
+  } else if (isAngle && !degrees && unit !== "rad") {
     faults.add(`Column “${text}” is an angle: name its unit, as in “${words.join("_")}_deg”.`);
   }
   const scale = degrees ? Math.PI / 180 : 1;

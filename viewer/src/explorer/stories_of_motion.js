@@ -31,7 +31,7 @@ export const robot = {
       tell: ({ now, semiSpan }) => [
         `This ${now.title} has a mass of ${listed(now, "mass")} and two wings of ${metres(semiSpan)} each.`,
         "Over a beat, the wings must carry the weight and balance the drag.",
-        "At its end, attitude and velocities of the body must be those of its beginning.",
+        "At the end of the beat the body must have the attitude and the velocities that it began with.",
       ],
     },
     {
@@ -141,7 +141,7 @@ export const tumbling = {
       push: { direction: "upward", feedback: false },
       look: "picture",
       tell: ({ push }) => [
-        `Last, without feedback, ${gust(push)}. It is ${push.outcome}.`,
+        `Now ${gust(push)}, again without feedback. The pigeon is ${push.outcome}.`,
         "Below the picture you can choose the gust yourself.",
         "The feedback follows from the equations of motion; how birds do it is not modelled.",
       ],

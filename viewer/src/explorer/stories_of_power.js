@@ -90,7 +90,7 @@ export const coefficients = {
       view: { camera: "oblique", arrows: true },
       look: "picture",
       tell: ({ now }) => [
-        "What a wing feels in the air is measured once, on another wing, and then used for every strip.",
+        "The forces of the air were measured once, on another wing. The model uses them for every strip of this one.",
         "Here it was a flat plate (Su et al. 2023).",
         `So the bat beats at ${hertz(now.frequency)} and needs ${watts(now.power)} ${speed(now)}.`,
       ],

@@ -51,6 +51,7 @@ export class Tour {
   }
 
   key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
     const act = { ArrowRight: this.next, ArrowLeft: this.back }[event.key];
     if (event.key === "Escape") this.close();
     else if (act && !act.disabled) act.click();
@@ -113,7 +114,7 @@ export class Tour {
   }
 
   heardCurve() {
-    if (this.step && this.waitsForCurve) this.ask();
+    if (this.step && this.waitsForCurve && !this.face.answer.provisional) this.ask();
   }
 
   // Ask for the animal and the model, then, when their curve is known, for the speed, then for flights through gusts.
@@ -153,6 +154,7 @@ export class Tour {
     if (answer.status === "converged") seen[step.name] = answer;
     this.pin(seen[step.pin]);
     this.look();
+    if (!step.push) this.face.viewer?.pushes.reset();
     if (answer.status !== "converged") return this.finish([answer.sentence]);
     const push = step.push && this.push(answer.scene.pushes);
     if (step.push && !push) return this.finish(["No feedback was found that holds this flight."]);
@@ -190,6 +192,7 @@ export class Tour {
 
   look() {
     const { viewer, root } = this.face;
+    if (!viewer) return;
     const { camera, arrows } = this.step.view;
     const shown = { resultant: arrows, lift: false, drag: false, trails: true };
     viewer.setCamera(camera);

@@ -231,6 +231,8 @@ def test_time_becomes_phase(show, text, phase):
         ("phase,flap_deg\n0,1\n50,2\n1,1\n", "Line 3, phase: 50 must be from 0 to 1."),
         ("phase,flap_deg\n0,1\n1,1\n", "at least three rows"),
         ("time [s],flap_deg\n1,1\n0.5,2\n0,1\n", "the last time must be later than the first"),
+        ("phase,hinge_power [mW]\n0,1\n0.5,2\n1,1\n", "is in mw; convert it to SI units"),
+        ("# frequency [Hz] = 8,2\ntime,flap_deg\n0,1\n0.1,2\n0.2,1\n", "has a decimal comma"),
     ],
 )
 def test_a_wingbeat_with_a_fault_is_refused(show, text, told):

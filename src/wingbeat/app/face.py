@@ -87,7 +87,8 @@ class Face:
         if changed.get("model") in LATTICE_MODELS:
             wanted["model"] = changed["model"]
         speed = changed.get("speed")
-        if not wanted and type(speed) in (int, float) and abs(speed) <= FASTEST:
+        # A truth value counts as a number in Python, and a whole number may be too large for a float.
+        if not wanted and isinstance(speed, int | float) and speed is not True and 0 <= speed <= FASTEST:
             wanted["speed"] = float(speed)
         if wanted:
             self._ask(**wanted)

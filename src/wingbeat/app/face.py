@@ -88,7 +88,7 @@ class Face:
             wanted["model"] = changed["model"]
         speed = changed.get("speed")
         # A truth value counts as a number in Python, and a whole number may be too large for a float.
-        if not wanted and isinstance(speed, int | float) and speed is not True and 0 <= speed <= FASTEST:
+        if not wanted and isinstance(speed, int | float) and not isinstance(speed, bool) and 0 <= speed <= FASTEST:
             wanted["speed"] = float(speed)
         if wanted:
             self._ask(**wanted)

@@ -27,7 +27,7 @@ class Solver:
     """A session that solves nothing, and notes what it is asked to."""
 
     def __init__(self):
-        self.scenario, self.answer = HERE, ANSWER
+        self.scenario, self.answer, self.answered = HERE, ANSWER, HERE
         self.asked, self.cancelled = [], []
 
     def start(self, what, hear, background):

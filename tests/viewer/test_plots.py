@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from tests.helpers.browsers import AXE
+from tests.helpers.browsers import AXE, until
 from wingbeat.datasets import at_station
 
 VIEWER = "document.querySelector('.wb-viewer').viewer"
@@ -125,7 +125,7 @@ def test_zoom_by_drag_wheel_and_key(show, page_of_one):
     plot.dblclick(position={"x": 0.5 * box["width"], "y": 0.5 * box["height"]})
     assert zoomed(page) == [0, 1]
     page.mouse.wheel(0, -300)  # the plot has been clicked, so that it has the wheel
-    page.wait_for_function(f"{PLOTS}.range[1] - {PLOTS}.range[0] < 0.9")
+    until(page, f"{PLOTS}.range[1] - {PLOTS}.range[0] < 0.9")
     plot.focus()
     page.keyboard.press("0")
     assert zoomed(page) == [0, 1]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from tests.helpers.browsers import AXE
+from tests.helpers.browsers import AXE, until
 from wingbeat.cli import main
 from wingbeat.errors import InvalidInputError
 from wingbeat.stability.pushes import DIRECTIONS, SIZES
@@ -113,7 +113,7 @@ def test_a_push_is_shown_once_and_then_stands_still(show, page_of_pushes):
     page.get_by_role("button", name="Push", exact=True).click()
     assert page.evaluate(f"{VIEWER}.playing") is True
     page.evaluate(f"{VIEWER}.set({VIEWER}.last - 1e-6)")
-    page.wait_for_function(f"!{VIEWER}.playing")
+    until(page, f"!{VIEWER}.playing")
     assert page.evaluate(f"{VIEWER}.phase === {VIEWER}.last")
     # The next flight goes on from beat to beat.
     page.evaluate(f"{VIEWER}.replace({VIEWER}.pushes.scene)")

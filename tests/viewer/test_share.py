@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from PIL import Image, ImageSequence
 
+from tests.helpers.browsers import until
+
 VIEWER = "document.querySelector('.wb-viewer').viewer"
 NO_CLIPBOARD = "Object.defineProperty(navigator, 'clipboard', { value: undefined })"
 EYE = f"{VIEWER}.stage.camera.position.clone().sub({VIEWER}.stage.controls.target).toArray()"
@@ -30,6 +32,7 @@ def arranged(shown):
     page.mouse.move(x + 60, y + 20, steps=3)
     page.mouse.up()
     page.get_by_text("Share", exact=True).click()
+    until(page, "document.querySelector('.wb-share input').value !== ''")
     return page
 
 
@@ -41,7 +44,7 @@ def saved(page, path, button="Save"):
 
 
 def told(page, pattern):
-    page.wait_for_function("document.querySelector('.wb-told').textContent !== ''")
+    until(page, "document.querySelector('.wb-told').textContent !== ''")
     found = re.fullmatch(pattern, page.locator(".wb-told").inner_text())
     assert found, page.locator(".wb-told").inner_text()
     return found.groups()
@@ -60,7 +63,7 @@ def test_the_link_restores_phase_camera_and_choices(show, page_of_one):
     assert again.complaints == []
     # The same page follows another link, and what that one leaves out is as at the start.
     again.page.evaluate("location.hash = '#wb=1&phase=0.5&camera=top'")
-    again.page.wait_for_function(f"{VIEWER}.phase === 0.5")
+    until(again.page, f"{VIEWER}.phase === 0.5")
     phase, camera, colour, trails, choices, zoom = again.page.evaluate(SEEN)
     assert (phase, camera, colour, trails, zoom) == (0.5, "top", False, True, [0, 1])
     assert {choice["x"] for choice in choices} == {"phase"}
@@ -127,6 +130,7 @@ def test_the_gif_has_the_frames_and_the_width_asked_for(show, page_of_one, tmp_p
     page.get_by_label("Width").select_option("320")
     bar = page.get_by_label("Progress of the moving picture")
     assert bar.is_hidden()
+    page.wait_for_timeout(1000)
     pixels = page.evaluate(f"{VIEWER}.canvas.width")
     path = saved(page, tmp_path / "bat.gif")
     width, height, frames = told(page, r"Saved bat\.gif: (\d+) x (\d+) pixels, (\d+) frames, [\d.]+ [kM]B\.")
@@ -143,7 +147,7 @@ def test_the_gif_has_the_frames_and_the_width_asked_for(show, page_of_one, tmp_p
     beat = 1 / page.evaluate(f"{VIEWER}.flights[0].frequency * {VIEWER}.rate")
     assert seconds == pytest.approx(beat, rel=0.3)  # a GIF counts in hundredths of a second
     assert page.evaluate(f"{VIEWER}.phase") == 0.375
-    assert page.evaluate(f"{VIEWER}.canvas.width") == pixels
+    until(page, f"{VIEWER}.canvas.width === {pixels}")  # sharp again, once it stands
     assert bar.is_hidden()
     assert shown.complaints == []
     assert all(address.startswith(("file:", "blob:")) for address in shown.requests)

@@ -8,7 +8,8 @@ from tests.helpers.browsers import PATIENCE
 def solved(page, what):
     """Wait until an answer to this stands on the page and nothing is being solved."""
     script = """(what) => document.querySelector('.what')?.textContent.includes(what)
-        && document.querySelector('.state')?.textContent.startsWith('Solved')"""
+        && document.querySelector('.state')?.textContent.startsWith('Solved')
+        && document.querySelectorAll('.wbx-light').length === 2"""
     page.wait_for_function(script, arg=what, timeout=2 * PATIENCE)
 
 

@@ -12,6 +12,7 @@ import socket
 import subprocess
 import sys
 import threading
+from contextlib import suppress
 
 from tests.helpers.places import ROOT
 
@@ -166,7 +167,8 @@ class Forked:
     def send_signal(self, number):
         """Send it a signal unless it has ended."""
         if self.poll() is None:
-            os.kill(self.pid, number)
+            with suppress(ProcessLookupError):  # it ended in between
+                os.kill(self.pid, number)
 
     def kill(self):
         """End it now."""

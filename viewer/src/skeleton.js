@@ -1,7 +1,7 @@
 // Thin rods in a wing: bones of a bat, spars and ribs of a robot.
 
 // A rod through points [span fraction, metres ahead, metres up] with radii [m]; it keeps its thickness as the wing moves.
-// It may begin at a place in the body [x, y, z], so that the wing hangs on it at every angle.
+// It may begin at a place in the body [x, y, z], so that the wing stays attached to the body at every angle.
 export function addRod(sheet, planform, points, radii, tone, { around = 5, from } = {}) {
   const { semiSpan } = planform;
   const rows = points.map(([eta, ahead, up], i) => {

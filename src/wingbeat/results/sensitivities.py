@@ -332,7 +332,7 @@ def uncertainty_by_samples(
 
 def _compared(bar: ErrorBar, drawn: Samples, column: int, slopes: dict[str, Sensitivity]) -> Comparison:
     values = drawn.quantities[drawn.certified, column]
-    foretold = drawn.deviations[drawn.certified] @ [slopes[path].quantities[bar.quantity] for path in drawn.paths]
+    predicted = drawn.deviations[drawn.certified] @ [slopes[path].quantities[bar.quantity] for path in drawn.paths]
     deviation, error, explained = 0.0, 0.0, 1.0
     # All draws agree to their last digits if a bound or limit holds the quantity.
     if np.ptp(values) > _SAME * np.abs(values).max():
@@ -341,7 +341,7 @@ def _compared(bar: ErrorBar, drawn: Samples, column: int, slopes: dict[str, Sens
         # The error of a deviation from n draws, by their fourth moment.
         kurtosis = float(np.mean(centred**4)) / deviation**4
         error = deviation * np.sqrt(max(kurtosis - 1.0, 0.0) / (4 * len(values)))
-        explained = 1.0 - float(np.var(values - bar.value - foretold) / np.var(values))
+        explained = 1.0 - float(np.var(values - bar.value - predicted) / np.var(values))
     count = len(drawn.certified)
     stable = stable_share(values, count) if bar.quantity == "spectral_radius" else None
     return Comparison(bar, float(values.mean()), deviation, float(error), explained, len(values), count, stable)

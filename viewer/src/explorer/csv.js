@@ -1,4 +1,4 @@
-// Reads tables that a reader has: cells, columns by forgiving names, and numbers. All faults are told at once.
+// Reads tables that a reader has: cells, columns by forgiving names, and numbers. All faults of a file are reported together.
 
 export const MOST_ROWS = 5000;
 const MOST_BYTES = 2e6;

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from textwrap import fill
 from typing import TYPE_CHECKING
 
 import pandas as pd
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
 
 # Of some 40 correlations that are all zero, the largest of n pairs is about this over the root of n.
 BY_CHANCE = 2.4
+# In a line of a label of the figure, so that labels leave the bars half of the width.
+LETTERS = 46
 # Slow flight, of which the findings speak [m/s].
 SLOW = 7.0
 COLUMNS = (
@@ -142,7 +145,7 @@ def _band(one: Error) -> str:
 @drawing()
 def draw(errors: Sequence[Error], path: Path) -> None:
     """Draw the ratio of prediction to measurement, a line for each quantity and band of speeds."""
-    figure = new_figure(PAGE, 12 + 6.5 * len(errors))
+    figure = new_figure(PAGE, 12 + 9.5 * len(errors))
     axes = figure.subplots()
     for i, one in enumerate(errors):
         factor = AGREES[one.measurement.quantity]
@@ -157,7 +160,9 @@ def draw(errors: Sequence[Error], path: Path) -> None:
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks], minor=False)
     axes.set_xticks([], minor=True)
     names = [
-        f"{e.animal}: {label_of(e.measurement.quantity)}\n{_band(e)} m/s, {e.measurement.basis}" for e in errors
+        fill(f"{one.animal}: {label_of(one.measurement.quantity)}", LETTERS)
+        + f"\n{_band(one)} m/s, {one.measurement.basis}"
+        for one in errors
     ]
     axes.set_yticks(range(len(errors)), names, fontsize=FONT)
     axes.set_ylim(len(errors) - 0.5, -0.5)

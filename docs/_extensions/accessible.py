@@ -11,8 +11,10 @@ if TYPE_CHECKING:
 
 _PICTURE = re.compile(r'<img [^>]*src="((?:\.\./)*_images/([^"]+)(?<!_thumb)\.png)"[^>]*>')
 _UNNAMED = re.compile(r'alt="plot \d\d [^"]*"')
-# Pixels: figures as wide as a page of a journal have more than the last, those of one column lie between.
-_COLUMN, _WIDE = 1000, 1100
+# Pixels: a picture of the gallery that is wider than the first has several panels; figures as wide as a page of a
+# journal have more than the last, and those of one column lie between.
+_PANELS, _COLUMN, _WIDE = 700, 1000, 1100
+_SCROLLS = '<span class="scrolls">Scroll the figure sideways, or tap it to see it whole.</span>'
 _THUMBNAIL = re.compile(r'<a (class="reference internal" href="plot_[^"]+")>(<span class="doc">(.*?)</span>)')
 
 
@@ -39,8 +41,9 @@ def _linked(app: Sphinx, picture: re.Match[str]) -> str:
     file = Path(app.srcdir) / files.get(f"{picture[2]}.png", f"gallery/images/{picture[2]}.png")
     # A PNG file says its width in bytes 16 to 19.
     width = int.from_bytes(file.read_bytes()[16:20], "big") if file.is_file() else 0
-    kind = " wide" if width > _WIDE else " column" if width > _COLUMN else ""
-    return f'<a class="picture{kind}" href="{picture[1]}">{picture[0]}</a>'
+    kind = "wide" if width > _WIDE else "column" if width > _COLUMN else "panels" if width > _PANELS else "one"
+    link = f'<a class="picture {kind}" href="{picture[1]}">{picture[0]}</a>'
+    return link + _SCROLLS if kind in ("wide", "panels") else link
 
 
 def _plain(title: str) -> str:

@@ -52,7 +52,8 @@ export class Viewer {
     this.heading = make("div", { class: "wb-heading" });
     this.legend = make("div", { class: "wb-scale" });
     this.measures = new Measures();
-    this.picture = make("div", { class: "wb-picture" }, this.canvas, this.heading);
+    this.warning = make("p", { class: "wb-warning" }); // what the page that holds the viewer warns of, in the picture
+    this.picture = make("div", { class: "wb-picture" }, this.canvas, this.heading, this.warning);
     const legends = make("div", { class: "wb-legends" }, this.legend, this.measures.element);
     const frame = make("div", { class: "wb-frame" }, this.picture, legends);
     this.pushes = new Pushes(this.id, (scene, once) => this.demonstrate(scene, once));

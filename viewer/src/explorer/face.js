@@ -12,6 +12,7 @@ import styles from "./style.css";
 import { Tour } from "./tour.js";
 import { Verdict } from "./verdict.js";
 
+const UNCERTIFIED = "the closest wingbeat: it does not fly";
 let made = 0;
 
 export class Face {
@@ -162,10 +163,10 @@ export class Face {
     this.curve.mark(answer.speed);
     this.curve.pin(pinned?.status === "converged" ? pinned : undefined);
     this.numbers.replaceChildren(...rows(answer, pinned));
-    this.root.dataset.status = answer.status;
     this.picture.hidden = !answer.scene;
     if (answer.scene) this.fly(this.pins.scene(answer), answer.species);
-    else this.say("This flight tumbles before there is anything to show.");
+    if (this.viewer) this.viewer.warning.textContent = answer.status === "converged" ? "" : UNCERTIFIED;
+    if (!answer.scene) this.say("This flight tumbles before there is anything to show.");
     this.tellPush();
   }
 

@@ -161,7 +161,7 @@ class Page:
         self._controls.show(scenario)
         self._face.choose(scenario)
         if not self._curve.suits(scenario):
-            self._curve.cancel()
+            self._curve.pause()
         set_class(self._whole, "old-curve", not self._curve.suits(scenario))
         self._curve_panel.show_sweep(scenario)
         run_script(f"wingbeatPage.setQuery({json.dumps(to_query(scenario))})")

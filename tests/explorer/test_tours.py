@@ -76,6 +76,36 @@ def test_keys_go_on_back_and_out_and_the_view_follows(show):
     assert page.locator(".wbx-tour").is_hidden()
 
 
+CHOSEN = f"""(() => {{
+  const {{ viewer, pins }} = {FACE};
+  const boxes = [...viewer.root.querySelectorAll("[data-choice]")];
+  const chosen = boxes.map((one) => [one.dataset.choice, one.type === "checkbox" ? one.checked : one.value]);
+  return [chosen, viewer.stage.view, pins.answer?.speed, pins.ghost];
+}})()"""
+
+
+@pytest.mark.parametrize("pins", [True, False])
+def test_what_the_reader_had_chosen_is_back_after_a_tour(show, pins):
+    page = show(fragment="#animal=bat&model=paper&speed=6").page
+    if pins:
+        page.get_by_role("button", name="Pin this flight").click()
+        page.get_by_role("button", name="Show side by side").click()
+    page.get_by_text("Views, forces and plots").click()
+    page.get_by_label("Strips").select_option("strip_lift")
+    page.get_by_label("trails").uncheck()
+    page.get_by_label("resultant").uncheck()
+    page.get_by_role("button", name="top", exact=True).click()
+    before = page.evaluate(CHOSEN)
+    begin(page, "A plate against a fruit fly")
+    go(page, "Next")  # compares with the first step
+    assert page.evaluate(CHOSEN)[1:] != before[1:]
+    page.get_by_label("Strips").select_option("off")
+    page.keyboard.press("Escape")
+    assert page.evaluate(CHOSEN) == before
+    assert page.evaluate(f"{FACE}.viewer.look.strips") is True
+    assert page.evaluate(f"{FACE}.viewer.flights.length") == 1 + pins
+
+
 def test_a_gust_is_read_when_the_tour_needs_it_and_its_outcome_is_said(show, pushed):
     page, complaints, requests = show()
     assert not any("pushes" in url for url in requests)

@@ -135,6 +135,35 @@ def test_the_button_brings_the_gusts_also_from_another_speed(show, pushed):
     assert page.evaluate(f"{FACE}.viewer.last") > 1
 
 
+def test_the_link_of_a_push_shows_it_again(show, pushed):
+    page = show(fragment="#animal=pigeon&model=paper").page
+    page.get_by_role("button", name="Push it with a gust").click()
+    page.get_by_label("Gust", exact=True).select_option("tail")
+    page.get_by_role("checkbox", name="feedback").check()
+    page.get_by_role("button", name="Push", exact=True).click()
+    link = page.evaluate("location.hash")
+    assert link.endswith(f"&speed={pushed['speed']:g}&push=tail*1*feedback")
+    outcome = page.locator(".wb-outcome").inner_text()
+    page, complaints, _ = show(fragment=link)
+    wait_for(page, f"{FACE}.viewer.pushes.name === 'tail*1*feedback'")
+    assert page.locator(".wb-outcome").inner_text() == outcome
+    assert page.evaluate("location.hash") == link
+    page.get_by_role("button", name="Back to the orbit").click()
+    assert "push" not in page.evaluate("location.hash")
+    assert complaints == []
+
+
+def test_a_link_with_a_push_that_the_flight_lacks_shows_the_flight(show, pushed):
+    page, complaints, _ = show(fragment="#animal=pigeon&model=paper&speed=14&push=tail*1")
+    assert page.evaluate(f"{FACE}.answer.speed") == 14
+    assert page.evaluate("location.hash") == "#animal=pigeon&model=paper&speed=14"
+    page, complaints, _ = show(fragment=f"#animal=pigeon&speed={pushed['speed']:g}&push=sideways*9")
+    wait_for(page, "!location.hash.includes('push')")
+    assert page.locator(".wb-push").is_visible()
+    assert page.evaluate(f"{FACE}.viewer.last") == 1
+    assert complaints == []
+
+
 def test_a_step_without_its_flight_is_left_out_and_the_tour_says_so(show):
     page = show().page
     page.evaluate(f"() => {{ {FACE}.has = ({{ animal, model }}) => animal === 'bat' && model === 'paper'; }}")

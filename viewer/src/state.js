@@ -42,6 +42,7 @@ export function stateOf(viewer) {
   if (JSON.stringify(plots.choices) !== JSON.stringify(plots.first)) {
     state.set("plots", plots.choices.map(({ ys, x }) => `${ys.join(".")}~${x}`).join("*"));
   }
+  if (viewer.pushes.name) state.set("push", viewer.pushes.name);
   if (plots.range[0] > 0 || plots.range[1] < plots.last) state.set("zoom", digits(plots.range, 6));
   return state.toString().replaceAll("%2C", ",").replaceAll("%7E", "~");
 }
@@ -73,6 +74,7 @@ function setControl({ control, isBox, value, normal }, wanted = normal) {
 export function restore(viewer, text) {
   const state = new URLSearchParams(text);
   if (state.get(MARK) !== "1") return;
+  viewer.pushes.open(state.get("push") ?? "");
   viewer.pause();
   for (const one of controls(viewer)) setControl(one, state.get(`set.${one.name}`) ?? undefined);
   const plots = state

@@ -4,6 +4,7 @@ import { make } from "../elements.js";
 import { Viewer } from "../viewer.js";
 import { Curve } from "./curve.js";
 import { Gauges } from "./gauges.js";
+import { LinkedPush } from "./linked_push.js";
 import { short } from "./numbers.js";
 import { OwnData } from "./own_data.js";
 import { Pins } from "./pins.js";
@@ -24,6 +25,7 @@ export class Face {
     // `showPushes`; `onfile(file)` takes a species file.
     this.onpush = undefined;
     this.onfile = undefined;
+    this.onpushed = () => {}; // a push is shown, or no longer: what `linked` names
     this.theme = theme;
     this.id = `wbx${++made}`;
     this.verdict = new Verdict();
@@ -31,6 +33,7 @@ export class Face {
     this.gauges = new Gauges();
     this.pins = new Pins(() => this.show(), pinning);
     this.tour = new Tour(this);
+    this.linked = new LinkedPush(this);
     this.own = new OwnData(this);
     this.root = make("section", { class: "wbx", "aria-label": "Explorer" }, make("style", {}, styles + extraStyles));
     this.root.face = this;
@@ -92,6 +95,7 @@ export class Face {
     this.say("");
     this.show();
     if (this.pushing && this.pushSpeed(answer) === answer.speed) this.push();
+    else this.linked.heard();
     // After the page's source has done what belongs to this answer; a provisional one is no ground for a tour's words.
     if (!answer.provisional) queueMicrotask(() => this.tour.heard());
   }
@@ -134,6 +138,7 @@ export class Face {
 
   ask(change) {
     this.asked = { ...this.asked, ...change };
+    this.linked.want("");
     this.onask({ ...this.asked });
   }
 
@@ -186,6 +191,7 @@ export class Face {
         return;
       }
       this.own.overlay();
+      this.viewer.pushes.onchange = () => this.onpushed();
     }
     // A beat takes about a second; of one animal the rate stays, so that one sees it beat faster or slower.
     if (whose !== this.whose) this.viewer.setBeat(1);

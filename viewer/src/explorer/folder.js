@@ -9,14 +9,21 @@ export class Folder {
     this.catalogue = catalogue;
     this.lattices = new Map();
     this.pushes = new Map();
-    const given = this.fragment();
-    this.asked = chosen(catalogue.start, given);
+    this.asked = catalogue.start;
     this.face = new Face(element, {});
     this.face.onask = (asked) => this.ask(asked);
     this.face.onpush = () => this.push();
     this.face.onpushed = () => this.link();
     this.face.has = ({ animal, model, push }) => catalogue.files.includes(file(animal, model, push));
     this.face.pushSpeed = ({ species, model }) => this.pushSpeed(species, model);
+    window.addEventListener("hashchange", () => this.follow());
+    this.follow();
+  }
+
+  // Show what the page's address asks for.
+  follow() {
+    const given = this.fragment();
+    this.asked = chosen(this.asked, given);
     this.face.linked.want(given.push ?? "");
     this.ask(this.asked);
   }

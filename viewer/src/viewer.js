@@ -1,6 +1,6 @@
 // The viewer: picture, controls and plots in step at one phase of the beat.
 
-import { gradient, round, written } from "./colours.js";
+import { gradient } from "./colours.js";
 import { addControls, fold, FORCES, RATES, TINTS } from "./controls.js";
 import { make } from "./elements.js";
 import { Flight } from "./flight.js";
@@ -13,6 +13,7 @@ import { Share } from "./share.js";
 import shareStyles from "./share.css";
 import { restore, stateOf } from "./state.js";
 import styles from "./style.css";
+import { round, short } from "./writing.js";
 
 let made = 0;
 
@@ -162,7 +163,7 @@ export class Viewer {
     this.look.range = range / scale;
     const scaleBar = [
       make("div", { class: "wb-gradient", style: `background:${gradient()}` }),
-      make("div", { class: "wb-ends" }, ...[-range, 0, range].map((value) => make("span", {}, written(value)))),
+      make("div", { class: "wb-ends" }, ...[-range, 0, range].map((value) => make("span", {}, short(value)))),
       make("div", {}, `${label} [${unit}]`),
     ];
     const schematic = this.flights.some((flight) => flight.shape.schematic);

@@ -2,10 +2,10 @@
 
 import { make } from "../elements.js";
 import { Viewer } from "../viewer.js";
+import { short } from "../writing.js";
 import { Curve } from "./curve.js";
 import { Gauges } from "./gauges.js";
 import { LinkedPush } from "./linked_push.js";
-import { short } from "./numbers.js";
 import { OwnData } from "./own_data.js";
 import { Pins } from "./pins.js";
 import extraStyles from "./extras.css";

@@ -188,9 +188,10 @@ export class Face {
         this.blind = true;
         const text = "This browser cannot draw in three dimensions: WebGL is missing or switched off.";
         this.picture.replaceChildren(make("p", {}, text));
+        this.own.show();
         return;
       }
-      this.own.overlay();
+      this.own.show();
       this.viewer.pushes.onchange = () => this.onpushed();
     }
     // A beat takes about a second; of one animal the rate stays, so that one sees it beat faster or slower.

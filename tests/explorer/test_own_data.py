@@ -105,7 +105,7 @@ def test_a_wingbeat_that_comes_before_the_first_picture_is_drawn_with_it(show):
         }"""
     )
     assert words[0].startswith("beat.csv: drawn with the first picture")
-    assert words[1].startswith("beat.csv: flap angle as dashed lines in the plots"), words
+    assert "as dashed lines in the plots" in words[1]
     assert words[2] == 1
     assert complaints == []
 

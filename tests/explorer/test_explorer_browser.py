@@ -190,6 +190,21 @@ def test_an_uncertified_flight_is_told_in_words(show, answers):
     assert page.get_by_role("button", name="Pin this flight").is_disabled()
 
 
+@pytest.mark.parametrize("width", [1440, 1024, 390])
+def test_a_long_list_of_warnings_ends_at_a_whole_line(show, width):
+    page = show(width=width).page
+    texts = [f"Warning {nth}: {'a number lies outside its plausible range, ' * 2}of birds." for nth in range(9)]
+    page.evaluate(f"texts => {FACE}.showAnswer({{ ...{FACE}.answer, warnings: texts }})", texts)
+    fold = page.locator(".wbx-warnings")
+    if fold.get_attribute("open") is None:
+        fold.locator("summary").click()
+    shown, whole, line = fold.locator("ul").evaluate(
+        "it => [it.getBoundingClientRect().height, it.scrollHeight, parseFloat(getComputedStyle(it).lineHeight)]"
+    )
+    assert whole > shown
+    assert shown / line == pytest.approx(round(shown / line), abs=0.02)
+
+
 def test_on_a_phone_the_animal_is_in_the_first_screen(show):
     page = show(width=390, height=844).page
     box = page.locator(".wbx canvas").bounding_box()

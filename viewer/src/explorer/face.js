@@ -8,8 +8,7 @@ import { Gauges } from "./gauges.js";
 import { LinkedPush } from "./linked_push.js";
 import { OwnData } from "./own_data.js";
 import { Pins } from "./pins.js";
-import extraStyles from "./extras.css";
-import styles from "./style.css";
+import { styles } from "./styles.js";
 import { Tour } from "./tour.js";
 import { Verdict } from "./verdict.js";
 
@@ -35,7 +34,7 @@ export class Face {
     this.tour = new Tour(this);
     this.linked = new LinkedPush(this);
     this.own = new OwnData(this);
-    this.root = make("section", { class: "wbx", "aria-label": "Explorer" }, make("style", {}, styles + extraStyles));
+    this.root = make("section", { class: "wbx", "aria-label": "Explorer" }, make("style", {}, styles));
     this.root.face = this;
     this.build();
     this.setTheme(theme);

@@ -123,7 +123,7 @@ def test_a_push_is_shown_once_and_then_stands_still(show, page_of_pushes):
 def test_a_link_restores_the_push_that_is_shown(show, page_of_pushes):
     page = show(page_of_pushes, height=900).page
     page.get_by_label("Gust").select_option("downward")
-    page.get_by_label("Size").select_option("2")
+    page.get_by_label("Size").select_option("3")
     page.get_by_role("checkbox", name="feedback").check()
     page.get_by_role("button", name="Push", exact=True).click()
     page.evaluate(f"{VIEWER}.set(1.5)")

@@ -14,7 +14,8 @@ from pathlib import Path
 import uvicorn
 from playwright.sync_api import Page, sync_playwright
 
-from wingbeat.app.server import House, build
+from wingbeat.app.house import House
+from wingbeat.app.site import build
 
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--enable-unsafe-swiftshader"]
 PATIENCE = 120_000  # ms

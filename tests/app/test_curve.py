@@ -97,6 +97,29 @@ def test_what_is_cancelled_keeps_its_points_and_hears_no_more(curve, solver):
     assert curve.state == "Cancelled after 1 of 5 speeds."
 
 
+@pytest.mark.parametrize("whole", [False, True])
+def test_a_paused_curve_is_finished_when_its_scenario_comes_back(curve, solver, whole):
+    if whole:
+        curve.start()
+    else:
+        curve.follow(HERE, ANSWER)
+    solver.solve()
+    curve.pause()
+    assert (curve.state, curve.is_running) == ("Paused after 1 of 5 speeds.", False)
+    curve.pause()  # each change of the controls tells it
+    curve.follow(HERE, ANSWER)
+    while curve.is_running:
+        solver.solve()
+    assert [point["speed"] for point in curve.points] == HERE.speeds()
+    assert [what["whole"] for what in solver.asked] == [whole] * 5 + [whole]  # the interrupted one twice
+    # What the visitor has cancelled stays cancelled, and so does what another scenario has replaced.
+    curve.start()
+    curve.pause()
+    curve.cancel()
+    curve.follow(HERE, ANSWER)
+    assert not curve.is_running
+
+
 def test_a_solver_that_dies_is_told_of(curve, solver):
     curve.follow(HERE, ANSWER)
     solver.hear(Event("lost", "SIGKILL"))

@@ -1,29 +1,21 @@
 """A small static explorer, and pages that show it."""
 
 import base64
+import functools
 import gzip
 import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
 
 import wingbeat as wb
-from tests.helpers.browsers import PATIENCE
+from tests.helpers.browsers import shown_files
 from wingbeat.explorer import face_of, write_explorer
 from wingbeat.explorer.lattice import lattice_of
 
 SPEEDS = {"pigeon": (8.0, 10.0, 12.0, 14.0), "bat": (6.0, 8.0)}
-
-
-class Shown(NamedTuple):
-    """A page with what it complained of and what it asked for."""
-
-    page: object
-    complaints: list[str]
-    requests: list[str]
 
 
 @pytest.fixture(scope="session")
@@ -76,22 +68,6 @@ def read_script(path: Path) -> list:
 
 @pytest.fixture
 def show(browser, folder) -> Iterator:
-    """Open the explorer from disk in a page of its own; still, for software draws slowly."""
-    contexts = []
-
-    def opened(width: int = 1280, height: int = 844, fragment: str = "", **options) -> Shown:
-        options = {"viewport": {"width": width, "height": height}, "reduced_motion": "reduce"} | options
-        context = browser.new_context(**options)
-        contexts.append(context)
-        page, complaints, requests = context.new_page(), [], []
-        page.set_default_timeout(PATIENCE)
-        page.on("console", lambda m: complaints.append(m.text) if "GL Driver Message" not in m.text else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.on("request", lambda request: requests.append(request.url))
-        page.goto(f"{(folder / 'index.html').as_uri()}{fragment}")
-        page.wait_for_selector(".wbx canvas")
-        return Shown(page, complaints, requests)
-
-    yield opened
-    for context in contexts:
-        context.close()
+    """Open the explorer from disk in a page of its own."""
+    with shown_files(browser, ".wbx canvas", 1280, 844) as opened:
+        yield functools.partial(opened, folder / "index.html")

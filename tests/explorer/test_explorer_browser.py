@@ -87,6 +87,24 @@ def test_another_animal_is_loaded_and_its_link_opens_it(show, answers):
     assert sentence(page) == answers["bat"][1]["sentence"]
 
 
+def test_a_link_put_into_the_open_page_is_followed(show, answers):
+    page, complaints, _ = show(fragment="#animal=pigeon&model=paper&speed=12")
+    for fragment, answer in (
+        ("#animal=bat&model=paper&speed=8", answers["bat"][1]),
+        ("#speed=6", answers["bat"][0]),
+        ("#animal=pigeon&speed=14", answers["pigeon"][3]),
+    ):
+        page.evaluate("fragment => (location.hash = fragment)", fragment)
+        page.locator(".wbx h1", has_text=answer["sentence"]).wait_for()
+        assert page.get_by_label("Animal", exact=True).input_value() == answer["species"]
+        assert page.evaluate("location.hash").startswith(f"#animal={answer['species']}&model=")
+        assert page.evaluate("location.hash").endswith(f"&speed={answer['speed']:g}")
+    page.evaluate("location.hash = '#animal=unicorn&speed=fast'")
+    page.wait_for_function("!location.hash.includes('unicorn')")
+    assert sentence(page) == answers["pigeon"][3]["sentence"]
+    assert complaints == []
+
+
 def test_numbers_stand_out_in_the_sentence_but_not_those_of_a_name(show):
     page = show().page
     words = "A RoboFalcon2.0 robot at 6 m/s beats 3.8 times a second and needs 112 W."
@@ -170,6 +188,21 @@ def test_an_uncertified_flight_is_told_in_words(show, answers):
     assert page.locator(".wbx-picture").is_hidden()
     assert "tumbles" in page.locator(".wbx-state").inner_text()
     assert page.get_by_role("button", name="Pin this flight").is_disabled()
+
+
+@pytest.mark.parametrize("width", [1440, 1024, 390])
+def test_a_long_list_of_warnings_ends_at_a_whole_line(show, width):
+    page = show(width=width).page
+    texts = [f"Warning {nth}: {'a number lies outside its plausible range, ' * 2}of birds." for nth in range(9)]
+    page.evaluate(f"texts => {FACE}.showAnswer({{ ...{FACE}.answer, warnings: texts }})", texts)
+    fold = page.locator(".wbx-warnings")
+    if fold.get_attribute("open") is None:
+        fold.locator("summary").click()
+    shown, whole, line = fold.locator("ul").evaluate(
+        "it => [it.getBoundingClientRect().height, it.scrollHeight, parseFloat(getComputedStyle(it).lineHeight)]"
+    )
+    assert whole > shown
+    assert shown / line == pytest.approx(round(shown / line), abs=0.02)
 
 
 def test_on_a_phone_the_animal_is_in_the_first_screen(show):

@@ -89,6 +89,27 @@ def test_headers_are_read_forgivingly(show, header):
     assert points == [[8, 9.5], [10, 9.25]]
 
 
+def test_a_wingbeat_that_comes_before_the_first_picture_is_drawn_with_it(show):
+    page, complaints, _ = show()
+    words = page.evaluate(
+        """async () => {
+            const { answer } = document.querySelector(".wbx").face;
+            const face = wingbeatExplorer.explore(document.body, { pinning: false });
+            const told = () => face.own.list.textContent;
+            await face.own.read(new File(["phase,flap_deg\\n0,40\\n0.5,-30\\n1,40\\n"], "beat.csv"));
+            const found = [told()];
+            face.showAnswer(answer);
+            found.push(told(), face.viewer.plots.own.length);
+            face.destroy();
+            return found;
+        }"""
+    )
+    assert words[0].startswith("beat.csv: drawn with the first picture")
+    assert "as dashed lines in the plots" in words[1]
+    assert words[2] == 1
+    assert complaints == []
+
+
 def test_every_fault_of_a_file_is_told_at_once(show):
     page = show().page
     give(page, ("bad.csv", "speed [km/h];power [W];label\n5;41;x\n7,5;38;y\nabc;39\n9;-3;z\n;12;z\n"))

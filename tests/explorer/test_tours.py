@@ -76,6 +76,36 @@ def test_keys_go_on_back_and_out_and_the_view_follows(show):
     assert page.locator(".wbx-tour").is_hidden()
 
 
+CHOSEN = f"""(() => {{
+  const {{ viewer, pins }} = {FACE};
+  const boxes = [...viewer.root.querySelectorAll("[data-choice]")];
+  const chosen = boxes.map((one) => [one.dataset.choice, one.type === "checkbox" ? one.checked : one.value]);
+  return [chosen, viewer.stage.view, pins.answer?.speed, pins.ghost];
+}})()"""
+
+
+@pytest.mark.parametrize("pins", [True, False])
+def test_what_the_reader_had_chosen_is_back_after_a_tour(show, pins):
+    page = show(fragment="#animal=bat&model=paper&speed=6").page
+    if pins:
+        page.get_by_role("button", name="Pin this flight").click()
+        page.get_by_role("button", name="Show side by side").click()
+    page.get_by_text("Views, forces and plots").click()
+    page.get_by_label("Strips").select_option("strip_lift")
+    page.get_by_label("trails").uncheck()
+    page.get_by_label("resultant").uncheck()
+    page.get_by_role("button", name="top", exact=True).click()
+    before = page.evaluate(CHOSEN)
+    begin(page, "A plate against a fruit fly")
+    go(page, "Next")  # compares with the first step
+    assert page.evaluate(CHOSEN)[1:] != before[1:]
+    page.get_by_label("Strips").select_option("off")
+    page.keyboard.press("Escape")
+    assert page.evaluate(CHOSEN) == before
+    assert page.evaluate(f"{FACE}.viewer.look.strips") is True
+    assert page.evaluate(f"{FACE}.viewer.flights.length") == 1 + pins
+
+
 def test_a_gust_is_read_when_the_tour_needs_it_and_its_outcome_is_said(show, pushed):
     page, complaints, requests = show()
     assert not any("pushes" in url for url in requests)
@@ -103,6 +133,35 @@ def test_the_button_brings_the_gusts_also_from_another_speed(show, pushed):
     page.get_by_label("Gust", exact=True).select_option("tail")
     page.get_by_role("button", name="Push", exact=True).click()
     assert page.evaluate(f"{FACE}.viewer.last") > 1
+
+
+def test_the_link_of_a_push_shows_it_again(show, pushed):
+    page = show(fragment="#animal=pigeon&model=paper").page
+    page.get_by_role("button", name="Push it with a gust").click()
+    page.get_by_label("Gust", exact=True).select_option("tail")
+    page.get_by_role("checkbox", name="feedback").check()
+    page.get_by_role("button", name="Push", exact=True).click()
+    link = page.evaluate("location.hash")
+    assert link.endswith(f"&speed={pushed['speed']:g}&push=tail*1*feedback")
+    outcome = page.locator(".wb-outcome").inner_text()
+    page, complaints, _ = show(fragment=link)
+    wait_for(page, f"{FACE}.viewer.pushes.name === 'tail*1*feedback'")
+    assert page.locator(".wb-outcome").inner_text() == outcome
+    assert page.evaluate("location.hash") == link
+    page.get_by_role("button", name="Back to the orbit").click()
+    assert "push" not in page.evaluate("location.hash")
+    assert complaints == []
+
+
+def test_a_link_with_a_push_that_the_flight_lacks_shows_the_flight(show, pushed):
+    page, complaints, _ = show(fragment="#animal=pigeon&model=paper&speed=14&push=tail*1")
+    assert page.evaluate(f"{FACE}.answer.speed") == 14
+    assert page.evaluate("location.hash") == "#animal=pigeon&model=paper&speed=14"
+    page, complaints, _ = show(fragment=f"#animal=pigeon&speed={pushed['speed']:g}&push=sideways*9")
+    wait_for(page, "!location.hash.includes('push')")
+    assert page.locator(".wb-push").is_visible()
+    assert page.evaluate(f"{FACE}.viewer.last") == 1
+    assert complaints == []
 
 
 def test_a_step_without_its_flight_is_left_out_and_the_tour_says_so(show):

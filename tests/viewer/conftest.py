@@ -2,44 +2,18 @@
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
 
 import wingbeat as wb
-from tests.helpers.browsers import PATIENCE
-
-
-class Shown(NamedTuple):
-    """A page with what it complained of and what it asked for."""
-
-    page: object
-    complaints: list[str]
-    requests: list[str]
+from tests.helpers.browsers import shown_files
 
 
 @pytest.fixture
 def show(browser) -> Iterator:
-    """Open a file in a page of its own, and wait for the viewer in it; still, for software draws slowly."""
-    contexts = []
-
-    def opened(path: Path, width: int = 900, height: int = 600, fragment: str = "", **options) -> Shown:
-        options = {"viewport": {"width": width, "height": height}, "reduced_motion": "reduce"} | options
-        context = browser.new_context(**options)
-        contexts.append(context)
-        page, complaints, requests = context.new_page(), [], []
-        page.set_default_timeout(PATIENCE)
-        # What software rendering says of reading pixels back is about screenshots.
-        page.on("console", lambda m: complaints.append(m.text) if "GL Driver Message" not in m.text else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.on("request", lambda request: requests.append(request.url))
-        page.goto(f"{path.as_uri()}{fragment}")
-        page.wait_for_selector(".wb-viewer canvas")
-        return Shown(page, complaints, requests)
-
-    yield opened
-    for context in contexts:
-        context.close()
+    """Open a file in a page of its own, and wait for the viewer in it."""
+    with shown_files(browser, ".wb-viewer canvas", 900, 600) as opened:
+        yield opened
 
 
 @pytest.fixture(scope="session")

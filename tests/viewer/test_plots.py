@@ -184,6 +184,42 @@ def test_the_picture_shows_the_plot_in_the_theme(show, page_of_one, tmp_path, th
     assert colours[curve] > 1000
 
 
+NOTE_PICTURES = """() => {
+    const own = Object.getOwnPropertyDescriptor(HTMLImageElement.prototype, "src");
+    const set = function (address) { own.set.call(this, (window.copied = address)); };
+    Object.defineProperty(HTMLImageElement.prototype, "src", { ...own, set });
+}"""
+# How the copy of a plot is drawn where no style sheet of the page reaches it, and how the page draws the plot.
+BOTH_DRAWN = """(address) => {
+    const looks = ["fill", "fill-opacity", "opacity", "visibility", "stroke", "stroke-opacity", "stroke-width"];
+    looks.push("stroke-dasharray", "stroke-linecap", "stroke-linejoin", "font-size", "font-weight");
+    const text = decodeURIComponent(address.slice(address.indexOf(",") + 1));
+    const host = document.body.appendChild(document.createElement("div"));
+    const place = host.attachShadow({ mode: "open" });
+    place.append(document.importNode(new DOMParser().parseFromString(text, "image/svg+xml").documentElement, true));
+    const plot = document.querySelectorAll(".wb-card")[2];
+    return [plot, place].flatMap((root) =>
+        [".wb-curve", ".wb-thick", ".wb-start", ".wb-grid", ".wb-zero", ".wb-tick"].map((name) => {
+            const style = getComputedStyle(root.querySelector(name));
+            return looks.map((look) => `${name} ${look}: ${style.getPropertyValue(look)}`);
+        }),
+    );
+}"""
+
+
+def test_a_copied_plot_looks_as_the_drawn_one(show, page_of_one):
+    page = show(page_of_one).page
+    page.evaluate(NO_CLIPBOARD)
+    page.evaluate(NOTE_PICTURES)
+    page.get_by_label("Plot 3 against").select_option("flap")
+    downloaded(page, "Copy plot 3 as PNG picture")
+    both = page.evaluate(BOTH_DRAWN, page.evaluate("window.copied"))
+    drawn, copied = both[: len(both) // 2], both[len(both) // 2 :]
+    assert copied == drawn
+    assert ".wb-thick opacity: 0.4" in drawn[1]
+    assert ".wb-thick stroke-linecap: round" in drawn[1]
+
+
 def test_plots_keep_their_choices_with_another_flight(show, page_of_one, page_of_two):
     page = show(page_of_two).page
     page.get_by_label("Curve 1 of plot 4").select_option("flap")

@@ -120,6 +120,30 @@ def test_a_push_is_shown_once_and_then_stands_still(show, page_of_pushes):
     assert page.evaluate(f"[{VIEWER}.once, {VIEWER}.playing]") == [False, True]
 
 
+def test_a_link_restores_the_push_that_is_shown(show, page_of_pushes):
+    page = show(page_of_pushes, height=900).page
+    page.get_by_label("Gust").select_option("downward")
+    page.get_by_label("Size").select_option("3")
+    page.get_by_role("checkbox", name="feedback").check()
+    page.get_by_role("button", name="Push", exact=True).click()
+    page.evaluate(f"{VIEWER}.set(1.5)")
+    outcome = page.locator(".wb-outcome").inner_text()
+    seen = f"[{VIEWER}.phase, {VIEWER}.last, {VIEWER}.flights[0].summary]"
+    state = page.evaluate(f"{VIEWER}.state")
+    again = show(page_of_pushes, fragment=f"#{state}", reduced_motion="no-preference").page
+    assert again.evaluate(seen) == page.evaluate(seen)
+    assert again.evaluate(seen)[0] == 1.5
+    assert again.locator(".wb-outcome").inner_text() == outcome
+    assert again.get_by_label("Gust", exact=True).input_value() == "downward"
+    assert not again.evaluate(f"{VIEWER}.playing")
+    # A link without a push, or with one that the page lacks, shows the orbit.
+    for other in ("#wb=1&phase=0.5", "#wb=1&phase=0.25&push=sideways*1"):
+        again.evaluate("state => (location.hash = state)", state)
+        until(again, f"{VIEWER}.last > 1")
+        again.evaluate("other => (location.hash = other)", other)
+        until(again, f"{VIEWER}.last === 1")
+
+
 def test_a_page_without_pushes_offers_none(show, page_of_one):
     assert show(page_of_one).page.locator(".wb-push").is_hidden()
 

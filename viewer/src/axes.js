@@ -1,21 +1,14 @@
 // Two axes with ticks, and what a reader does with them: choose a place, drag a range, zoom by wheel or by key.
 
-import { round, written } from "./colours.js";
 import { draw } from "./elements.js";
 import { inUnit } from "./series.js";
+import { short, ticks } from "./writing.js";
 
 const [WIDTH, HEIGHT] = [320, 150];
 const EDGE = { left: 46, right: 10, top: 16, bottom: 24 };
 export const INNER = { width: WIDTH - EDGE.left - EDGE.right, height: HEIGHT - EDGE.top - EDGE.bottom };
 const SHORTEST_DRAG = 6; // of the picture's units; a shorter one is a click
 let made = 0;
-
-function ticks(low, high, most) {
-  const step = round((high - low) / most);
-  const found = [];
-  for (let nth = Math.ceil(low / step - 1e-9); nth * step <= high + 1e-9 * step; nth++) found.push(nth * step);
-  return found.map((at) => (Math.abs(at) < 1e-9 * step ? 0 : at));
-}
 
 export class Axes {
   // `units`: of x and of y. A subclass has `seek(x, y)`, `zoomBy(factor, x, y)`, `zoomTo(from, to)` and `reset()`.
@@ -65,12 +58,12 @@ export class Axes {
       draw(
         "text",
         { class: "wb-tick", x: EDGE.left - 5, y: this.y(value) + 3.5, "text-anchor": "end" },
-        written(value),
+        short(value),
       ),
     ]);
     const columns = ticks(...across, 5).flatMap((value) => [
       this.line(value, { x1: this.x(value), x2: this.x(value), y1: EDGE.top, y2: foot }),
-      draw("text", { class: "wb-tick", x: this.x(value), y: foot + 13, "text-anchor": "middle" }, written(value)),
+      draw("text", { class: "wb-tick", x: this.x(value), y: foot + 13, "text-anchor": "middle" }, short(value)),
     ]);
     const units = [
       draw("text", { class: "wb-unit", x: EDGE.left - 5, y: 10, "text-anchor": "end" }, inUnit(this.units[1])),

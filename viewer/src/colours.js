@@ -51,13 +51,3 @@ export function themeOf(ink) {
   const [r, g, b] = ink.match(/[\d.]+/g).map(Number);
   return 0.3 * r + 0.6 * g + 0.1 * b > 127 ? "dark" : "light";
 }
-
-// A number that a person would choose, at least `least`: one of these figures times a power of ten.
-export function round(least, figures = [1, 2, 5, 10]) {
-  const power = 10 ** Math.floor(Math.log10(least));
-  return figures.map((figure) => figure * power).find((figure) => figure >= least * (1 - 1e-9));
-}
-
-export function written(value) {
-  return Number(value.toPrecision(3)).toString();
-}

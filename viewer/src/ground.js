@@ -3,7 +3,7 @@
 
 import * as THREE from "three";
 import { Backdrop } from "./backdrop.js";
-import { round } from "./colours.js";
+import { round } from "./writing.js";
 
 // Squares from the animal to the edge of the pattern; every fourth line is a heavy one.
 const [REACH, HEAVY] = [24, 4];

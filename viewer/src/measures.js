@@ -1,9 +1,10 @@
 // What the air in the picture measures: the scale of the arrows, the colours of the trails, the squares of the ground.
 
-import { amounts, written } from "./colours.js";
+import { amounts } from "./colours.js";
 import { make } from "./elements.js";
 import { outerForce, outerStrips } from "./paths.js";
 import { ScaleBar } from "./scale_bar.js";
+import { short } from "./writing.js";
 
 export class Measures {
   constructor() {
@@ -27,10 +28,10 @@ export class Measures {
     const count = outerStrips(flight);
     this.trails.replaceChildren(
       make("div", { class: "wb-gradient", style: `background:${amounts()}` }),
-      make("div", { class: "wb-ends" }, make("span", {}, "0"), make("span", {}, written(look.tipForce))),
+      make("div", { class: "wb-ends" }, make("span", {}, "0"), make("span", {}, short(look.tipForce))),
       make("div", {}, `trails: force on ${count > 1 ? `${count} outer strips` : "the outer strip"} [N]`),
     );
-    this.ground.textContent = `squares of ${written(cell)} m`;
+    this.ground.textContent = `squares of ${short(cell)} m`;
   }
 
   // The bar follows the camera: it is drawn anew with every picture.

@@ -2,13 +2,14 @@
 
 import { Axes, scaled } from "./axes.js";
 import { draw } from "./elements.js";
-import { ends, sentence, valueAt, valuesOf } from "./series.js";
+import { ends, valueAt, valuesOf } from "./series.js";
+import { capital } from "./writing.js";
 
 export class Panel extends Axes {
   // `curves`: series of one unit; `seek(phase)` and `zoom(range)`: what the reader chooses here; `own()`: curves of the
   // reader's own.
   constructor(curves, flights, last, { seek, zoom, own }) {
-    super(`${sentence(curves.map((curve) => curve.label).join(" and "))} along the beat`, ["", curves[0].unit]);
+    super(`${capital(curves.map((curve) => curve.label).join(" and "))} along the beat`, ["", curves[0].unit]);
     [this.series, this.flights, this.whole] = [curves, flights, [0, last]];
     this.seek = seek;
     this.zoom = zoom;

@@ -2,13 +2,14 @@
 
 import { Axes, INNER, scaled } from "./axes.js";
 import { draw } from "./elements.js";
-import { ends, sentence, valueAt, valuesOf } from "./series.js";
+import { ends, valueAt, valuesOf } from "./series.js";
+import { capital } from "./writing.js";
 
 const CLOSED = 1e-3; // of the range: closer than this, the last sample is the first of the next beat
 
 export class Portrait extends Axes {
   constructor(across, along, flights, { seek }) {
-    super(`${sentence(along.label)} against ${across.label}`, [across.unit, along.unit]);
+    super(`${capital(along.label)} against ${across.label}`, [across.unit, along.unit]);
     [this.xs, this.ys] = [across, along].map((series) => flights.map((flight) => valuesOf(flight, series)));
     [this.series, this.flights] = [[across, along], flights];
     this.wholes = [ends(this.xs), ends(this.ys)];

@@ -2,6 +2,7 @@
 
 import { make } from "./elements.js";
 
+const nameOf = ({ direction, size, feedback }) => [direction, size, ...(feedback ? ["feedback"] : [])].join("*");
 const unique = (values) => [...new Set(values)];
 
 export class Pushes {
@@ -10,6 +11,8 @@ export class Pushes {
     this.id = id;
     this.show = show;
     this.pushes = [];
+    this.shown = undefined; // the push whose flight is shown
+    this.onchange = () => {};
     this.element = make("fieldset", { class: "wb-bar wb-push", hidden: true });
   }
 
@@ -17,6 +20,7 @@ export class Pushes {
   offer(scene) {
     this.scene = scene;
     this.pushes = scene.pushes ?? [];
+    this.mark(undefined);
     this.element.hidden = this.pushes.length === 0;
     if (this.element.hidden) return;
     this.direction = this.choice("Gust", unique(this.pushes.map((push) => push.direction)));
@@ -62,10 +66,11 @@ export class Pushes {
   }
 
   push() {
-    const { scene, outcome } = this.chosen;
-    this.outcome.textContent = outcome;
+    const { chosen } = this;
+    this.outcome.textContent = chosen.outcome;
     this.back.hidden = false;
-    this.show(scene, true);
+    this.show(chosen.scene, true);
+    this.mark(chosen);
   }
 
   reset() {
@@ -73,5 +78,24 @@ export class Pushes {
     this.outcome.textContent = "";
     this.back.hidden = true;
     this.show(this.scene, false);
+    this.mark(undefined);
+  }
+
+  mark(push) {
+    const changed = push !== this.shown;
+    this.shown = push;
+    if (changed) this.onchange();
+  }
+
+  // The push that is shown, as a text for a link; empty if none is.
+  get name() {
+    return this.shown ? nameOf(this.shown) : "";
+  }
+
+  // Show the push of such a text; without one, or with one that the scene lacks, the orbit.
+  open(name) {
+    const found = this.pushes.find((push) => nameOf(push) === name);
+    if (found) this.choose(found);
+    else this.reset();
   }
 }

@@ -2,6 +2,7 @@
 /*! GIFs are written by gifenc 1.0.3, copyright 2017 Matt DesLauriers, MIT license */
 
 import { applyPalette, GIFEncoder, quantize } from "gifenc";
+import { Film } from "./frames.js";
 
 const [MOST_FRAMES, FEWEST_FRAMES] = [48, 12];
 const SHORTEST_FRAME = 20; // ms; viewers of GIFs show shorter ones slowly
@@ -18,130 +19,6 @@ export function videos() {
     ({ type }) => window.MediaRecorder?.isTypeSupported(type) && HTMLCanvasElement.prototype.captureStream,
   );
   return able.filter(({ ending }, nth) => able.findIndex((other) => other.ending === ending) === nth);
-}
-
-// The words that stand in an element, with the boxes of the page that they fill.
-function words(element) {
-  const found = [];
-  const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
-  const range = document.createRange();
-  while (walker.nextNode()) {
-    const { currentNode: node } = walker;
-    for (const { 0: word, index } of node.textContent.matchAll(/\S+/g)) {
-      range.setStart(node, index);
-      range.setEnd(node, index + word.length);
-      const box = range.getBoundingClientRect();
-      if (box.width) found.push([word, box]);
-    }
-  }
-  return found;
-}
-
-// A canvas of a width in pixels, on which the viewer's picture is painted with its texts.
-class Film {
-  constructor(viewer, width) {
-    this.viewer = viewer;
-    const { clientWidth, clientHeight } = viewer.picture;
-    this.ratio = width / clientWidth;
-    this.canvas = document.createElement("canvas");
-    this.canvas.width = width;
-    this.canvas.height = 2 * Math.round((0.5 * width * clientHeight) / clientWidth); // videos want even numbers
-    this.pen = this.canvas.getContext("2d", { willReadFrequently: true });
-    this.before = { phase: viewer.phase, playing: viewer.playing };
-    viewer.pause();
-    const { renderer, camera } = viewer.stage;
-    renderer.setPixelRatio(1);
-    renderer.setSize(width, this.canvas.height, false);
-    camera.aspect = width / this.canvas.height;
-    camera.updateProjectionMatrix();
-  }
-
-  paint(phase) {
-    const { viewer, pen, canvas } = this;
-    const { stage } = viewer;
-    viewer.set(phase);
-    stage.render(); // at once: the drawing is gone after this task
-    pen.setTransform(1, 0, 0, 1, 0, 0);
-    pen.fillStyle = getComputedStyle(viewer.root).backgroundColor;
-    pen.fillRect(0, 0, canvas.width, canvas.height);
-    pen.drawImage(viewer.canvas, 0, 0, canvas.width, canvas.height);
-    this.write();
-  }
-
-  // The texts and legends that the page lays over the picture, in the same corners, and the phase.
-  write() {
-    const { viewer, pen, canvas } = this;
-    const { color, backgroundColor } = getComputedStyle(viewer.root);
-    pen.fillStyle = pen.strokeStyle = color;
-    pen.shadowColor = backgroundColor; // as in the page, a soft edge makes texts legible over the picture
-    pen.shadowBlur = 3;
-    this.writePart(viewer.heading, 0, 0);
-    this.writePart(viewer.legend, 0, 1);
-    this.writePart(viewer.measures.element, 1, 1);
-    pen.font = `${13 * this.enlarged}px system-ui, sans-serif`;
-    pen.textBaseline = "middle";
-    pen.textAlign = "center";
-    pen.fillText(viewer.readout.textContent, 0.5 * canvas.width, canvas.height - 18 * this.enlarged);
-    pen.textAlign = "left";
-    pen.shadowBlur = 0;
-  }
-
-  // Texts are not made smaller than three quarters: they would be illegible.
-  get enlarged() {
-    return Math.max(this.ratio, 0.75);
-  }
-
-  // One part, which keeps its distance to a corner of the picture: `right` and `foot` are 0 or 1.
-  writePart(part, right, foot) {
-    const { viewer, pen, canvas, enlarged } = this;
-    const frame = viewer.picture.getBoundingClientRect();
-    const corner = [right ? frame.right : frame.left, foot ? frame.bottom : frame.top];
-    const place = (box) => [
-      right * canvas.width + (box.left - corner[0]) * enlarged,
-      foot * canvas.height + (box.top - corner[1]) * enlarged,
-      box.width * enlarged,
-      box.height * enlarged,
-    ];
-    for (const scale of part.querySelectorAll(".wb-gradient")) {
-      const [left, top, width, height] = place(scale.getBoundingClientRect());
-      const colours = pen.createLinearGradient(left, 0, left + width, 0);
-      const stops = getComputedStyle(scale).backgroundImage.match(/rgba?\([^)]*\)/g);
-      stops.forEach((stop, nth) => colours.addColorStop(nth / (stops.length - 1), stop));
-      pen.fillStyle = colours;
-      pen.fillRect(left, top, width, height);
-      pen.fillStyle = pen.strokeStyle;
-    }
-    for (const bar of part.querySelectorAll(".wb-bar-line"))
-      this.bracket(place(bar.getBoundingClientRect()), bar.clientWidth);
-    for (const [word, box] of words(part)) {
-      const [left, top, , height] = place(box);
-      pen.font = `${parseFloat(getComputedStyle(part).fontSize) * enlarged}px system-ui, sans-serif`;
-      pen.textBaseline = "middle";
-      pen.fillText(word, left, top + 0.5 * height);
-    }
-  }
-
-  // The scale of the arrows, which the picture makes smaller even where its texts are not.
-  bracket([left, top, width, height], pixels) {
-    const { pen, enlarged } = this;
-    if (!width) return;
-    const start = left + width - pixels * this.ratio;
-    pen.lineWidth = 2 * enlarged;
-    pen.beginPath();
-    pen.moveTo(start, top);
-    pen.lineTo(start, top + height);
-    pen.lineTo(left + width, top + height);
-    pen.lineTo(left + width, top);
-    pen.stroke();
-  }
-
-  // Put the viewer back as it was.
-  end() {
-    if (!this.viewer.root.isConnected) return;
-    this.viewer.resize();
-    this.viewer.set(this.before.phase);
-    if (this.before.playing) this.viewer.play();
-  }
 }
 
 // First and last phase of the beat that is shown now, and how long the viewer takes for it [s].

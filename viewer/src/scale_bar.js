@@ -1,7 +1,7 @@
 // A bar in the picture that says how long the arrow of a force is, as a map's scale does for a way.
 
-import { written } from "./colours.js";
 import { make } from "./elements.js";
+import { short } from "./writing.js";
 
 const LONGEST = 110; // pixels
 
@@ -30,7 +30,7 @@ export class ScaleBar {
     if (this.element.hidden) return;
     this.force = roundBelow(LONGEST / pixels);
     this.bar.style.width = `${this.force * pixels}px`;
-    const share = Number((this.force / weight).toPrecision(2));
-    this.text.textContent = `force ${written(this.force)} N (${share} × weight)`;
+    const share = short(this.force / weight, 2);
+    this.text.textContent = `force ${short(this.force)} N (${share} × weight)`;
   }
 }

@@ -67,7 +67,3 @@ export function byUnit(series) {
 export function inUnit(unit) {
   return unit ? `[${unit}]` : "[-]";
 }
-
-export function sentence(text) {
-  return text.charAt(0).toUpperCase() + text.slice(1);
-}

@@ -29,19 +29,37 @@ function controls(viewer) {
   });
 }
 
+// Where the camera is, in semi-spans from the point that it looks at.
+function eyeOf({ camera, controls, span }) {
+  return camera.position.clone().sub(controls.target).divideScalar(span).toArray();
+}
+
 export function stateOf(viewer) {
   const { stage, plots } = viewer;
   const state = new URLSearchParams({ [MARK]: "1", phase: digits([viewer.phase], 6), camera: stage.view });
-  state.set(
-    "eye",
-    digits(stage.camera.position.clone().sub(stage.controls.target).divideScalar(stage.span).toArray(), 5),
-  );
+  state.set("eye", digits(eyeOf(stage), 5));
   for (const { name, value, normal } of controls(viewer)) if (value !== normal) state.set(`set.${name}`, value);
   if (JSON.stringify(plots.choices) !== JSON.stringify(plots.first)) {
     state.set("plots", plots.choices.map(({ ys, x }) => `${ys.join(".")}~${x}`).join("*"));
   }
+  if (viewer.pushes.name) state.set("push", viewer.pushes.name);
   if (plots.range[0] > 0 || plots.range[1] < plots.last) state.set("zoom", digits(plots.range, 6));
   return state.toString().replaceAll("%2C", ",").replaceAll("%7E", "~");
+}
+
+// Menus, boxes and camera, for something that changes them for a while; `setView` puts them back. Not among them is how
+// fast the flight is shown, which belongs to the animal.
+export function viewOf(viewer) {
+  const { stage, rates } = viewer;
+  const kept = controls(viewer).filter(({ control }) => !rates.contains(control));
+  const choices = new Map(kept.map(({ name, value }) => [name, value]));
+  return { choices, camera: stage.view, eye: eyeOf(stage) };
+}
+
+export function setView(viewer, { choices, camera, eye }) {
+  for (const one of controls(viewer)) if (choices.has(one.name)) setControl(one, choices.get(one.name));
+  viewer.setCamera(camera);
+  viewer.setEye(eye);
 }
 
 function setControl({ control, isBox, value, normal }, wanted = normal) {
@@ -56,6 +74,7 @@ function setControl({ control, isBox, value, normal }, wanted = normal) {
 export function restore(viewer, text) {
   const state = new URLSearchParams(text);
   if (state.get(MARK) !== "1") return;
+  viewer.pushes.open(state.get("push") ?? "");
   viewer.pause();
   for (const one of controls(viewer)) setControl(one, state.get(`set.${one.name}`) ?? undefined);
   const plots = state

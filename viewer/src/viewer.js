@@ -1,6 +1,6 @@
 // The viewer: picture, controls and plots in step at one phase of the beat.
 
-import { gradient, round, written } from "./colours.js";
+import { gradient } from "./colours.js";
 import { addControls, fold, FORCES, RATES, TINTS } from "./controls.js";
 import { make } from "./elements.js";
 import { Flight } from "./flight.js";
@@ -13,6 +13,7 @@ import { Share } from "./share.js";
 import shareStyles from "./share.css";
 import { restore, stateOf } from "./state.js";
 import styles from "./style.css";
+import { round, short } from "./writing.js";
 
 let made = 0;
 
@@ -52,7 +53,8 @@ export class Viewer {
     this.heading = make("div", { class: "wb-heading" });
     this.legend = make("div", { class: "wb-scale" });
     this.measures = new Measures();
-    this.picture = make("div", { class: "wb-picture" }, this.canvas, this.heading);
+    this.warning = make("p", { class: "wb-warning" }); // what the page that holds the viewer warns of, in the picture
+    this.picture = make("div", { class: "wb-picture" }, this.canvas, this.heading, this.warning);
     const legends = make("div", { class: "wb-legends" }, this.legend, this.measures.element);
     const frame = make("div", { class: "wb-frame" }, this.picture, legends);
     this.pushes = new Pushes(this.id, (scene, once) => this.demonstrate(scene, once));
@@ -161,7 +163,7 @@ export class Viewer {
     this.look.range = range / scale;
     const scaleBar = [
       make("div", { class: "wb-gradient", style: `background:${gradient()}` }),
-      make("div", { class: "wb-ends" }, ...[-range, 0, range].map((value) => make("span", {}, written(value)))),
+      make("div", { class: "wb-ends" }, ...[-range, 0, range].map((value) => make("span", {}, short(value)))),
       make("div", {}, `${label} [${unit}]`),
     ];
     const schematic = this.flights.some((flight) => flight.shape.schematic);

@@ -13,6 +13,7 @@ from wingbeat.app.scenario import Scenario, own_species, species_in
 from wingbeat.app.widgets import Field, box, button, choice_field, number_field, slider, tag, text_field
 from wingbeat.errors import InvalidInputError
 from wingbeat.explorer import default_speeds
+from wingbeat.explorer.models import parts_of
 from wingbeat.models import model_of
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.orbits.problem.quantities import QUANTITIES
@@ -220,9 +221,9 @@ def choices_of(name: str, species: Species) -> dict[str, Any]:
 
 def _modelled(name: str, species: Species) -> dict[str, Any]:
     """Return the choices of the page for a model by its name in the face."""
-    model = "paper" if name == "dickinson" else name
+    model, coefficients = parts_of(name)
     chosen = {"model": model, **choices_of(model, species)}
-    return chosen | ({"aero": name} if name != model else {})
+    return chosen | ({} if coefficients is None else {"aero": coefficients})
 
 
 def speeds_for(species: Species, speed: float) -> tuple[float, tuple[float, float, float]]:

@@ -31,7 +31,7 @@ class Curve:
     def __init__(self, session: Session, show: Callable[[], Any]) -> None:
         self._session, self._show = session, show
         self._job: Job | None = None
-        self._whole = False
+        self._whole, self._is_paused = False, False
         self._start_near: tuple[float, Any] | None = None
         self._waiting: list[float] = []
         self.asked: Scenario | None = None
@@ -69,9 +69,12 @@ class Curve:
         self._tell(self._summary())
 
     def follow(self, scenario: Scenario, answer: dict[str, Any]) -> None:
-        """Begin the curve of an answer, unless it is begun already: outwards from the answer."""
+        """Begin the curve of an answer outwards from it, or go on with it after a pause."""
         if not self.is_of(scenario):
             self._begin(scenario, answer, whole=False)
+        elif self._is_paused:
+            self._is_paused = False
+            self._next()
         self.measured = answer["measured"]
 
     def start(self) -> None:
@@ -99,11 +102,21 @@ class Curve:
 
     def cancel(self) -> None:
         """Request no more points, and keep those already solved."""
+        self._is_paused = False
+        self._stop("Cancelled")
+
+    def pause(self) -> None:
+        """Request no more points while the page asks for another scenario; `follow` goes on if it comes back."""
+        if self.is_running:
+            self._is_paused = True
+            self._stop("Paused")
+
+    def _stop(self, how: str) -> None:
         if self._job is not None:
             job, self._job = self._job, None
             self._session.cancel(job)
             total = len(self.points) + len(self._waiting)
-            self._tell(f"Cancelled after {len(self.points)} of {total} speeds.")
+            self._tell(f"{how} after {len(self.points)} of {total} speeds.")
 
     def _next(self) -> None:
         if not self._waiting:

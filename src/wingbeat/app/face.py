@@ -12,8 +12,7 @@ from nicegui import ui
 from wingbeat.app.downloads import Download, Downloads
 from wingbeat.app.scenario import Scenario
 from wingbeat.app.widgets import run_script, tag
-from wingbeat.explorer.lattice import LATTICE_MODELS
-from wingbeat.explorer.page import MODEL_TITLES
+from wingbeat.explorer.models import MODEL_TITLES
 from wingbeat.orbits.problem.problem import FASTEST
 from wingbeat.species import load_species, species_names
 from wingbeat.viewer import bundle_path
@@ -84,7 +83,7 @@ class Face:
         wanted: dict[str, Any] = {}
         if changed.get("animal") in [name for name, _ in animals()]:
             wanted["species"] = changed["animal"]
-        if changed.get("model") in LATTICE_MODELS:
+        if changed.get("model") in MODEL_TITLES:
             wanted["model"] = changed["model"]
         speed = changed.get("speed")
         # A truth value counts as a number in Python, and a whole number may be too large for a float.
@@ -135,7 +134,7 @@ def _choices(scenario: Scenario) -> dict[str, Any]:
     listed = [{"name": name, "title": title} for name, title in animals() if name != own]
     if own is not None:
         listed.insert(0, {"name": own, "title": f"{own} (loaded file)"})
-    return {"animals": listed, "models": [{"name": name, "title": MODEL_TITLES[name]} for name in LATTICE_MODELS]}
+    return {"animals": listed, "models": [{"name": name, "title": title} for name, title in MODEL_TITLES.items()]}
 
 
 def _chosen(scenario: Scenario) -> dict[str, Any]:

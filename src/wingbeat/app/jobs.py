@@ -6,7 +6,7 @@ import base64
 import io
 import json
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from wingbeat.app.formatting import refusals
@@ -16,6 +16,7 @@ from wingbeat.app.uploads import read_upload, scenario_of
 from wingbeat.errors import FileError, InvalidInputError, first_line
 from wingbeat.explorer.face import face_of, is_plausible, lights_of
 from wingbeat.explorer.measured import measured_points
+from wingbeat.explorer.pushed import flown_through_gusts
 from wingbeat.models import MODELS
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
@@ -26,8 +27,6 @@ from wingbeat.results.provenance import problem_from
 from wingbeat.results.rows import orbit_groups
 from wingbeat.results.sensitivities import sensitivities
 from wingbeat.results.solving import solve_orbit
-from wingbeat.stability.pushes import fly_pushes
-from wingbeat.viewer import Push, scene
 from wingbeat.workers.main import Context
 
 if TYPE_CHECKING:
@@ -138,19 +137,8 @@ def orbit_again(known: dict[str, Any]) -> Orbit:
 
 def _pushes(what: dict[str, Any], context: Context) -> dict[str, Any]:
     """Return flights of an orbit through gusts for the viewer; without feedback if none holds the orbit."""
-    orbit = orbit_again(what["of"])
-    why_not = ""
-    try:
-        flown = fly_pushes(orbit, progress=context.progress)
-    except InvalidInputError as error:
-        flown = fly_pushes(orbit, delay=None, progress=context.progress)  # refuses an orbit that is not certified
-        why_not = first_line(error)
-    return {"pushes": _drawn(orbit, flown), "why_not": why_not}
-
-
-def _drawn(orbit: Orbit, pushes: Sequence[Push]) -> str:
-    """Return the part of the viewer's scene with the pushes, as a text."""
-    return json.dumps(scene([("", orbit.dataset)], pushes)["pushes"], allow_nan=False)
+    pushes, why_not = flown_through_gusts(orbit_again(what["of"]), progress=context.progress)
+    return {"pushes": json.dumps(pushes, allow_nan=False), "why_not": why_not}
 
 
 def _influence(what: dict[str, Any], context: Context) -> dict[str, Any]:

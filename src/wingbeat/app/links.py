@@ -6,20 +6,19 @@ import base64
 import binascii
 import dataclasses
 import json
-import math
 import re
 import zlib
 from collections.abc import Callable, Sequence
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
+from wingbeat.app.checked import every, finite, number_in, table, text_of, value_in, word
 from wingbeat.app.scenario import LARGEST_FILE, Scenario
-from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError, is_number
+from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError
 
 # Servers and browsers accept addresses of 16 kB and more; a species file takes some 6 kB.
 _LONGEST_QUERY = 24_000
 _VERSION = 1
-_PAIRS = "bounds"
 _NUMBERS = ("speed", "climb", "blend_width_deg", "induced_factor", "hand_from", "upstroke_factor")
 _WHOLE = ("strips", "starts", "seed")
 _WORDS = (
@@ -34,7 +33,6 @@ _WORDS = (
     "hand",
     "minimise",
 )
-_LONGEST_WORD = 200
 
 
 def to_query(scenario: Scenario) -> str:
@@ -85,15 +83,15 @@ def _read_pair(plain: dict[str, Any], name: str, text: str, faults: FaultList) -
         plain["limits"].append(text)
     elif name in ("bound", "set"):
         path, *ends = re.split(":" if name == "bound" else "=", text, maxsplit=2 if name == "bound" else 1)
-        values = [_number(end) for end in ends] if name == "bound" else [_value(end) for end in ends]
-        table = plain["bounds" if name == "bound" else "set"]
+        values = [number_in(end) for end in ends] if name == "bound" else [value_in(end) for end in ends]
+        given = plain["bounds" if name == "bound" else "set"]
         if len(values) != (2 if name == "bound" else 1) or None in values:
             form = "name:lowest:highest" if name == "bound" else "path=number"
             faults.add(name, text, f"must be {form}", "SI units and radians")
-        elif path in table:
+        elif path in given:
             faults.add(name, text, "is given twice", "keep one of them")
         else:
-            table[path] = values if name == "bound" else values[0]
+            given[path] = values if name == "bound" else values[0]
     elif name not in (*_WORDS, *_NUMBERS, *_WHOLE, "sweep", "species_file"):
         known = ", ".join((*_WORDS, *_NUMBERS, *_WHOLE, "sweep", "species_file", "limit", "bound", "set"))
         faults.add(name[:60], text[:60], "is not part of a link", f"the parts of a link are {known}")
@@ -104,7 +102,7 @@ def _read_pair(plain: dict[str, Any], name: str, text: str, faults: FaultList) -
     elif name == "species_file":
         plain[name] = _unpacked(text, faults)
     else:
-        parts = [_number(part) for part in text.split(":")] if name == "sweep" else [_number(text)]
+        parts = [number_in(part) for part in text.split(":")] if name == "sweep" else [number_in(text)]
         if None in parts:
             faults.add(name, text[:60], "must be numbers" if name == "sweep" else "must be a number")
         elif name in _WHOLE:
@@ -150,16 +148,16 @@ def from_plain(plain: Any) -> Scenario:
         faults.raise_if_any()
     given: dict[str, Any] = {}
     checks: dict[str, Callable[[Any], Any]] = {
-        **dict.fromkeys(_WORDS, _word),
-        **dict.fromkeys(_NUMBERS, _finite),
+        **dict.fromkeys(_WORDS, word),
+        **dict.fromkeys(_NUMBERS, finite),
         **dict.fromkeys(_WHOLE, lambda value: value),  # the scenario's own check names the range
-        "species_file": _text,
-        "limits": lambda value: _all(value, _word),
-        "sweep": lambda value: found if (found := _all(value, _finite)) and len(found) == 3 else None,
-        "bounds": lambda value: _table(
-            value, lambda pair: p if (p := _all(pair, _finite)) and len(p) == 2 else None
+        "species_file": text_of,
+        "limits": lambda value: every(value, word),
+        "sweep": lambda value: found if (found := every(value, finite)) and len(found) == 3 else None,
+        "bounds": lambda value: table(
+            value, lambda pair: p if (p := every(pair, finite)) and len(p) == 2 else None
         ),
-        "set": lambda value: _table(value, lambda v: _all(v, _finite) if isinstance(v, list) else _finite(v)),
+        "set": lambda value: table(value, lambda v: every(v, finite) if isinstance(v, list) else finite(v)),
     }
     for name, value in plain.items():
         understood = checks[name](value)
@@ -197,56 +195,3 @@ def from_json(text: str, label: str) -> Scenario:
 
 def _written(value: float | Sequence[float]) -> str:
     return repr(float(value)) if isinstance(value, int | float) else json.dumps(list(value)).replace(" ", "")
-
-
-def _number(text: str) -> float | None:
-    try:
-        return _finite(float(text)) if len(text) < 40 else None
-    except ValueError:
-        return None
-
-
-def _value(text: str) -> float | list[Any] | None:
-    if not text.startswith("["):
-        return _number(text)
-    parts = [_number(part) for part in text[1:-1].split(",")] if text.endswith("]") and text != "[]" else []
-    return parts if parts and None not in parts else None
-
-
-def _finite(value: Any) -> float | None:
-    if not is_number(value):
-        return None
-    try:
-        number = float(value)
-    except OverflowError:
-        return None
-    return number if math.isfinite(number) else None
-
-
-def _word(value: Any) -> str | None:
-    good = isinstance(value, str) and len(value) <= _LONGEST_WORD and value.isprintable()
-    return value if good else None
-
-
-def _text(value: Any) -> str | None:
-    """Return a text that UTF-8 can encode; JSON may contain lone surrogates, which have no code in UTF-8."""
-    return value if isinstance(value, str) and value.encode(errors="ignore").decode() == value else None
-
-
-def _all(value: Any, check: Callable[[Any], Any]) -> tuple[Any, ...] | None:
-    if not isinstance(value, list | tuple) or len(value) > 1000:
-        return None
-    parts = tuple(check(part) for part in value)
-    return None if None in parts else parts
-
-
-def _finite_numbers(value: Any, count: int) -> tuple[float, ...] | None:
-    numbers = _all(value, _finite)
-    return numbers if numbers is not None and len(numbers) == count else None
-
-
-def _table(value: Any, check: Callable[[Any], Any]) -> dict[str, Any] | None:
-    if not isinstance(value, dict):
-        return None
-    parts = {_word(name): check(part) for name, part in value.items()}
-    return None if None in parts or None in parts.values() else parts  # type: ignore[return-value]

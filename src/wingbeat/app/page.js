@@ -26,6 +26,8 @@ window.wingbeatPage = {
           this.want(asked);
           place.dispatchEvent(new CustomEvent("ask", { detail: asked }));
         };
+        this.face.onpushed = () => this.linkPush();
+        this.face.linked.want(pushInAddress());
         this.face.onpush = () => place.dispatchEvent(new CustomEvent("push"));
         this.face.onfile = async (file) => {
           const refused = await this.upload({ files: [file] }, session);
@@ -135,7 +137,14 @@ window.wingbeatPage = {
     link.remove();
   },
   setQuery(query) {
-    history.replaceState(null, "", `${location.pathname}?${query}`);
+    history.replaceState(null, "", `${location.pathname}?${query}${location.hash}`);
+  },
+  // The push that is shown is the browser's own matter, and stands in the address as its fragment.
+  linkPush() {
+    const push = this.face.linked.name;
+    if (push === pushInAddress()) return;
+    const fragment = push ? `#${new URLSearchParams({ push })}` : "";
+    history.replaceState(null, "", `${location.pathname}${location.search}${fragment}`);
   },
   async copyLink() {
     try {
@@ -145,6 +154,16 @@ window.wingbeatPage = {
     }
   },
 };
+
+const pushInAddress = () => new URLSearchParams(location.hash.slice(1)).get("push") ?? "";
+window.addEventListener("hashchange", () => {
+  const { face } = wingbeatPage;
+  const push = pushInAddress();
+  if (!face || push === face.linked.name) return;
+  face.linked.want(push);
+  if (push) face.linked.heard();
+  else face.viewer?.pushes.reset();
+});
 
 // While a text is typed but not entered yet, the answer belongs to an earlier request.
 const typing = (is) => (event) => {

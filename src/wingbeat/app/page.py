@@ -21,12 +21,12 @@ from wingbeat.app.links import from_plain, from_query, to_query
 from wingbeat.app.pins import Pins
 from wingbeat.app.scenario import Scenario
 from wingbeat.app.session import Session
+from wingbeat.app.trouble import Trouble
 from wingbeat.app.widgets import button, choice_field, folded, run_script, set_class, tag
 from wingbeat.errors import InvalidInputError
 from wingbeat.workers.fair_pool import FairPool
 
 _THEMES = (("system", "As the system"), ("light", "Light"), ("dark", "Dark"))
-_MOST_LINES = 10
 _ACCEPT = ".toml,.nc,.json"
 
 
@@ -124,10 +124,7 @@ class Page:
             with tag("div", classes="items"):
                 self._build_menu()
         tag("p", None, "refusal hidden")
-        self._trouble = tag("div", classes="trouble hidden", role="alert")
-        with self._trouble:
-            self._trouble_lines = tag("ul", classes="plain")
-            button("Close", self._close_trouble, "small")
+        self._trouble = Trouble()
 
     def _build_menu(self) -> None:
         what = "A species file (TOML), an orbit (NetCDF), or a saved state (JSON)"
@@ -157,11 +154,11 @@ class Page:
 
     def show_scenario(self, scenario: Scenario) -> None:
         """Show a scenario in the controls and in the address, and clear messages about the previous one."""
-        self._close_trouble()
+        self._trouble.close()
         self._controls.show(scenario)
         self._face.choose(scenario)
         if not self._curve.suits(scenario):
-            self._curve.cancel()
+            self._curve.pause()
         set_class(self._whole, "old-curve", not self._curve.suits(scenario))
         self._curve_panel.show_sweep(scenario)
         run_script(f"wingbeatPage.setQuery({json.dumps(to_query(scenario))})")
@@ -214,16 +211,7 @@ class Page:
 
     def show_trouble(self, *lines: str) -> None:
         """Show a message about an error."""
-        self._trouble_lines.clear()
-        with self._trouble_lines:
-            for line in lines[:_MOST_LINES]:
-                tag("li", line)
-            if len(lines) > _MOST_LINES:
-                tag("li", f"And {len(lines) - _MOST_LINES} more.")
-        self._trouble.classes(remove="hidden")
-
-    def _close_trouble(self) -> None:
-        self._trouble.classes("hidden")
+        self._trouble.show(*lines)
 
     # What the visitor does ---------------------------------------------------------------------------------------
 
@@ -248,5 +236,5 @@ class Page:
     def read_file(self, path: str, label: str, done: Callable[[], Any]) -> None:
         """Read a file that the visitor sent; `done` is called when the file is no longer needed."""
         with self._client:
-            self._close_trouble()
+            self._trouble.close()
             self._errands.read(path, label, done)

@@ -20,6 +20,7 @@ from wingbeat.aero import (
 )
 from wingbeat.aero.choosing import load_hand
 from wingbeat.errors import FaultList, FileError, InvalidInputError
+from wingbeat.explorer.models import name_of
 from wingbeat.models import MODELS, model_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, FASTEST, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.problem.quantities import QUANTITIES
@@ -84,8 +85,8 @@ class Scenario:
 
     @property
     def face_model(self) -> str:
-        """The model by its name in the face, where the coefficients of a fruit fly make a model of their own."""
-        return "dickinson" if (self.model, self.aero) == ("paper", "dickinson") else self.model
+        """The model by its name in the face, see `wingbeat.explorer.models`."""
+        return name_of(self.model, self.aero)
 
     def faults(self) -> FaultList:
         """Return the faults of each choice by itself; `problem_of` checks the choices together."""

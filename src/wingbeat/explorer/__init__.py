@@ -1,8 +1,9 @@
 """The explorer: what it shows of an orbit, and a folder of plain files that is an explorer without a server."""
 
 from wingbeat.explorer.face import face_of
-from wingbeat.explorer.lattice import LATTICE_MODELS, default_speeds, point_of, solve_lattice
+from wingbeat.explorer.lattice import default_speeds, point_of, solve_lattice
 from wingbeat.explorer.measured import measured_points
+from wingbeat.explorer.models import LATTICE_MODELS
 from wingbeat.explorer.page import write_explorer
 
 __all__ = [

@@ -10,9 +10,10 @@ import numpy as np
 from wingbeat.errors import FaultList
 from wingbeat.explorer.face import face_of, is_plausible
 from wingbeat.explorer.measured import measured_points
+from wingbeat.explorer.models import parts_of
 from wingbeat.explorer.pushed import pushes_of
 from wingbeat.explorer.thinning import thinned
-from wingbeat.models import MODELS, model_of, paper
+from wingbeat.models import model_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress
 from wingbeat.results.orbit import Orbit
@@ -21,8 +22,6 @@ from wingbeat.species import Species
 from wingbeat.species.scaling import CRUISE_BY_MASS
 
 SPEEDS = 9
-# The models, and that of Su et al. 2023 with the coefficients that Dickinson et al. 1999 measured for a fruit fly.
-LATTICE_MODELS = (*MODELS, "dickinson")
 # What speeds to show, as shares of the cruise of a bird of the same mass. Robots fly slower.
 _SHARES = {"robot": (0.25, 0.85)}
 _OTHERS = (0.35, 1.5)
@@ -67,7 +66,7 @@ def solve_lattice(
     Parameters
     ----------
     species : the animal or robot.
-    model : one of `LATTICE_MODELS`.
+    model : one of `wingbeat.explorer.LATTICE_MODELS`.
     speeds : increasing [m/s].
     starts, seed : as in `solve_orbits`.
     progress : called with (speeds done, speeds in all).
@@ -120,9 +119,9 @@ def lattice_of(species: Species, model: str, orbits: Sequence[Orbit], push: bool
 
 
 def _problem(model: str, species: Species, speed: float) -> OrbitProblem:
-    if model == "dickinson":
-        return paper().problem(species, speed, aero=model)
-    return model_of(model, species).problem(species, speed)
+    name, coefficients = parts_of(model)
+    changes: dict[str, Any] = {} if coefficients is None else {"aero": coefficients}
+    return model_of(name, species).problem(species, speed, **changes)
 
 
 def _small(answer: dict[str, Any], sources: dict[str, str]) -> dict[str, Any]:

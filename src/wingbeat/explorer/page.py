@@ -14,11 +14,10 @@ from typing import Any
 
 from wingbeat._version import __version__
 from wingbeat.errors import FaultList, FileError
+from wingbeat.explorer.models import MODEL_TITLES
 from wingbeat.files import write_atomically
 from wingbeat.viewer import bundle_path
 
-# What models are called on the page.
-MODEL_TITLES = {"animal": "live animal", "paper": "Su et al. 2023", "dickinson": "Su et al. 2023, as a fruit fly"}
 # Only files of this folder may be loaded; `file:` is for browsers to which a file is not 'self'.
 _PAGE = f"""<!doctype html>
 <html lang="en">

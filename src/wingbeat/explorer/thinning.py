@@ -7,13 +7,12 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat.viewer.scene import EXACT, packed
+
 SAMPLES = 64  # of a beat; the viewer draws straight lines between them
-_TYPES = {"f4": "<f4", "f8": "<f8"}
 _WHOLE = 32767
 # The viewer shows resultants first; without the two parts, a page has room for half as many flights again.
 _LEFT_OUT = ("lift", "drag")
-# The place in the flight, whose differences matter.
-_EXACT = ("phase", "time", "x", "z")
 
 
 def thinned(scene: dict[str, Any]) -> dict[str, Any]:
@@ -56,27 +55,27 @@ def _smaller(flight: dict[str, Any], kept: Any = slice(None)) -> dict[str, Any]:
     """Return a flight with these of its samples, in 16 bits."""
     count = len(unpacked(flight["arrays"]["phase"]))
     arrays = {}
-    for name, packed in flight["arrays"].items():
+    for name, array in flight["arrays"].items():
         if name not in _LEFT_OUT:
-            values = unpacked(packed).reshape(count, -1)[kept]
+            values = unpacked(array).reshape(count, -1)[kept]
             if name == "corners":
                 values = values.reshape(len(values), -1, 4, 3)[:, :, :3].reshape(len(values), -1)
-            arrays[name] = _packed(values, "f4") if name in _EXACT else in_16_bits(values)
+            arrays[name] = packed(values, "f4") if name in EXACT else in_16_bits(values)
     return flight | {"arrays": arrays}
 
 
-def unpacked(packed: dict[str, Any]) -> np.ndarray:
+def unpacked(array: dict[str, Any]) -> np.ndarray:
     """Return the flat values of an array of a scene.
 
     Parameters
     ----------
-    packed : with ``kind``, ``data`` and, for 16 bits, ``scale`` and ``samples``.
+    array : with ``kind``, ``data`` and, for 16 bits, ``scale`` and ``samples``.
     """
-    data = base64.b64decode(packed["data"])
-    if packed["kind"] != "d2":
-        return np.frombuffer(data, _TYPES[packed["kind"]])
-    steps = np.frombuffer(data, np.uint8).reshape(2, -1).T.copy().view("<i2").reshape(-1, packed["samples"])
-    return np.cumsum(steps, axis=1, dtype=np.int16).T.ravel() * packed["scale"]
+    data = base64.b64decode(array["data"])
+    if array["kind"] != "d2":
+        return np.frombuffer(data, f"<{array['kind']}")
+    steps = np.frombuffer(data, np.uint8).reshape(2, -1).T.copy().view("<i2").reshape(-1, array["samples"])
+    return np.cumsum(steps, axis=1, dtype=np.int16).T.ravel() * array["scale"]
 
 
 def in_16_bits(values: np.ndarray) -> dict[str, Any]:
@@ -94,7 +93,3 @@ def in_16_bits(values: np.ndarray) -> dict[str, Any]:
     steps = np.diff(whole, axis=1, prepend=np.int16(0)).astype("<i2")  # modulo 2^16, as the sums that undo it
     data = base64.b64encode(steps.ravel().view(np.uint8).reshape(-1, 2).T.tobytes())
     return {"kind": "d2", "data": data.decode(), "scale": scale, "samples": len(values)}
-
-
-def _packed(values: np.ndarray, kind: str) -> dict[str, Any]:
-    return {"kind": kind, "data": base64.b64encode(values.astype(_TYPES[kind]).tobytes()).decode()}

@@ -10,7 +10,19 @@ from typing import Any
 
 from wingbeat.errors import FaultList, InvalidInputError, is_number
 from wingbeat.species.building import DEFAULT
-from wingbeat.species_schema import COLOURS, COVERS, SHAPE, Key, Number, ShapeText, number_from
+from wingbeat.species_schema import (
+    COLOUR,
+    COLOURS,
+    COVERS,
+    EXTREMITIES,
+    NO_COLOUR,
+    SHAPE,
+    TRUNK,
+    Key,
+    Number,
+    ShapeText,
+    number_from,
+)
 
 # The drawn wing has the area of the model's: the mean of its chord is one mean chord, to this fraction.
 _AREA = 0.02
@@ -18,7 +30,6 @@ _AREA = 0.02
 _STAND_IN = {"leading_edge": (0.25, 0.25), "trailing_edge": (0.75, 0.75)}
 _BLACK = f"#{0:06x}"
 _LONGEST = 100.0  # m
-_BODY = ("body_length", "body_width", "body_depth")
 
 
 @dataclass(frozen=True)
@@ -75,9 +86,9 @@ class Shape:
         self._check_edges(faults)
         for name in ("camber", "thickness"):
             faults.number(f"shape.{name}", getattr(self, name), at_least=0, at_most=0.5)
-        for name in _BODY:
+        for name in TRUNK:
             faults.number(f"shape.{name}", getattr(self, name), above=0, at_most=_LONGEST, unit="m")
-        for name in ("head_length", "bill_length", "ear_length", "tail_length", "tail_width"):
+        for name in EXTREMITIES:
             faults.number(f"shape.{name}", getattr(self, name), at_least=0, at_most=_LONGEST, unit="m")
         lengths = self.body_length, self.head_length
         if all(map(is_number, lengths)) and self.head_length > self.body_length > 0:
@@ -118,8 +129,8 @@ class Shape:
         given = self.colours if isinstance(self.colours, Mapping) else {}
         for name in COLOURS:
             colour = given.get(name)
-            if not isinstance(colour, str) or not re.fullmatch("#[0-9a-fA-F]{6}", colour):
-                faults.add(f"shape.colours.{name}", colour, "must be a colour", 'write it as "#rrggbb"')
+            if not isinstance(colour, str) or not re.fullmatch(COLOUR, colour):
+                faults.add(f"shape.colours.{name}", colour, *NO_COLOUR)
 
     @property
     def schematic(self) -> bool:
@@ -156,7 +167,7 @@ def shape_of(text: ShapeText | None, faults: FaultList) -> Shape | None:
     if not _STAND_IN.keys() <= given.keys():
         given |= _STAND_IN
     colours = {name: text.texts.get(f"shape.colours.{name}", _BLACK) for name in COLOURS}
-    missing = {name: _LONGEST for name in _BODY if name not in given}
+    missing = {name: _LONGEST for name in TRUNK if name not in given}
     values: dict[str, Any] = given | missing
     try:
         return Shape(

@@ -2,7 +2,21 @@
 
 from wingbeat.species_schema.box import packaged_text, species_names, template
 from wingbeat.species_schema.faults import check_value, shown, spoken
-from wingbeat.species_schema.keys import COLOURS, COVERS, KEYS, LOOKS, PARTS, PLAUSIBLE, SHAPE, TAIL_PATHS, Key
+from wingbeat.species_schema.keys import (
+    COLOUR,
+    COLOURS,
+    COVERS,
+    EXTREMITIES,
+    KEYS,
+    LOOKS,
+    NO_COLOUR,
+    PARTS,
+    PLAUSIBLE,
+    SHAPE,
+    TAIL_PATHS,
+    TRUNK,
+    Key,
+)
 from wingbeat.species_schema.models import json_schema
 from wingbeat.species_schema.reading import (
     Alternative,
@@ -20,14 +34,18 @@ from wingbeat.species_schema.reading import (
 )
 
 __all__ = [
+    "COLOUR",
     "COLOURS",
     "COVERS",
+    "EXTREMITIES",
     "KEYS",
     "LOOKS",
+    "NO_COLOUR",
     "PARTS",
     "PLAUSIBLE",
     "SHAPE",
     "TAIL_PATHS",
+    "TRUNK",
     "Alternative",
     "Bound",
     "Key",

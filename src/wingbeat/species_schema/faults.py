@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from wingbeat.errors import FaultList, suggest
-from wingbeat.species_schema.keys import FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE, Key
+from wingbeat.species_schema.keys import FREE, KEYS, LOOKS, NO_COLOUR, PATH, PLAUSIBLE, SHAPE, Key
 from wingbeat.species_schema.models import ADAPTERS, NUMBER_FIELDS, TABLE, TAGS, BoundTable, RangeTable, SpeciesFile
 
 MAX_FAULTS = 100
@@ -118,7 +118,7 @@ def rule_of(kind: str, value: Any, context: dict[str, Any]) -> tuple[str, str]:
         case "string_type":
             return "must be a text", "put it in quotes"
         case "string_pattern_mismatch":
-            return "must be a colour", 'write it as "#rrggbb"'
+            return NO_COLOUR
         case "string_too_short":
             return "must not be empty", ""
         case "bool_type":

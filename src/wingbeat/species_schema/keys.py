@@ -97,17 +97,18 @@ FREE = (
     *(_key(f"free.{name}") for name in HARMONIC_NAMES),
 )
 # How the animal looks. No model reads it.
+TRUNK = ("body_length", "body_width", "body_depth")
+EXTREMITIES = ("head_length", "bill_length", "ear_length", "tail_length", "tail_width")  # 0 without one
 SHAPE = (
     *(_key(f"shape.{name}", shape="edge") for name in ("leading_edge", "trailing_edge")),
     *(_key(f"shape.{name}", False) for name in ("camber", "thickness")),
-    *(_key(f"shape.{name}") for name in ("body_length", "body_width", "body_depth")),
-    *(
-        _key(f"shape.{name}", False)
-        for name in ("head_length", "bill_length", "ear_length", "tail_length", "tail_width")
-    ),
+    *(_key(f"shape.{name}") for name in TRUNK),
+    *(_key(f"shape.{name}", False) for name in EXTREMITIES),
 )
 COVERS = ("feathers", "membrane", "film")
 COLOURS = ("back", "breast", "head", "wing", "wing_tip", "bill")
+COLOUR = "#[0-9a-fA-F]{6}"  # the form of each, as a regular expression
+NO_COLOUR = ("must be a colour", 'write it as "#rrggbb"')  # the fault of another form, and how to fix it
 LOOKS = (
     _key("shape.cover", shape="cover"),
     *(_key(f"shape.colours.{name}", shape="colour") for name in COLOURS),

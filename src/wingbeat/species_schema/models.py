@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, TypeAdapter, create_model
 
-from wingbeat.species_schema.keys import COVERS, FREE, KEYS, LOOKS, PARTS, PATH, PLAUSIBLE, SHAPE, Key
+from wingbeat.species_schema.keys import COLOUR, COVERS, FREE, KEYS, LOOKS, PARTS, PATH, PLAUSIBLE, SHAPE, Key
 
 _STRICT = ConfigDict(strict=True, extra="forbid")
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -34,7 +34,7 @@ _SHAPES: dict[str, Any] = {
     "list": list[_Finite],
     "edge": Annotated[list[_Finite], Field(min_length=2)],
     "cover": Literal[COVERS],
-    "colour": Annotated[str, Field(pattern="^#[0-9a-fA-F]{6}$")],
+    "colour": Annotated[str, Field(pattern=f"^{COLOUR}$")],
 }
 ADAPTERS = {shape: TypeAdapter(kind, config=ConfigDict(strict=True)) for shape, kind in _SHAPES.items()}
 

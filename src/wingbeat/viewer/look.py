@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from wingbeat.datasets import SHAPE
-from wingbeat.species_schema import COLOURS
+from wingbeat.species_schema import COLOURS, EXTREMITIES, TRUNK
 from wingbeat.style import SCHEMATIC
 from wingbeat.vehicle import Body, Tail, Wing
 from wingbeat.viewer.shape import body_axes, tail_corners
@@ -27,10 +27,9 @@ class _Plan(NamedTuple):
     rounding: float  # the chord is multiplied by sqrt(1 - s^rounding)
     camber: float
     thickness: float
-    shares: tuple[float, float, float, float, float]  # head, bill, ear, tail length, tail width over body length
+    shares: tuple[float, float, float, float, float]  # of the extremities, over body length
 
 
-_BODY_PARTS = ("head_length", "bill_length", "ear_length", "tail_length", "tail_width")
 _PLANS = {
     "bird": _Plan("feathers", 0.2, 4.0, 0.06, 0.04, (0.3, 0.1, 0.0, 0.5, 0.4)),
     "bat": _Plan("membrane", 0.45, 8.0, 0.08, 0.02, (0.3, 0.0, 0.15, 0.25, 0.35)),
@@ -77,8 +76,8 @@ def _own(vehicle: dict[str, Any], known: dict[str, Any]) -> dict[str, Any]:
         **{name: known[name] for name in ("cover", "schematic", "camber", "thickness", "colours")},
         "leading": [chord * place for place in known["leading_edge"]],
         "trailing": [chord * place for place in known["trailing_edge"]],
-        "body": {name: known[f"body_{name}"] for name in ("length", "width", "depth")}
-        | {name: known[name] for name in _BODY_PARTS}
+        "body": {name.removeprefix("body_"): known[name] for name in TRUNK}
+        | {name: known[name] for name in EXTREMITIES}
         | tail,
     }
 
@@ -88,7 +87,7 @@ def _schematic(vehicle: dict[str, Any], kind: str) -> dict[str, Any]:
     chord = _chord(plan, wing)
     half_length, half_depth = body_axes(Body(**vehicle["body"]))
     length = 2 * half_length
-    parts = dict(zip(_BODY_PARTS, (share * length for share in plan.shares), strict=True))
+    parts = dict(zip(EXTREMITIES, (share * length for share in plan.shares), strict=True))
     return {
         "cover": plan.cover,
         "schematic": True,

@@ -22,10 +22,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 MOST_SAMPLES = 5000
-
-
-_EXACT = ("phase", "time", "x", "z")
-_BASE = (*_EXACT, "body_pitch")  # without which a flight cannot be drawn
+EXACT = ("phase", "time", "x", "z")  # time and place in the flight, of which a page takes small differences
+_BASE = (*EXACT, "body_pitch")  # without which a flight cannot be drawn
 # The curves of the plots that a page starts with, by the names of their series.
 _PANELS: list[list[str]] = [["thrust", "support"], ["alpha_arm", "alpha_hand"], ["hinge_power"], ["body_pitch"]]
 _PUSHED: list[list[str]] = [["pitch_away"], ["height"], ["thrust", "support"], ["hinge_power"]]
@@ -110,8 +108,8 @@ def _push(push: Push) -> dict[str, Any]:
     left_out = {"lift", "drag"} | ({*names} - {*_BASE, *_PUSHED_SERIES})
     for name in left_out:
         del flight["arrays"][name]
-    flight["arrays"]["pitch_away"] = _packed(push.pitch, "f4")
-    flight["arrays"]["height"] = _packed(push.height, "f4")
+    flight["arrays"]["pitch_away"] = packed(push.pitch, "f4")
+    flight["arrays"]["height"] = packed(push.height, "f4")
     flight["summary"] = f"{push.label}: {push.outcome}"
     return {
         "direction": push.direction,
@@ -156,7 +154,7 @@ def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:
         "shape": look_of(dataset),
         **({} if tail is None else {"tail": tail.ravel().tolist()}),
         "downstrokes": [list(ends) for ends in downstrokes(dataset["phase"].values, dataset["flap_rate"].values)],
-        "arrays": {name: _packed(*array) for name, array in _arrays(dataset).items()},
+        "arrays": {name: packed(*array) for name, array in _arrays(dataset).items()},
     }
 
 
@@ -200,7 +198,7 @@ def _arrays(dataset: xr.Dataset) -> dict[str, tuple[np.ndarray, str]]:
     """
     place = np.stack([dataset["x"].values, np.zeros(dataset.sizes["phase"]), dataset["z"].values], axis=-1)
     lift, drag = strip_loads(dataset)
-    exact = {name: dataset[name].values for name in _EXACT}
+    exact = {name: dataset[name].values for name in EXACT}
     single = {
         "corners": dataset["strip_corner"].values - place[:, None, None],
         "alpha": dataset["alpha"].values,
@@ -213,5 +211,15 @@ def _arrays(dataset: xr.Dataset) -> dict[str, tuple[np.ndarray, str]]:
     return {n: (v, "f8") for n, v in exact.items()} | {n: (v, "f4") for n, v in single.items()}
 
 
-def _packed(values: np.ndarray, kind: str) -> dict[str, str]:
+def packed(values: np.ndarray, kind: str) -> dict[str, str]:
+    """Return an array as a scene holds it.
+
+    Parameters
+    ----------
+    values : flat in the page, in the order of their memory.
+    kind : ``"f4"`` or ``"f8"``, the bytes of each number.
+
+    >>> packed(np.array([1.0]), "f4")
+    {'kind': 'f4', 'data': 'AACAPw=='}
+    """
     return {"kind": kind, "data": base64.b64encode(values.astype(f"<{kind}").tobytes()).decode()}

@@ -1,18 +1,9 @@
 // What the power curve is drawn with: scales, ticks, lines between neighbours, marks, and measured ranges behind.
 
-import { round } from "../colours.js";
 import { draw } from "../elements.js";
-import { ends, short } from "./numbers.js";
+import { ends } from "./numbers.js";
 
 export const MARGIN = { left: 46, right: 16, top: 14, bottom: 38 };
-
-// Round numbers from 0 or `low` to at least `high`, about `count` of them.
-export function ticks(low, high, count) {
-  const step = round((high - low) / count);
-  const first = Math.ceil(low / step - 1e-9);
-  const last = Math.floor(high / step + 1e-9);
-  return Array.from({ length: last - first + 1 }, (_, nth) => Number(((first + nth) * step).toPrecision(12)));
-}
 
 export function axes(scale, quantity) {
   const { x, y, width, height, xTicks, yTicks } = scale;

@@ -1,8 +1,9 @@
 // The curve against speed, which is the speed control: a point on it that one drags or moves with the keyboard.
 
 import { draw, make } from "../elements.js";
-import { axes, dots, lines, MARGIN, measured, rings, ticks } from "./chart.js";
-import { ends, judged, short } from "./numbers.js";
+import { short, ticks } from "../writing.js";
+import { axes, dots, lines, MARGIN, measured, rings } from "./chart.js";
+import { ends, judged } from "./numbers.js";
 import { ownMarks } from "./own_marks.js";
 
 const QUANTITIES = [

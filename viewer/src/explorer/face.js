@@ -2,16 +2,17 @@
 
 import { make } from "../elements.js";
 import { Viewer } from "../viewer.js";
+import { short } from "../writing.js";
 import { Curve } from "./curve.js";
 import { Gauges } from "./gauges.js";
-import { short } from "./numbers.js";
+import { LinkedPush } from "./linked_push.js";
 import { OwnData } from "./own_data.js";
 import { Pins } from "./pins.js";
-import extraStyles from "./extras.css";
-import styles from "./style.css";
+import { styles } from "./styles.js";
 import { Tour } from "./tour.js";
 import { Verdict } from "./verdict.js";
 
+const UNCERTIFIED = "the closest wingbeat: it does not fly";
 let made = 0;
 
 export class Face {
@@ -23,6 +24,7 @@ export class Face {
     // `showPushes`; `onfile(file)` takes a species file.
     this.onpush = undefined;
     this.onfile = undefined;
+    this.onpushed = () => {}; // a push is shown, or no longer: what `linked` names
     this.theme = theme;
     this.id = `wbx${++made}`;
     this.verdict = new Verdict();
@@ -30,8 +32,9 @@ export class Face {
     this.gauges = new Gauges();
     this.pins = new Pins(() => this.show(), pinning);
     this.tour = new Tour(this);
+    this.linked = new LinkedPush(this);
     this.own = new OwnData(this);
-    this.root = make("section", { class: "wbx", "aria-label": "Explorer" }, make("style", {}, styles + extraStyles));
+    this.root = make("section", { class: "wbx", "aria-label": "Explorer" }, make("style", {}, styles));
     this.root.face = this;
     this.build();
     this.setTheme(theme);
@@ -91,6 +94,7 @@ export class Face {
     this.say("");
     this.show();
     if (this.pushing && this.pushSpeed(answer) === answer.speed) this.push();
+    else this.linked.heard();
     // After the page's source has done what belongs to this answer; a provisional one is no ground for a tour's words.
     if (!answer.provisional) queueMicrotask(() => this.tour.heard());
   }
@@ -133,6 +137,7 @@ export class Face {
 
   ask(change) {
     this.asked = { ...this.asked, ...change };
+    this.linked.want("");
     this.onask({ ...this.asked });
   }
 
@@ -162,10 +167,10 @@ export class Face {
     this.curve.mark(answer.speed);
     this.curve.pin(pinned?.status === "converged" ? pinned : undefined);
     this.numbers.replaceChildren(...rows(answer, pinned));
-    this.root.dataset.status = answer.status;
     this.picture.hidden = !answer.scene;
     if (answer.scene) this.fly(this.pins.scene(answer), answer.species);
-    else this.say("This flight tumbles before there is anything to show.");
+    if (this.viewer) this.viewer.warning.textContent = answer.status === "converged" ? "" : UNCERTIFIED;
+    if (!answer.scene) this.say("This flight tumbles before there is anything to show.");
     this.tellPush();
   }
 
@@ -182,9 +187,11 @@ export class Face {
         this.blind = true;
         const text = "This browser cannot draw in three dimensions: WebGL is missing or switched off.";
         this.picture.replaceChildren(make("p", {}, text));
+        this.own.show();
         return;
       }
-      this.own.overlay();
+      this.own.show();
+      this.viewer.pushes.onchange = () => this.onpushed();
     }
     // A beat takes about a second; of one animal the rate stays, so that one sees it beat faster or slower.
     if (whose !== this.whose) this.viewer.setBeat(1);

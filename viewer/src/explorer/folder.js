@@ -9,13 +9,22 @@ export class Folder {
     this.catalogue = catalogue;
     this.lattices = new Map();
     this.pushes = new Map();
-    const given = this.fragment();
-    this.asked = { ...catalogue.start, ...(given.animal ? { speed: undefined } : {}), ...given };
+    this.asked = catalogue.start;
     this.face = new Face(element, {});
     this.face.onask = (asked) => this.ask(asked);
     this.face.onpush = () => this.push();
+    this.face.onpushed = () => this.link();
     this.face.has = ({ animal, model, push }) => catalogue.files.includes(file(animal, model, push));
     this.face.pushSpeed = ({ species, model }) => this.pushSpeed(species, model);
+    window.addEventListener("hashchange", () => this.follow());
+    this.follow();
+  }
+
+  // Show what the page's address asks for.
+  follow() {
+    const given = this.fragment();
+    this.asked = chosen(this.asked, given);
+    this.face.linked.want(given.push ?? "");
     this.ask(this.asked);
   }
 
@@ -26,6 +35,7 @@ export class Folder {
     if (this.catalogue.animals.some(({ name }) => name === given.get("animal"))) found.animal = given.get("animal");
     if (this.catalogue.models.some(({ name }) => name === given.get("model"))) found.model = given.get("model");
     if (Number.isFinite(parseFloat(given.get("speed")))) found.speed = parseFloat(given.get("speed"));
+    if (given.get("push")) found.push = given.get("push");
     return found;
   }
 
@@ -104,11 +114,23 @@ export class Folder {
     const answer = lattice.answers.reduce((best, each) => (away(each) < away(best) ? each : best));
     if (this.shown !== lattice) this.face.showCurve(lattice.curve);
     this.shown = lattice;
-    const { animal, model } = this.asked;
     this.asked.speed = answer.speed;
     this.face.showAnswer(answer);
-    history.replaceState(null, "", `#${new URLSearchParams({ animal, model, speed: answer.speed })}`);
+    this.link();
   }
+
+  // Write what is shown into the page's address.
+  link() {
+    const { animal, model, speed } = this.asked;
+    const push = this.face.linked.name;
+    history.replaceState(null, "", `#${new URLSearchParams({ animal, model, speed, ...(push && { push }) })}`);
+  }
+}
+
+// What is asked for by a link: an animal begins at a speed of its own.
+function chosen(before, { animal, model, speed }) {
+  const asked = animal ? { animal, speed } : { animal: before.animal, speed: speed ?? before.speed };
+  return { ...asked, model: model ?? before.model };
 }
 
 async function decompressed(text) {

@@ -1,8 +1,6 @@
 // Numbers as the explorer writes them, and the words for what is known of a point.
 
-export function short(value, digits = 3) {
-  return Number(value.toPrecision(digits)).toString();
-}
+import { short } from "../writing.js";
 
 export function withUnit(value, unit, digits = 3) {
   return unit ? `${short(value, digits)} ${unit}` : short(value, digits);

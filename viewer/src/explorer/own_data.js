@@ -141,7 +141,9 @@ export class OwnData {
   }
 
   words({ title, points, curves }) {
+    const { viewer, blind } = this.face;
     if (points) return `${title}: ${points.length} ${points.length === 1 ? "point" : "points"} behind the curve`;
+    if (!viewer) return `${title}: ${blind ? "not drawn, because the page has no picture" : "drawn with the first picture"}`;
     const [found, others] = [true, false].map((drawn) => {
       const those = curves.filter(({ name }) => this.drawn.includes(name) === drawn);
       return those.map((curve) => curve.title).join(", ");

@@ -1,7 +1,7 @@
 // Comparison: one answer is pinned, and stays beside those that follow.
 
 import { make } from "../elements.js";
-import { short } from "./numbers.js";
+import { short } from "../writing.js";
 
 export class Pins {
   // `act` is called when the pinned answer or the way to show it changes. Without `pinning` the page chooses what is pinned.

@@ -1,9 +1,9 @@
 // Two guided tours about a flight as a whole: what a robot must give, and what a gust does to a bird.
 
+import { capital } from "../writing.js";
 import {
   amplitude,
   enough,
-  first,
   gust,
   hertz,
   listed,
@@ -79,7 +79,7 @@ export const robot = {
       view: { camera: "oblique", arrows: true },
       look: "curve",
       tell: ({ now, seen }) => [
-        `${first(speed(now))} it needs ${watts(now.power)}.`,
+        `${capital(speed(now))} it needs ${watts(now.power)}.`,
         ...since(
           seen.gait,
           ({ power }) => `A motor sized for the cheapest flight, with ${watts(power)}, ${enough(power, now.power)}.`,
@@ -105,7 +105,7 @@ export const tumbling = {
       view: { camera: "side", arrows: false },
       look: "picture",
       tell: ({ now }) => [
-        `${first(speed(now))} the pigeon flies a beat that ends as it began. Undisturbed, it would go on for ever.`,
+        `${capital(speed(now))} the pigeon flies a beat that ends as it began. Undisturbed, it would go on for ever.`,
         ...stability(now),
       ],
     },

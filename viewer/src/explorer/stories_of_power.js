@@ -1,6 +1,7 @@
 // Two guided tours about what flight costs: a hummingbird that slows down, and one bat in two kinds of air loads.
 
-import { first, gauge, hertz, judgement, largest, moved, percent, shareOf, since, speed, watts } from "./words.js";
+import { capital } from "../writing.js";
+import { gauge, hertz, judgement, largest, moved, percent, shareOf, since, speed, watts } from "./words.js";
 
 export const hovering = {
   name: "hovering",
@@ -26,7 +27,7 @@ export const hovering = {
       view: { camera: "side", arrows: true },
       look: "curve",
       tell: ({ now, seen }) => [
-        `${first(speed(now))} less air passes the wings in each second, and all of it must go down faster.`,
+        `${capital(speed(now))} less air passes the wings in each second, and all of it must go down faster.`,
         ...since(seen.cheap, (cheap) => `Induced power ${moved(cheap.spent.induced, now.spent.induced)}.`),
       ],
     },
@@ -37,7 +38,7 @@ export const hovering = {
       view: { camera: "oblique", arrows: true },
       look: "curve",
       tell: ({ now, seen }) => [
-        `${first(speed(now))} the bird beats at ${hertz(now.frequency)}.`,
+        `${capital(speed(now))} the bird beats at ${hertz(now.frequency)}.`,
         ...(now.speed ? [] : ["What moves the air past its wings is their beat alone."]),
         ...since(seen.cheap, (cheap) => `Against the cheapest flight, power ${moved(cheap.power, now.power)}.`),
         `Of what is spent on the air, the largest part is ${largest(now)}.`,
@@ -50,7 +51,7 @@ export const hovering = {
       view: { camera: "side", arrows: true },
       look: "curve",
       tell: ({ now, seen }) => [
-        `${first(speed(now))} air is plentiful, but it drags on body and wings.`,
+        `${capital(speed(now))} air is plentiful, but it drags on body and wings.`,
         ...since(
           seen.hover,
           (hover) => `Against the slowest flight, induced power ${moved(hover.spent.induced, now.spent.induced)}.`,
@@ -117,7 +118,7 @@ export const coefficients = {
       view: { camera: "side", arrows: true },
       look: "curve",
       tell: ({ now, seen }) => [
-        `${first(speed(now))}, on plates again, the bat needs ${watts(now.power)}.`,
+        `${capital(speed(now))}, on plates again, the bat needs ${watts(now.power)}.`,
         ...since(seen.plate, (plate) => `The frequency ${moved(plate.frequency, now.frequency, hertz)}.`),
       ],
     },

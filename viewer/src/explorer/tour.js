@@ -1,6 +1,7 @@
 // Runs a guided tour: asks for the flight of a step, sets the view, and says what the reader sees.
 
 import { make } from "../elements.js";
+import { setView, viewOf } from "../state.js";
 import { SPEEDS, STORIES } from "./stories.js";
 import { emphasised } from "./words.js";
 
@@ -63,6 +64,7 @@ export class Tour {
   // Steps -----------------------------------------------------------------------------------------------------------
 
   start(story, opener) {
+    this.before ??= this.found();
     Object.assign(this, { story, opener, seen: {} });
     this.panel.hidden = false;
     this.face.root.dataset.tour = story.name;
@@ -70,8 +72,19 @@ export class Tour {
     this.go(0, 1);
   }
 
+  // What the reader had chosen before the tour.
+  found() {
+    const { viewer, pins } = this.face;
+    return { view: viewer && viewOf(viewer), pinned: pins.answer, ghost: pins.ghost };
+  }
+
+  // The flight of the last step stays; all else is as before the tour.
   close() {
+    const { viewer, pins } = this.face;
     this.pin(undefined);
+    if (pins.ghost !== this.before.ghost) pins.turn();
+    if (viewer && this.before.view) setView(viewer, this.before.view);
+    this.before = undefined;
     this.panel.hidden = true;
     this.step = undefined;
     delete this.face.root.dataset.tour;
@@ -174,11 +187,12 @@ export class Tour {
 
   // View ------------------------------------------------------------------------------------------------------------
 
-  // Compare with the answer of an earlier step; what the reader pinned stays.
+  // Compare with the answer of an earlier step; else with what the reader pinned.
   pin(answer) {
     const { pins } = this.face;
     const isOurs = this.pinned && pins.answer === this.pinned;
-    if (answer !== pins.answer && (answer || isOurs)) pins.pin(answer);
+    const wanted = answer ?? (isOurs ? this.before.pinned : pins.answer);
+    if (wanted !== pins.answer) pins.pin(wanted);
     this.pinned = answer;
   }
 

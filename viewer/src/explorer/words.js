@@ -1,7 +1,7 @@
 // Sentences with numbers of answers in them. Every number that a tour says is made here, from an answer that was shown.
 
 import { make } from "../elements.js";
-import { short } from "./numbers.js";
+import { short } from "../writing.js";
 
 export const watts = (value) => `${short(value)} W`;
 export const speed = (answer) => (answer.speed ? `at ${short(answer.speed)} m/s` : "in hover");
@@ -71,10 +71,6 @@ export function gust({ direction, size }) {
 export const hertz = (value) => `${short(value)} Hz`;
 
 export const metres = (value) => `${short(value)} m`;
-
-export function first(text) {
-  return text.charAt(0).toUpperCase() + text.slice(1);
-}
 
 export function amplitude(answer) {
   const found = gauge(answer, "flap_amplitude");

@@ -1,0 +1,49 @@
+"""What all visitors share: the pool of workers, the downloads, and the open pages."""
+
+from __future__ import annotations
+
+import secrets
+import tempfile
+
+from nicegui import Client
+
+from wingbeat.app.downloads import Downloads
+from wingbeat.app.face import animals
+from wingbeat.app.first import read_first
+from wingbeat.app.page import Page
+from wingbeat.workers.fair_pool import FairPool
+
+_WORK = "wingbeat.app.jobs:do"
+
+
+class House:
+    """What all visitors share.
+
+    Parameters
+    ----------
+    processes : worker processes of the pool.
+    """
+
+    def __init__(self, processes: int) -> None:
+        self.pool = FairPool(_WORK, processes)
+        self.downloads = Downloads()
+        self.first = read_first()
+        animals()  # now, so that the first visitor need not wait for it
+        self.pages: dict[str, Page] = {}
+        self.folder = tempfile.TemporaryDirectory(prefix="wingbeat-")
+
+    def open_page(self, client: Client, query: str) -> None:
+        """Build a page for a new visitor."""
+        name = secrets.token_urlsafe(12)
+        page = self.pages[name] = Page(name, self.pool, self.downloads, self.first, query)
+
+        def leave() -> None:
+            del self.pages[name]
+            page.leave()
+
+        client.on_delete(leave)
+
+    def close(self) -> None:
+        """End the workers and delete all temporary files."""
+        self.pool.close()
+        self.folder.cleanup()

@@ -24,6 +24,7 @@ from wingbeat.stability.feedback import feedback as compute
 from wingbeat.stability.feedback_report import STATE_UNITS, beats_of, feedback_report, survey_report
 from wingbeat.stability.gust_flight import GustFlight, fly_gust
 from wingbeat.stability.gust_survey import MOST_FLIGHTS, GustSurvey, survey_gusts
+from wingbeat.style import heading
 from wingbeat.winds import Wind
 
 FREE, HELD = "no feedback", "feedback"
@@ -74,8 +75,12 @@ def feedback(
     duration=0.3. --survey flies random gusts and prints the share survived. A flight is lost if its body pitch is
     60 degrees from the orbit's, or if it sinks 5 m below the orbit's path.
 
-    --json prints, in SI units and radians: species speed climb frequency dt state inputs delay gains cost lower
-    upper multipliers spectral_radius open_loop controllability sufficient version; late and beats;
+    The table of gains prints the change of each input per unit of a deviation, with angles in degrees. The `gains`
+    of --json have the opposite sign, as in control theory: inputs = -gains times deviations.
+
+    --json prints, in SI units and radians: species speed climb frequency dt state inputs delay gains (a row for
+    each of inputs, a column for each of gain_columns) gain_columns cost lower upper multipliers spectral_radius
+    open_loop controllability sufficient version; late and beats;
     flights by name ("no feedback", "feedback"), each with completed survived largest_pitch lowest highest
     settled_beats; and survey (null without --survey) with flights beats largest_gust survived by_size by_direction.
     Exit code 3: the flight with feedback is lost.
@@ -107,7 +112,9 @@ def feedback(
             orbit, {FREE: None, HELD: held}, survey, beats=beats, late=late, noise=errors, seed=seed
         )
     if plot:
-        save_figure(gust_page(flights, surveyed), plot)
+        delayed = f", feedback {beats_of(delay + late)} late" if delay + late else ""
+        title = f"{heading(str(orbit.inputs['species']['name']))} at {orbit.inputs['speed']:g} m/s{delayed}"
+        save_figure(gust_page(flights, surveyed, title), plot)
     if json:
         record = held.record() | {"late": late, "beats": beats}
         record["flights"] = {name: one.record() for name, one in flights.items()}

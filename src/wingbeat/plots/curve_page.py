@@ -11,7 +11,7 @@ import numpy as np
 
 from wingbeat.datasets import climb_text
 from wingbeat.errors import FaultList
-from wingbeat.nomenclature import axis_label
+from wingbeat.nomenclature import NOMENCLATURE, axis_label, plain, readable_limit
 from wingbeat.style import (
     ALARM,
     BLUE,
@@ -36,7 +36,10 @@ _MOST_EMPTY = 0.35  # share of the axis that may lie below the slowest speed
 _BEST, _OTHER, _PUBLISHED, _SPEEDS = BLUE, "0.6", GREEN, VERMILION
 _DASHES = ((0, (1, 1)), (0, (3, 1, 1, 1)), (0, (6, 1.5)), (0, (2, 2.5)))
 # Marks in a strip above the panel: kind, marker, its fill, height as a share of the panel's, and label.
-_STRIP = (("branch", "X", "k", 1.09, "change of branch"), ("bounds", "^", "w", 1.03, "other bounds active"))
+_STRIP = (
+    ("branch", "X", "k", 1.09, "change of branch between two speeds"),
+    ("bounds", "^", "w", 1.03, "change of active bounds"),
+)
 _NEEDED = ("frequency", "mean_positive_power", "objective_value", "family", "continued", "status")
 _NAMES = {"minimum_power": ("minimum power", "v"), "maximum_range": ("maximum range", "s")}
 _NAMES |= {"fastest_sustained": ("fastest sustained", ">"), "slowest_sustained": ("slowest sustained", "<")}
@@ -66,7 +69,8 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
     """Draw power and wingbeat frequency of a curve's orbits against speed.
 
     The thick line is the best orbit of each speed, broken where it changes branch. Thin grey lines are the other
-    certified optima found. The grey band spans all optima.
+    certified optima found. The grey band spans all optima. If another quantity is minimised, such as the metabolic
+    power, it has a panel of its own.
 
     Parameters
     ----------
@@ -87,12 +91,13 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
     powers = ["mean_positive_power"]
     if dataset.attrs["objective"] == "mean_power":
         powers = ["mean_power", *powers]
-    panels = [*powers, "frequency"]
+    minimised = dataset.attrs["objective"]
+    panels = [*powers, *([] if minimised in (*powers, "frequency") else ["objective_value"]), "frequency"]
     with drawing():
         figure = new_figure(PAGE, _HEIGHT + 45 * (len(panels) - 2))
         all_axes = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
         for axes, name in zip(all_axes, panels, strict=True):
-            axes.set_ylabel(axis_label(name))
+            axes.set_ylabel(_minimised_label(dataset) if name == "objective_value" else axis_label(name))
             _draw_optima(axes, dataset, curve.marks, name)
             _draw_published(axes, published, name)
             _draw_marks(axes, curve.marks, curve.gaps, dataset["speed"].values)
@@ -105,10 +110,16 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
     return figure
 
 
+def _minimised_label(dataset: xr.Dataset) -> str:
+    name, unit = dataset.attrs["objective"], plain(dataset["objective_value"].attrs["units"])
+    return axis_label(name) if name in NOMENCLATURE else f"{in_words(name)} [{'-' if unit == '1' else unit}]"
+
+
 def _title(dataset: xr.Dataset) -> str:
     about = dataset.attrs
     aero, kept = (json.loads(about[name]) for name in ("aero", "constraints"))
-    limits = "".join(f", {in_words(text)}" for text in kept).replace("<=", " ≤ ").replace(">=", " ≥ ")
+    limits = "".join(f", {in_words(readable_limit(text))}" for text in kept)
+    limits = limits.replace("<=", " ≤ ").replace(">=", " ≥ ")
     if len(kept) > _MOST_LIMITS:
         limits = f", within {len(kept)} limits"
     animal = heading(about["species"]) + climb_text(about["climb"])
@@ -122,9 +133,9 @@ def _draw_optima(axes: Axes, dataset: xr.Dataset, marks: list[dict[str, Any]], n
     low = np.where(good, values, np.inf).min(axis=1)
     high = np.where(good, values, -np.inf).max(axis=1)
     some = good.any(axis=1)
-    band = {"color": "0.5", "alpha": 0.13, "linewidth": 0, "label": "all distinct optima found"}
+    band = {"color": "0.5", "alpha": 0.13, "linewidth": 0, "label": "range of all optima found"}
     axes.fill_between(speed, np.where(some, low, np.nan), np.where(some, high, np.nan), **band)
-    label = "another optimum, continued"
+    label = "another optimum, followed along speed"
     for i, below, above in np.argwhere(dataset["continued"].values > 0):
         if below or above:
             ends = values[i, below], values[i + 1, above]
@@ -206,6 +217,8 @@ def _draw_speeds(axes: Axes, curve: Any, name: str) -> None:
         edge = ", at the edge" if found["at_edge"] else ", beside a jump" if found["jump_beside"] else ""
         label = f"{label}: {found['speed']:.1f} m/s, {found['power']:.3g} W{edge}"
         look = {"marker": marker, "color": _SPEEDS, "markeredgecolor": "k", "linestyle": "", "markersize": 6}
+        if key == "maximum_range":  # larger and open: both speeds may be the same
+            look |= {"markersize": 9, "markerfacecolor": "none", "markeredgecolor": _SPEEDS}
         axes.plot(found["speed"], found["power"], label=label, zorder=5, **look)
         if key == "maximum_range":
             reach = np.array([0.0, 1.15 * found["speed"]])

@@ -25,7 +25,7 @@ def test_it_prints_gains_multipliers_and_a_saved_flight(saved, capsys):
     assert "spectral radius 1.346 without feedback, 0.956 with feedback that acts 1 beat later" in printed
     assert "pitch_mean [deg]" in printed
     assert "rate [deg/s]" in printed
-    assert "see `gains` of --json,\nwhich have the opposite sign" in printed
+    assert "see --json, whose `gains`\nhave the opposite sign" in printed
     assert "multipliers without feedback: 1.346, 0.892 ± 0.130i, 0.648" in printed
     assert "inputs that suffice alone:    frequency, flap_mean" in printed
     assert "no feedback: lost" in printed

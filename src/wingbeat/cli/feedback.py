@@ -13,6 +13,7 @@ from cyclopts import Parameter
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import Whole, check_files, check_outputs, named_numbers, unpacking
 from wingbeat.cli.printing import print_report
+from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.streams import plain_console
 from wingbeat.cli.winds import Gust, Turbulence, WindSeed, wind_of
 from wingbeat.errors import FaultList
@@ -104,13 +105,14 @@ def feedback(
     airspeed = math.hypot(float(orbit.inputs["speed"]), float(orbit.inputs["climb"]))
     wind = wind_of(given, turbulence, wind_seed, airspeed)
     assert wind is not None
-    held = compute(orbit, inputs, delay=delay)
-    flights = _fly(held, wind, beats, late, errors, seed)
-    surveyed = None
-    if survey:
-        surveyed = survey_gusts(
-            orbit, {FREE: None, HELD: held}, survey, beats=beats, late=late, noise=errors, seed=seed
-        )
+    with progress_bar(f"{orbit.inputs['species']['name']}, feedback and flights"):
+        held = compute(orbit, inputs, delay=delay)
+        flights = _fly(held, wind, beats, late, errors, seed)
+        surveyed = None
+        if survey:
+            surveyed = survey_gusts(
+                orbit, {FREE: None, HELD: held}, survey, beats=beats, late=late, noise=errors, seed=seed
+            )
     if plot:
         delayed = f", feedback {beats_of(delay + late)} late" if delay + late else ""
         title = f"{heading(str(orbit.inputs['species']['name']))} at {orbit.inputs['speed']:g} m/s{delayed}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -181,7 +182,8 @@ def _draw_marks(axes: Axes, marks: list[dict[str, Any]], gaps: list[float], spee
 def _draw_published(axes: Axes, published: Sequence[Published], name: str) -> None:
     left, right = axes.get_xlim()
     tallest = axes.get_ylim()[1]
-    for k, one in enumerate(p for p in published if p.quantity in (name, "speed")):
+    dashes = itertools.cycle(_DASHES)  # in the order of the lines, so that a law looks the same in every figure
+    for one in (p for p in published if p.quantity in (name, "speed")):
         style = {"color": _PUBLISHED, "zorder": 2}
         if one.quantity == "speed":
             if name != "frequency":
@@ -194,7 +196,7 @@ def _draw_published(axes: Axes, published: Sequence[Published], name: str) -> No
                 one.speeds, one.values, one.spread, fmt="D", markersize=4, capsize=2, label=one.label, **style
             )
             continue
-        axes.plot(one.speeds, one.values, linestyle=_DASHES[k % len(_DASHES)], label=one.label, **style)
+        axes.plot(one.speeds, one.values, linestyle=next(dashes), label=one.label, **style)
         if one.spread:
             axes.fill_between(
                 one.speeds,

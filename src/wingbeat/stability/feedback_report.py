@@ -28,9 +28,10 @@ def feedback_report(record: dict[str, Any]) -> Report:
     rows = tuple(Row(_gains(name, row)) for name, row in zip(record["inputs"], record["gains"], strict=True))
     headings = ("", *(label for label, _ in STATE_UNITS.values()))
     delay = record["delay"]
+    beats = "beat" if delay == 1 else beats_of(delay)
     last = [
-        Line(f"and of the inputs of the last {'beat' if delay == 1 else beats_of(delay)}: see `gains` of --json,"),
-        Line("which have the opposite sign (inputs = -gains times deviations), in SI units and radians"),
+        Line(f"and of the inputs of the last {beats}: see --json, whose `gains`"),
+        Line("have the opposite sign (inputs = -gains x deviations), SI units and radians"),
     ]
     return [
         Line(headline(record), wraps=False),

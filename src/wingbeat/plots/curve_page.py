@@ -12,7 +12,7 @@ import numpy as np
 
 from wingbeat.datasets import climb_text
 from wingbeat.errors import FaultList
-from wingbeat.nomenclature import NOMENCLATURE, axis_label, plain, readable_limit
+from wingbeat.nomenclature import axis_label, plain, readable_limit
 from wingbeat.style import (
     ALARM,
     BLUE,
@@ -112,8 +112,8 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
 
 
 def _minimised_label(dataset: xr.Dataset) -> str:
-    name, unit = dataset.attrs["objective"], plain(dataset["objective_value"].attrs["units"])
-    return axis_label(name) if name in NOMENCLATURE else f"{in_words(name)} [{'-' if unit == '1' else unit}]"
+    unit = plain(dataset["objective_value"].attrs["units"])
+    return f"{in_words(dataset.attrs['objective'])} [{'-' if unit == '1' else unit}]"
 
 
 def _title(dataset: xr.Dataset) -> str:
@@ -186,7 +186,7 @@ def _draw_published(axes: Axes, published: Sequence[Published], name: str) -> No
     for one in (p for p in published if p.quantity in (name, "speed")):
         style = {"color": _PUBLISHED, "zorder": 2}
         if one.quantity == "speed":
-            if name != "frequency":
+            if name not in ("frequency", "objective_value"):
                 axes.axvspan(
                     one.speeds[0], one.speeds[-1], color=_PUBLISHED, alpha=0.12, linewidth=0, label=one.label
                 )

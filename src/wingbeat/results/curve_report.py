@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import Any
 
@@ -38,6 +39,7 @@ def curve_report(record: dict[str, Any]) -> Report:
     blocks: list[Block] = [
         Line(f"{animal}, minimum {minimised}: {certified} of {len(points)} speeds certified"),
         Table(rows, tuple(headings), "r" * (len(headings) - 1) + "l"),
+        *_implausible(points),
         Line(""),
         Line("changes from one speed to the next", tone="title"),
     ]
@@ -54,6 +56,20 @@ def curve_report(record: dict[str, Any]) -> Report:
     if record["warnings"]:
         blocks += [Line("warnings", tone="title"), Notes(tuple(record["warnings"]))]
     return blocks
+
+
+def _implausible(points: list[dict[str, Any]]) -> list[Block]:
+    """Say at which speeds the best orbit is outside which plausible ranges; nothing for a file of before."""
+    told = [(point["speed"], point["optima"][0].get("outside_ranges")) for point in points if point["optima"]]
+    if not told or any(names is None for _, names in told):
+        return []
+    lines: list[Block] = [Line(""), Line("outside plausible ranges", tone="title")]
+    for names, group in itertools.groupby(told, key=lambda one: one[1]):
+        speeds = [speed for speed, _ in group]
+        where = f"{speeds[0]:g}" if len(speeds) == 1 else f"{speeds[0]:g} to {speeds[-1]:g}"
+        if names:
+            lines.append(Line(f"  at {where} m/s: {str(names).replace('_', ' ')}", tone="warning"))
+    return lines if len(lines) > 2 else [*lines, Line("  at no speed")]
 
 
 def _power(record: dict[str, Any]) -> str:

@@ -1,6 +1,7 @@
 """Objectives and constraints read off the beat: their values, derivatives, optima, and what is refused."""
 
 import dataclasses
+import re
 
 import numpy as np
 import pytest
@@ -323,7 +324,8 @@ def test_on_the_command_line(capsys):
     assert main([*command, "--subject-to", "frequency<=16", "body_pitch_range<=40 deg"]) == 0
     printed = " ".join(capsys.readouterr().out.split())
     assert "minimised mean positive power, 39.5" in printed
-    assert "constraint frequency<=16 16" in printed
+    assert "limit frequency<=16 Hz 16 Hz" in printed
+    assert re.search(r"limit body_pitch_range<=40 deg \d[\d.]* deg", printed)
     assert "at the bound of frequency<=16" in printed
     assert main([*command, "--subject-to", "beauty>=1"]) == 2
     assert "beauty" in capsys.readouterr().err

@@ -1,12 +1,12 @@
 """Each example of the gallery asks a question, answers it with a number, and draws a figure with labelled axes."""
 
 import ast
+import importlib.util
 import runpy
 
 import matplotlib
 import matplotlib.pyplot as plt
 import pytest
-from matplotlib.figure import Figure
 
 from tests.helpers.places import ROOT
 
@@ -33,11 +33,15 @@ def drawn_nowhere(monkeypatch, tmp_path):
     matplotlib.use(backend)
 
 
-def figures_of(values):
-    """Return the figures of an example, those of pyplot and those that wingbeat's own pages are."""
-    pages = [value for value in values.values() if isinstance(value, Figure)]
-    found = [*map(plt.figure, plt.get_fignums()), *pages]
-    return list({id(figure): figure for figure in found}.values())
+@pytest.fixture(scope="module")
+def runner():
+    """The program that runs an example in a clone and saves its figures."""
+    spec = importlib.util.spec_from_file_location("run_gallery", GALLERY.parent / "run_gallery.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
 
 
 def title_and_why(path):
@@ -78,9 +82,9 @@ def test_an_example_is_short_cells_that_check_and_print_an_answer(path):
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=names)
-def test_an_example_runs_and_draws_labelled_axes(path, drawn_nowhere, capsys):
+def test_an_example_runs_and_draws_labelled_axes(path, runner, drawn_nowhere, capsys):
     values = runpy.run_path(str(path), run_name="__main__")
-    figures = figures_of(values)
+    figures = runner.figures_of(values)
     assert figures
     for figure in figures:
         figure.canvas.draw()
@@ -89,3 +93,20 @@ def test_an_example_runs_and_draws_labelled_axes(path, drawn_nowhere, capsys):
             assert axes.get_xlabel() or axes.get_ylabel()
         assert any("[" in axes.get_xlabel() + axes.get_ylabel() for axes in figure.axes), "units"
     assert len(capsys.readouterr().out.splitlines()) >= 1
+
+
+def test_a_clone_lists_the_examples_and_saves_the_figure_of_one(
+    runner, drawn_nowhere, tmp_path, monkeypatch, capsys
+):
+    assert runner.main([]) == 0
+    assert capsys.readouterr().out.splitlines()[3] == " 4  Does the pigeon beat as fast as the paper says?"
+    quick = "import matplotlib.pyplot as plt\nfor _ in range(2):\n    plt.figure()\nprint('the answer')\n"
+    (tmp_path / "plot_01_quick.py").write_text(quick)
+    monkeypatch.setattr(runner, "GALLERY", tmp_path)
+    monkeypatch.chdir(tmp_path)
+    assert runner.main(["1"]) == 0
+    told = "the answer\nwrote plot_01_quick_1.png\nwrote plot_01_quick_2.png\n"
+    assert capsys.readouterr().out == told
+    assert (tmp_path / "plot_01_quick_2.png").read_bytes().startswith(b"\x89PNG")
+    assert runner.main(["7"]) == 2
+    assert "no example has the number 7; use 1 to 1" in capsys.readouterr().err

@@ -3,6 +3,7 @@
 import dataclasses
 import itertools
 import json
+import math
 
 import numpy as np
 import pytest
@@ -17,7 +18,9 @@ from wingbeat.orbits.many.transitions import families, marks_of
 from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.solve import find_optima
 from wingbeat.orbits.status import Status
+from wingbeat.reports.text import text_of
 from wingbeat.results.characteristic import characteristic_speeds
+from wingbeat.results.curve_report import curve_report
 
 SPEEDS = [5.0, 6.0, 7.0]
 
@@ -240,3 +243,46 @@ def test_every_column_of_a_curve_is_said_by_the_table(curve):
         assert variable.attrs["long_name"] == label_of(path), name
         if name != "objective_value":  # its unit is that of the objective
             assert variable.attrs.get("units", "") == term.unit, name
+
+
+def test_a_minimised_quantity_other_than_power_and_frequency_has_a_column():
+    """With the model `animal` the metabolic power is minimised, but the curve's power is that of the hinges."""
+    best = {"frequency": 6.0, "mean_positive_power": 2.4, "objective_value": 4.84, "cost_of_transport": 0.1}
+    best |= {"flap_amplitude": 0.5, "active_bounds": ""}
+    point = {"speed": 9.0, "status": "converged", "message": "", "optima": [best], "distinct_optima": 1}
+    record = {"species": "kestrel", "climb": 0.0, "objective": "metabolic_power", "points": [point], "gaps": []}
+    record |= {"marks": [], "power": "", "characteristic_speeds": {}, "warnings": []}
+    lines = text_of(curve_report(record)).splitlines()
+    assert lines[1].split()[:4] == ["U", "f", "P+", "minimised"]
+    assert lines[3].split()[:4] == ["9", "6", "2.4", "4.84"]
+    assert "outside plausible ranges" not in lines  # a file of before does not say it
+    outside = best | {"outside_ranges": "strouhal, flap_amplitude"}
+    points = [point | {"speed": speed, "optima": [outside]} for speed in (5.0, 7.0)]
+    points.append(point | {"optima": [best | {"outside_ranges": ""}]})
+    lines = text_of(curve_report(record | {"points": points})).splitlines()
+    at = lines.index("outside plausible ranges")
+    assert lines[at + 1 : at + 3] == ["  at 5 to 7 m/s: strouhal, flap amplitude", ""]
+    lines = text_of(curve_report(record | {"points": points[2:]})).splitlines()
+    assert lines[lines.index("outside plausible ranges") + 1] == "  at no speed"
+    plain = text_of(curve_report(record | {"objective": "mean_positive_power"})).splitlines()
+    assert plain[3].split()[:4] == ["9", "6", "2.4", "0.1"]
+
+
+def test_such_a_quantity_has_a_panel_of_its_own(curve):
+    assert len(wb.plots.curve_page(curve.dataset).axes) == 2
+    other = wb.plots.curve_page(curve.dataset.assign_attrs(objective="metabolic_power"))
+    labels = [axes.get_ylabel() for axes in other.axes]
+    assert labels[1] == "metabolic power [Hz]"
+    best = next(line for line in other.axes[1].get_lines() if str(line.get_label()).startswith("best"))
+    values = curve.dataset["objective_value"].sel(speed=best.get_xdata())
+    assert np.allclose(best.get_ydata(), values[:, 0])
+
+
+def test_each_optimum_says_which_plausible_ranges_it_leaves(curve):
+    for point in curve.record()["points"]:
+        known = wb.load_species("bat").plausible_range("strouhal", point["speed"])
+        for best in point["optima"]:
+            high = math.inf if known.high is None else known.high
+            low = -math.inf if known.low is None else known.low
+            assert ("strouhal" in best["outside_ranges"].split(", ")) is not (low <= best["strouhal"] <= high)
+            assert best["outside_ranges"]  # the paper's bat is always outside one

@@ -14,6 +14,7 @@ import wingbeat as wb
 from wingbeat.cli.app import main
 from wingbeat.errors import InvalidInputError
 from wingbeat.results.plausibility import statements
+from wingbeat.results.rows import plausible_rows
 from wingbeat.species import species_text, template
 from wingbeat.studies.recipe import recipe_from
 
@@ -218,3 +219,20 @@ def test_a_study_searches_inside_what_is_plausible(tmp_path: Any) -> None:
 def test_bounds_of_another_word_are_refused() -> None:
     with pytest.raises(InvalidInputError, match="is not a known choice; use one of plausible"):
         wb.OrbitProblem(wb.load_species("bat"), speed=10.0, bounds="likely")
+
+
+def test_the_table_says_which_numbers_are_held_at_an_end_of_their_range() -> None:
+    keys = ("name", "value", "unit", "low", "high", "within")
+    cases = [
+        ("frequency", 6.769, "Hz", 3.6, 6.77, True),
+        ("strouhal", 0.20004, "1", 0.2, 0.4, True),
+        ("reynolds", 5e4, "1", None, 1e5, True),
+        ("flap_amplitude", 1.3, "rad", 0.3, 1.2, False),
+        ("strouhal", None, "1", 0.2, 0.4, None),
+    ]
+    judged: list[dict[str, Any]] = [dict(zip(keys, case, strict=True)) for case in cases]
+    said = [text.rstrip(")").rpartition(", ")[2] for _, text in plausible_rows(judged)]
+    assert said[0] == "at the upper end"
+    assert said[1] == "at the lower end"
+    assert not any("end" in text for text in said[2:])
+    assert said[3] == "outside"

@@ -335,3 +335,9 @@ def test_built_in_animals_and_robots_fly() -> None:
     for orbit, (name, (_, _, highest)) in zip(wb.solve_orbits(problems, starts=1), FLOWN.items(), strict=True):
         assert orbit.status is wb.Status.CONVERGED, (name, orbit.message)
         assert orbit.wingbeat.frequency <= highest, name
+
+
+def test_a_given_mass_is_exact_unless_no_bird_of_that_span_has_it() -> None:
+    assert wb.bird(mass=0.2, wing_span=0.73, wing_area=0.07).numbers["vehicle.mass"].range is None
+    grams = wb.bird(mass=200.0, wing_span=0.73, wing_area=0.07)
+    assert any(line.startswith("vehicle.mass = 200 kg is outside its plausible range") for line in grams.warnings)

@@ -24,6 +24,8 @@ def test_it_prints_gains_multipliers_and_a_saved_flight(saved, capsys):
     printed = capsys.readouterr().out
     assert "spectral radius 1.346 without feedback, 0.956 with feedback that acts 1 beat later" in printed
     assert "pitch_mean [deg]" in printed
+    assert "rate [deg/s]" in printed
+    assert "see --json, whose `gains`\nhave the opposite sign" in printed
     assert "multipliers without feedback: 1.346, 0.892 ± 0.130i, 0.648" in printed
     assert "inputs that suffice alone:    frequency, flap_mean" in printed
     assert "no feedback: lost" in printed
@@ -36,6 +38,8 @@ def test_its_json_is_that_of_the_library(saved, patient, cruise, capsys, tmp_pat
     assert main(["feedback", saved, *asked]) == 0
     record = json.loads(capsys.readouterr().out)
     assert np.allclose(record["gains"], patient.gains, rtol=1e-6, atol=1e-6)
+    assert len(record["gain_columns"]) == len(record["gains"][0])
+    assert record["gain_columns"][4:7] == ["pitch_rate", "frequency, 1 beat ago", "flap_mean, 1 beat ago"]
     assert record["flights"]["no feedback"]["survived"] is False
     held = record["flights"]["feedback"]
     gust = fly_gust(cruise, wb.winds.CosineGust(w=2.0, duration=0.3), feedback=patient)
@@ -62,7 +66,11 @@ def test_the_figure_shows_flights_and_shares(cruise, held):
     assert np.allclose(kept, np.degrees(flights["feedback"].pitch))
     assert np.allclose(height.get_lines()[1].get_ydata(), flights["feedback"].height)
     assert len(sizes.get_lines()) == len(directions.get_lines()) == 2
-    assert len(gust_page(flights).axes) == 2
+    figure = gust_page(flights, title="Pigeon at 12 m/s")
+    assert len(figure.axes) == 2
+    assert figure.get_suptitle() == "Pigeon at 12 m/s"
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert labels == ["no feedback", "feedback", "time of the gust"]
 
 
 def test_deviations_of_a_flight_are_from_the_orbit(cruise, held):

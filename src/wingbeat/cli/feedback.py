@@ -13,6 +13,7 @@ from cyclopts import Parameter
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import Whole, check_files, check_outputs, named_numbers, unpacking
 from wingbeat.cli.printing import print_report
+from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.streams import plain_console
 from wingbeat.cli.winds import Gust, Turbulence, WindSeed, wind_of
 from wingbeat.errors import FaultList
@@ -24,6 +25,7 @@ from wingbeat.stability.feedback import feedback as compute
 from wingbeat.stability.feedback_report import STATE_UNITS, beats_of, feedback_report, survey_report
 from wingbeat.stability.gust_flight import GustFlight, fly_gust
 from wingbeat.stability.gust_survey import MOST_FLIGHTS, GustSurvey, survey_gusts
+from wingbeat.style import heading
 from wingbeat.winds import Wind
 
 FREE, HELD = "no feedback", "feedback"
@@ -74,8 +76,12 @@ def feedback(
     duration=0.3. --survey flies random gusts and prints the share survived. A flight is lost if its body pitch is
     60 degrees from the orbit's, or if it sinks 5 m below the orbit's path.
 
-    --json prints, in SI units and radians: species speed climb frequency dt state inputs delay gains cost lower
-    upper multipliers spectral_radius open_loop controllability sufficient version; late and beats;
+    The table of gains prints the change of each input per unit of a deviation, with angles in degrees. The `gains`
+    of --json have the opposite sign, as in control theory: inputs = -gains times deviations.
+
+    --json prints, in SI units and radians: species speed climb frequency dt state inputs delay gains (a row for
+    each of inputs, a column for each of gain_columns) gain_columns cost lower upper multipliers spectral_radius
+    open_loop controllability sufficient version; late and beats;
     flights by name ("no feedback", "feedback"), each with completed survived largest_pitch lowest highest
     settled_beats; and survey (null without --survey) with flights beats largest_gust survived by_size by_direction.
     Exit code 3: the flight with feedback is lost.
@@ -99,15 +105,18 @@ def feedback(
     airspeed = math.hypot(float(orbit.inputs["speed"]), float(orbit.inputs["climb"]))
     wind = wind_of(given, turbulence, wind_seed, airspeed)
     assert wind is not None
-    held = compute(orbit, inputs, delay=delay)
-    flights = _fly(held, wind, beats, late, errors, seed)
-    surveyed = None
-    if survey:
-        surveyed = survey_gusts(
-            orbit, {FREE: None, HELD: held}, survey, beats=beats, late=late, noise=errors, seed=seed
-        )
+    with progress_bar(f"{orbit.inputs['species']['name']}, feedback and flights"):
+        held = compute(orbit, inputs, delay=delay)
+        flights = _fly(held, wind, beats, late, errors, seed)
+        surveyed = None
+        if survey:
+            surveyed = survey_gusts(
+                orbit, {FREE: None, HELD: held}, survey, beats=beats, late=late, noise=errors, seed=seed
+            )
     if plot:
-        save_figure(gust_page(flights, surveyed), plot)
+        delayed = f", feedback {beats_of(delay + late)} late" if delay + late else ""
+        title = f"{heading(str(orbit.inputs['species']['name']))} at {orbit.inputs['speed']:g} m/s{delayed}"
+        save_figure(gust_page(flights, surveyed, title), plot)
     if json:
         record = held.record() | {"late": late, "beats": beats}
         record["flights"] = {name: one.record() for name, one in flights.items()}

@@ -98,8 +98,8 @@ def manoeuvre(
 
 def _solved(problem: OrbitProblem, starts: int | None, seed: int) -> Orbit:
     """Return the certified orbit at the start."""
-    with progress_bar(f"{problem.species.name}, first orbit"):
-        orbit = solve_orbit(problem, starts, seed)
+    with progress_bar(f"{problem.species.name}, first orbit") as progress:
+        orbit = solve_orbit(problem, starts, seed, progress)
     if orbit.status is not Status.CONVERGED:
         fault = Fault(
             "--speed", problem.speed, f"has no certified orbit: {orbit.message}", "start at another speed"

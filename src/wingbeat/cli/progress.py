@@ -1,4 +1,4 @@
-"""Progress of long work (on a terminal only); the message and the exit code of a study that stops early."""
+"""Progress of long work, as a bar or a few lines; the message and the exit code of a study that stops early."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import contextlib
 import os
 import signal
 import sys
+import threading
+import time
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
@@ -16,11 +18,17 @@ if TYPE_CHECKING:
     from wingbeat.studies.driver import Stop, Tally
 
 
+# Where stderr is no terminal, a line tells of work that lasts so long, and again each time its duration doubles.
+# Work of the usual few seconds prints nothing.
+FIRST_LINE = 20.0  # s
+
+
 @contextlib.contextmanager
 def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
-    """Yield a function that shows (done, in all) on stderr; None if stderr is not a terminal."""
+    """Yield a function that shows (done, in all) on stderr: in a bar, or in a few lines outside a terminal."""
     if not sys.stderr.isatty():
-        yield None
+        with _Lines(what) as lines:
+            yield lines.update
         return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
@@ -33,6 +41,35 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
             bar.update(task, completed=done, total=total)
 
         yield update
+
+
+class _Lines:
+    """Plain lines on stderr that tell how far long work is, for a log or another program."""
+
+    def __init__(self, what: str) -> None:
+        self._what, self._done, self._total = what, 0, 0
+        self._ended = threading.Event()
+        # A thread, because the first programs compile for a minute before the work calls `update`.
+        self._teller = threading.Thread(target=self._tell, daemon=True)
+
+    def __enter__(self) -> _Lines:
+        self._teller.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._ended.set()
+        self._teller.join()
+
+    def update(self, done: int, total: int) -> None:
+        self._done, self._total = done, total
+
+    def _tell(self) -> None:
+        began, due = time.monotonic(), FIRST_LINE
+        hint = "; the first run also compiles programs, which takes up to two minutes"
+        while not self._ended.wait(began + due - time.monotonic()):
+            counted = f"{self._done} of {self._total} done" if self._total else "still working"
+            say(f"{self._what}: {counted} after {duration(due)}{hint}")
+            due, hint = 2.0 * due, ""
 
 
 def _show_cursor() -> None:

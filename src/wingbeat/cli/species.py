@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 species = App(name="species", help="Show the built-in animals or your own species file.")
 
-_SPEED = 10.0  # m/s, of the Reynolds numbers in the list
+_SPEED = 10.0  # m/s, of the warning below the list
 
 
 @species.default
@@ -169,12 +169,14 @@ def _table(title: str, *columns: str) -> Table:
     table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
     for column in columns:
         name, _, right = column.partition(">")
-        table.add_column(name, justify="right" if right else "left", overflow="fold")
+        # Numbers and the first column, which one types, stay whole; other words break at blanks.
+        whole = bool(right) or column == columns[0]
+        table.add_column(name, justify="right" if right else "left", no_wrap=whole, overflow="fold")
     return table
 
 
 def _print_list(everyone: list[Species]) -> None:
-    columns = "mass [g]>r", "wing [mm]>r", "chord [mm]>r", "Re at 10 m/s>r", "su-fan fit [m/s]>r"
+    columns = "mass\n[g]>r", "wing\n[mm]>r", "chord\n[mm]>r", "su-fan\n[m/s]>r"
     table = _table("", "name", "animal", *columns)
     outside = []
     for animal in everyone:
@@ -184,12 +186,17 @@ def _print_list(everyone: list[Species]) -> None:
         if not low <= _SPEED <= high:
             outside.append(animal.name)
         speeds = f"{low:.1f} to {high:.1f}"
-        table.add_row(row["name"], row["common_name"], *lengths, f"{row['reynolds_at_10_m_per_s']:.2g}", speeds)
+        table.add_row(row["name"], row["common_name"], *lengths, speeds)
     console = plain_console()
     console.print(table)
+    console.print(
+        "wing: length of one wing, from shoulder to tip; chord: its mean; su-fan: speeds at which the chord's "
+        "Reynolds number is that of the plate of Su et al., 20000 to 50000, whose coefficients, su-fan, are the "
+        "default"
+    )
     if outside:
         names = ", ".join(outside)
-        line = f"warning: outside Su et al.'s Reynolds numbers (2e4 to 5e4) at {_SPEED:g} m/s: {names}"
+        line = f"warning: outside Su et al.'s Reynolds numbers (20000 to 50000) at {_SPEED:g} m/s: {names}"
         console.print(line, style="yellow")
     console.print(
         "wingbeat species NAME shows every number of a species; wingbeat species new FILE starts your own."

@@ -63,7 +63,8 @@ def uncertainty(
     bounds = "plausible" if within_plausible else {}
     problem = model.problem(species, speed, set_, climb=climb, minimise=minimise, bounds=bounds)
     known = _known(problem, _DEFAULT if quantities is None else quantities)
-    orbit = solve_orbit(problem, seed=seed)
+    with progress_bar(f"{problem.species.name} at {speed:g} m/s") as progress:
+        orbit = solve_orbit(problem, seed=seed, progress=progress)
     if orbit.status is not Status.CONVERGED:
         Console(stderr=True).print(f"{orbit.status.value}: {orbit.message}", markup=False)
         return EXIT_NOT_CERTIFIED

@@ -11,6 +11,7 @@ from wingbeat.nomenclature.lookup import (
     find,
     label_of,
     plain_unit,
+    readable_limit,
 )
 from wingbeat.nomenclature.term import Term
 from wingbeat.nomenclature.units import cf, for_people, plain
@@ -26,4 +27,5 @@ __all__ = [
     "label_of",
     "plain",
     "plain_unit",
+    "readable_limit",
 ]

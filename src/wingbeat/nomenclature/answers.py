@@ -92,6 +92,7 @@ ANSWER = (
     Term("distinct_optima", "1", "number of distinct optima found"),
     Term("starts_at_best", "1", "number of starts that ended at the best optimum"),
     Term("active_bounds", "", "bounds and limits that the orbit has reached"),
+    Term("outside_ranges", "", "quantities of the orbit that are outside their plausible ranges"),
     Term("failed_balance", "", "balances that fail, and by how much"),
     Term("relaxations", "", "smallest single changes that give an orbit"),
     Term("plausibility", "", "numbers of the orbit that have plausible ranges, with these ranges"),

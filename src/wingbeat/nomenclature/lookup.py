@@ -12,7 +12,7 @@ from wingbeat.nomenclature.given import AERO, GIVEN, RUN, WINGBEAT
 from wingbeat.nomenclature.series import GLIDE, SERIES, SERIES_WHERE_ON
 from wingbeat.nomenclature.shape import SHAPE
 from wingbeat.nomenclature.term import Term
-from wingbeat.nomenclature.units import plain
+from wingbeat.nomenclature.units import for_people, plain
 
 NOMENCLATURE: dict[str, Term] = {
     term.name: term
@@ -57,6 +57,20 @@ def plain_unit(path: str) -> str:
     """
     term = find(path)
     return plain(term.unit) if term is not None and term.unit else "1"
+
+
+def readable_limit(limit: str) -> str:
+    """Return a limit of a record, which is in SI units and radians, with its unit and angles in degrees.
+
+    The limit of a quantity that is not in the table does not change.
+
+    >>> readable_limit("body_pitch_range<=0.349066"), readable_limit("peak_power<=30"), readable_limit("mine>=0.5")
+    ('body_pitch_range<=20 deg', 'peak_power<=30 W', 'mine>=0.5')
+    """
+    name, sign, number = re.split(r"(<=|>=)", limit, maxsplit=1)
+    term = find(name)
+    factor, unit = for_people(term.unit) if term is not None else (1.0, "")
+    return f"{name}{sign}{float(number) * factor:.4g} {unit}".rstrip()
 
 
 def label_of(path: str, short: bool = False) -> str:

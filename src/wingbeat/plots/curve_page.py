@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,7 +12,7 @@ import numpy as np
 
 from wingbeat.datasets import climb_text
 from wingbeat.errors import FaultList
-from wingbeat.nomenclature import axis_label
+from wingbeat.nomenclature import axis_label, plain, readable_limit
 from wingbeat.style import (
     ALARM,
     BLUE,
@@ -36,7 +37,10 @@ _MOST_EMPTY = 0.35  # share of the axis that may lie below the slowest speed
 _BEST, _OTHER, _PUBLISHED, _SPEEDS = BLUE, "0.6", GREEN, VERMILION
 _DASHES = ((0, (1, 1)), (0, (3, 1, 1, 1)), (0, (6, 1.5)), (0, (2, 2.5)))
 # Marks in a strip above the panel: kind, marker, its fill, height as a share of the panel's, and label.
-_STRIP = (("branch", "X", "k", 1.09, "change of branch"), ("bounds", "^", "w", 1.03, "other bounds active"))
+_STRIP = (
+    ("branch", "X", "k", 1.09, "change of branch between two speeds"),
+    ("bounds", "^", "w", 1.03, "change of active bounds"),
+)
 _NEEDED = ("frequency", "mean_positive_power", "objective_value", "family", "continued", "status")
 _NAMES = {"minimum_power": ("minimum power", "v"), "maximum_range": ("maximum range", "s")}
 _NAMES |= {"fastest_sustained": ("fastest sustained", ">"), "slowest_sustained": ("slowest sustained", "<")}
@@ -66,7 +70,8 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
     """Draw power and wingbeat frequency of a curve's orbits against speed.
 
     The thick line is the best orbit of each speed, broken where it changes branch. Thin grey lines are the other
-    certified optima found. The grey band spans all optima.
+    certified optima found. The grey band spans all optima. If another quantity is minimised, such as the metabolic
+    power, it has a panel of its own.
 
     Parameters
     ----------
@@ -87,12 +92,13 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
     powers = ["mean_positive_power"]
     if dataset.attrs["objective"] == "mean_power":
         powers = ["mean_power", *powers]
-    panels = [*powers, "frequency"]
+    minimised = dataset.attrs["objective"]
+    panels = [*powers, *([] if minimised in (*powers, "frequency") else ["objective_value"]), "frequency"]
     with drawing():
         figure = new_figure(PAGE, _HEIGHT + 45 * (len(panels) - 2))
         all_axes = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
         for axes, name in zip(all_axes, panels, strict=True):
-            axes.set_ylabel(axis_label(name))
+            axes.set_ylabel(_minimised_label(dataset) if name == "objective_value" else axis_label(name))
             _draw_optima(axes, dataset, curve.marks, name)
             _draw_published(axes, published, name)
             _draw_marks(axes, curve.marks, curve.gaps, dataset["speed"].values)
@@ -105,10 +111,16 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
     return figure
 
 
+def _minimised_label(dataset: xr.Dataset) -> str:
+    unit = plain(dataset["objective_value"].attrs["units"])
+    return f"{in_words(dataset.attrs['objective'])} [{'-' if unit == '1' else unit}]"
+
+
 def _title(dataset: xr.Dataset) -> str:
     about = dataset.attrs
     aero, kept = (json.loads(about[name]) for name in ("aero", "constraints"))
-    limits = "".join(f", {in_words(text)}" for text in kept).replace("<=", " ≤ ").replace(">=", " ≥ ")
+    limits = "".join(f", {in_words(readable_limit(text))}" for text in kept)
+    limits = limits.replace("<=", " ≤ ").replace(">=", " ≥ ")
     if len(kept) > _MOST_LIMITS:
         limits = f", within {len(kept)} limits"
     animal = heading(about["species"]) + climb_text(about["climb"])
@@ -122,9 +134,9 @@ def _draw_optima(axes: Axes, dataset: xr.Dataset, marks: list[dict[str, Any]], n
     low = np.where(good, values, np.inf).min(axis=1)
     high = np.where(good, values, -np.inf).max(axis=1)
     some = good.any(axis=1)
-    band = {"color": "0.5", "alpha": 0.13, "linewidth": 0, "label": "all distinct optima found"}
+    band = {"color": "0.5", "alpha": 0.13, "linewidth": 0, "label": "range of all optima found"}
     axes.fill_between(speed, np.where(some, low, np.nan), np.where(some, high, np.nan), **band)
-    label = "another optimum, continued"
+    label = "another optimum, followed along speed"
     for i, below, above in np.argwhere(dataset["continued"].values > 0):
         if below or above:
             ends = values[i, below], values[i + 1, above]
@@ -170,10 +182,11 @@ def _draw_marks(axes: Axes, marks: list[dict[str, Any]], gaps: list[float], spee
 def _draw_published(axes: Axes, published: Sequence[Published], name: str) -> None:
     left, right = axes.get_xlim()
     tallest = axes.get_ylim()[1]
-    for k, one in enumerate(p for p in published if p.quantity in (name, "speed")):
+    dashes = itertools.cycle(_DASHES)  # in the order of the lines, so that a law looks the same in every figure
+    for one in (p for p in published if p.quantity in (name, "speed")):
         style = {"color": _PUBLISHED, "zorder": 2}
         if one.quantity == "speed":
-            if name != "frequency":
+            if name not in ("frequency", "objective_value"):
                 axes.axvspan(
                     one.speeds[0], one.speeds[-1], color=_PUBLISHED, alpha=0.12, linewidth=0, label=one.label
                 )
@@ -183,7 +196,7 @@ def _draw_published(axes: Axes, published: Sequence[Published], name: str) -> No
                 one.speeds, one.values, one.spread, fmt="D", markersize=4, capsize=2, label=one.label, **style
             )
             continue
-        axes.plot(one.speeds, one.values, linestyle=_DASHES[k % len(_DASHES)], label=one.label, **style)
+        axes.plot(one.speeds, one.values, linestyle=next(dashes), label=one.label, **style)
         if one.spread:
             axes.fill_between(
                 one.speeds,
@@ -206,6 +219,8 @@ def _draw_speeds(axes: Axes, curve: Any, name: str) -> None:
         edge = ", at the edge" if found["at_edge"] else ", beside a jump" if found["jump_beside"] else ""
         label = f"{label}: {found['speed']:.1f} m/s, {found['power']:.3g} W{edge}"
         look = {"marker": marker, "color": _SPEEDS, "markeredgecolor": "k", "linestyle": "", "markersize": 6}
+        if key == "maximum_range":  # larger and open: both speeds may be the same
+            look |= {"markersize": 9, "markerfacecolor": "none", "markeredgecolor": _SPEEDS}
         axes.plot(found["speed"], found["power"], label=label, zorder=5, **look)
         if key == "maximum_range":
             reach = np.array([0.0, 1.15 * found["speed"]])

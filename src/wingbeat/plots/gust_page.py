@@ -23,7 +23,7 @@ _SHOWN = 60.0
 
 
 @drawing()
-def gust_page(flights: Mapping[str, GustFlight], survey: GustSurvey | None = None) -> Figure:
+def gust_page(flights: Mapping[str, GustFlight], survey: GustSurvey | None = None, title: str = "") -> Figure:
     """Draw body pitch and height of flights through one gust, and the share of gusts that are survived.
 
     The shade is the time of the gust. Lines end where a flight is lost.
@@ -32,8 +32,11 @@ def gust_page(flights: Mapping[str, GustFlight], survey: GustSurvey | None = Non
     ----------
     flights : through the same wind, by names, at most three.
     survey : with feedbacks of the same names; with None, its panels are left out.
+    title : above the panels, such as the animal and its speed.
     """
     figure = new_page(PAGE, 62.0)
+    if title:
+        figure.suptitle(title, fontsize=8, x=0.01, ha="left")
     panels = figure.subplots(1, 4 if survey is not None else 2)
     _draw_flights(panels[0], panels[1], flights)
     if survey is not None:
@@ -74,8 +77,9 @@ def _draw_flights(pitch: Axes, height: Axes, flights: Mapping[str, GustFlight]) 
     if first.air is not None:
         blows = np.hypot(*first.air.T) > 0
         if blows.any() and not blows.all():
+            span = first.time[blows][0], first.time[blows][-1]
             for panel in (pitch, height):
-                panel.axvspan(first.time[blows][0], first.time[blows][-1], color=SHADE, linewidth=0, zorder=0)
+                panel.axvspan(*span, color=SHADE, linewidth=0, zorder=0, label="time of the gust")
     for panel in (pitch, height):
         panel.axhline(0.0, color=GREY, linewidth=0.6)
     dress(pitch, "time [s]", "deviation of body pitch [deg]")

@@ -81,6 +81,7 @@ def curve_dataset(
         table.add(f"constraint_{i}", cf(constraint.quantity.unit), about, lambda r, n=text: r["constraints"][n])
     table.add("largest_multiplier", "1", label_of("largest_multiplier"), _largest_multiplier)
     table.texts("active_bounds", label_of("active_bounds"), lambda r: ", ".join(r["active_bounds"]))
+    table.texts("outside_ranges", label_of("outside_ranges"), _outside)
     family = np.full((len(speeds), widest), -1)
     for i, row in enumerate(labels):
         family[i, : len(row)] = [n if r is not None else -1 for n, r in zip(row, good[i], strict=True)]
@@ -141,6 +142,10 @@ class _Table:
     def _each(self) -> Any:
         for i, row in enumerate(self._records):
             yield from (((i, j), record) for j, record in enumerate(row) if record is not None)
+
+
+def _outside(record: dict[str, Any]) -> str:
+    return ", ".join(one["name"] for one in record["plausibility"] if one["within"] is False)
 
 
 def _largest_multiplier(record: dict[str, Any]) -> float | None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from typing import Any
 
 from wingbeat.datasets import climb_text
+from wingbeat.nomenclature import find, for_people
 from wingbeat.reports import Block, Line, Notes, Report, Row, Table
 
 _LABELS = {
@@ -14,7 +16,8 @@ _LABELS = {
     "fastest_sustained": "fastest within the power limit",
     "slowest_sustained": "slowest within the power limit",
 }
-_HEADINGS = ("U [m/s]", "f [Hz]", "P+ [W]", "CoT [-]", "flap [deg]", "optima", "at the bound of")
+_HEADINGS = ("U\n[m/s]", "f\n[Hz]", "P+\n[W]", "CoT\n[-]", "flap\n[deg]", "optima", "at the bound of")
+_MINIMISED_AT = 3  # column of the minimised quantity, after the power
 
 
 def curve_report(record: dict[str, Any]) -> Report:
@@ -27,10 +30,16 @@ def curve_report(record: dict[str, Any]) -> Report:
     points = record["points"]
     animal, minimised = record["species"] + climb_text(record["climb"]), record["objective"].replace("_", " ")
     certified = len(points) - len(record["gaps"])
-    rows = tuple(Row(_row(point)) for point in points)
+    headings: list[str] = list(_HEADINGS)
+    factor, unit = _unit(record["objective"])
+    other = record["objective"] not in ("frequency", "mean_positive_power")  # which have columns of their own
+    if other:
+        headings.insert(_MINIMISED_AT, f"minimised\n[{unit or '-'}]")
+    rows = tuple(Row(_row(point, factor if other else None)) for point in points)
     blocks: list[Block] = [
         Line(f"{animal}, minimum {minimised}: {certified} of {len(points)} speeds certified"),
-        Table(rows, _HEADINGS, "rrrrrrl"),
+        Table(rows, tuple(headings), "r" * (len(headings) - 1) + "l"),
+        *_implausible(points),
         Line(""),
         Line("changes from one speed to the next", tone="title"),
     ]
@@ -49,21 +58,45 @@ def curve_report(record: dict[str, Any]) -> Report:
     return blocks
 
 
+def _implausible(points: list[dict[str, Any]]) -> list[Block]:
+    """Say at which speeds the best orbit is outside which plausible ranges; nothing for a file of before."""
+    told = [(point["speed"], point["optima"][0].get("outside_ranges")) for point in points if point["optima"]]
+    if not told or any(names is None for _, names in told):
+        return []
+    lines: list[Block] = [Line(""), Line("outside plausible ranges", tone="title")]
+    for names, group in itertools.groupby(told, key=lambda one: one[1]):
+        speeds = [speed for speed, _ in group]
+        where = f"{speeds[0]:g}" if len(speeds) == 1 else f"{speeds[0]:g} to {speeds[-1]:g}"
+        if names:
+            lines.append(Line(f"  at {where} m/s: {str(names).replace('_', ' ')}", tone="warning"))
+    return lines if len(lines) > 2 else [*lines, Line("  at no speed")]
+
+
 def _power(record: dict[str, Any]) -> str:
     if record["power"] == "minimised quantity":
         return record["objective"].replace("_", " ")
     return record["power"]
 
 
-def _row(point: dict[str, Any]) -> tuple[str, ...]:
+def _unit(objective: str) -> tuple[float, str]:
+    """Return the factor to the reader's unit of the minimised quantity, and that unit; a user's own has none."""
+    term = find(objective)
+    return for_people(term.unit) if term is not None else (1.0, "")
+
+
+def _row(point: dict[str, Any], factor: float | None) -> tuple[str, ...]:
+    """Return the cells of a speed; with a factor to its unit, also the minimised quantity."""
     if not point["optima"]:
-        return (f"{point['speed']:g}", "", "", "", "", "0", f"{point['status']}: {point['message']}")
+        none = ("",) * (4 if factor is None else 5)
+        return (f"{point['speed']:g}", *none, "0", f"{point['status']}: {point['message']}")
     best = point["optima"][0]
     cost = best["cost_of_transport"]
+    minimised = () if factor is None else (f"{best['objective_value'] * factor:.4g}",)
     return (
         f"{point['speed']:g}",
         f"{best['frequency']:.4g}",
         f"{best['mean_positive_power']:.4g}",
+        *minimised,
         "-" if cost is None else f"{cost:.3g}",
         f"{math.degrees(best['flap_amplitude']):.3g}",
         f"{point['distinct_optima']}",

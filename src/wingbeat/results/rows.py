@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import Any
 
 from wingbeat.datasets import STATE_NAMES
-from wingbeat.nomenclature import NOMENCLATURE, cf, for_people, plain_unit
+from wingbeat.nomenclature import NOMENCLATURE, cf, for_people, plain_unit, readable_limit
 from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
 from wingbeat.orbits.problem.report import loads_in_words, model_rows, place_in_words
 
 Rows = list[tuple[str, str]]
+# Limits of plausible ranges are 0.02 % inside them.
+_AT_END = 5e-4  # relative
 
 # Values that switch off a law that the paper does not have; a row with such a value is left out.
 _OFF: dict[str, Any] = {
@@ -68,9 +71,19 @@ def plausible_rows(judged: list[dict[str, Any]]) -> Rows:
             known = f"{low.removesuffix(f' {unit}')} to {high}"
         elif low or high:
             known = f"at least {low}" if low else f"at most {high}"
-        outside = ", outside" if one["within"] is False else ""
-        rows.append((one["name"].replace("_", " "), f"{_number(one['value'], unit, factor)} ({known}{outside})"))
+        value = _number(one["value"], unit, factor)
+        rows.append((one["name"].replace("_", " "), f"{value} ({known}{_place(one)})"))
     return rows
+
+
+def _place(one: dict[str, Any]) -> str:
+    """Say if a judged number is outside its range, or held at an end of it, as `--within-plausible` may hold it."""
+    if one["within"] is False:
+        return ", outside"
+    for end, side in (("low", "lower"), ("high", "upper")):
+        if one["within"] and one[end] is not None and math.isclose(one["value"], one[end], rel_tol=_AT_END):
+            return f", at the {side} end"
+    return ""
 
 
 def deficit_rows(deficits: list[dict[str, Any]]) -> Rows:
@@ -132,16 +145,18 @@ def certificate_rows(record: dict[str, Any]) -> Rows:
     if record.get("objective_value") is not None:
         rows.append(("minimised", f"{record['objective'].replace('_', ' ')}, {record['objective_value']:.5g}"))
     for constraint, value in (record.get("constraints") or {}).items():
-        rows.append((f"constraint {constraint}", _number(value, "", 1.0)))
+        name = re.split("[<>]=", constraint)[0]
+        factor, unit = for_people(cf(plain_unit(name)))
+        rows.append((f"limit {readable_limit(constraint)}", _number(value, unit, factor)))
     if record.get("price_of_stability") is not None:
         price = f"{100 * record['price_of_stability']:.2g} % more {record['objective'].replace('_', ' ')}"
         rows.append(("price of stability", f"{price} than {record['free_objective']:.5g} without the limit"))
     if closure:
         worst = max(closure, key=lambda name: math.inf if closure[name] is None else abs(closure[name]))
         residual = "lost" if closure[worst] is None else f"{abs(closure[worst]):.1e} {plain_unit(worst)}"
-        rows.append(("largest residual when re-flown", f"{residual}, in {worst}"))
+        rows.append(("largest residual when re-flown", f"{residual}, in {worst.replace('_', ' ')}"))
     if record.get("optimality") is not None:
-        rows.append(("optimality (largest KKT residual)", f"{record['optimality']:.1e}"))
+        rows.append(("optimality residual (0 is exact)", f"{record['optimality']:.1e}"))
     if "starts" in record:
         rows.append(("starts, of which at this optimum", f"{record['starts']}, {record.get('starts_at_best')}"))
         rows.append(("distinct optima found", str(record.get("distinct_optima"))))
@@ -155,7 +170,7 @@ def stability_rows(record: dict[str, Any]) -> Rows:
     if not pairs or any(part is None for pair in pairs for part in pair):
         return []
     sizes = [math.hypot(*pair) for pair in pairs]
-    rows = [("multipliers, modulus", ", ".join(f"{size:.3g}" for size in sizes))]
+    rows = [("growth per beat (multipliers)", ", ".join(f"{size:.3g}" for size in sizes))]
     if record.get("stable") is None:
         return [*rows, ("stable", "unknown: the orbit is not certified")]
     rows.append(("stable", "yes" if record["stable"] else "no"))

@@ -133,10 +133,14 @@ def _vehicle(kind: Kind, given: Numbers, mass: float, span: float, area: float) 
 
 
 def _whole(kind: Kind, mass: float, span: float) -> Number:
+    """Return the given mass, with a range only if no bird of this span has it: what somebody measured is exact."""
     if kind is not BIRD:
         return Number(mass, "kg", "given")
     usual = scaling.BIRD_MASS.number(span)
-    return Number(mass, "kg", f"given; range {usual.source}", usual.range)
+    low, high = _range(usual)
+    if low <= mass <= high:
+        return Number(mass, "kg", "given")
+    return Number(mass, "kg", f"given; range {usual.source}", (low, high))
 
 
 def _chord(kind: Kind, span: float, area: float) -> Number:

@@ -44,7 +44,8 @@ class Feedback(Reported):
     ----------
     flight : the linear flight for which it was computed; its state begins with the height.
     delay : beats by which inputs act later.
-    gains : shape (inputs, 5 + delay * inputs) [unit of the input per unit of the state].
+    gains : shape (inputs, 5 + delay * inputs) [unit of the input per unit of the state]. The columns belong to
+        `gain_columns`.
     cost : matrix P of the cost to go ``x' P x``, shape (5 + delay * inputs, 5 + delay * inputs) [1].
     lower, upper : largest changes of the inputs, shape (inputs,) [Hz, rad or shares].
     controllability : what the inputs do to each mode, the fastest growing first.
@@ -75,6 +76,15 @@ class Feedback(Reported):
     def multipliers(self) -> np.ndarray:
         """Multipliers of the flight with feedback and all pending inputs, the largest first."""
         return self.multipliers_if_late(0)
+
+    @property
+    def gain_columns(self) -> tuple[str, ...]:
+        """Names of the columns of `gains`: the state, then each waiting input, such as ``frequency, 1 beat ago``.
+
+        An input that was computed several beats ago comes first.
+        """
+        ago = (f"{beats} beat{'s' if beats > 1 else ''} ago" for beats in range(self.delay, 0, -1))
+        return (*self.flight.state, *(f"{name}, {when}" for when in ago for name in self.inputs))
 
     @property
     def spectral_radius(self) -> float:
@@ -157,6 +167,7 @@ class Feedback(Reported):
             "inputs": list(self.inputs),
             "delay": self.delay,
             "gains": self.gains.tolist(),
+            "gain_columns": list(self.gain_columns),
             "cost": self.cost.tolist(),
             "lower": dict(zip(self.inputs, self.lower.tolist(), strict=True)),
             "upper": dict(zip(self.inputs, self.upper.tolist(), strict=True)),

@@ -14,7 +14,7 @@ STATE_UNITS = {
     "body_pitch": ("pitch [deg]", math.radians(1.0)),
     "u": ("u [m/s]", 1.0),
     "w": ("w [m/s]", 1.0),
-    "pitch_rate": ("rate [rad/s]", 1.0),
+    "pitch_rate": ("rate [deg/s]", math.radians(1.0)),
 }
 
 
@@ -28,7 +28,11 @@ def feedback_report(record: dict[str, Any]) -> Report:
     rows = tuple(Row(_gains(name, row)) for name, row in zip(record["inputs"], record["gains"], strict=True))
     headings = ("", *(label for label, _ in STATE_UNITS.values()))
     delay = record["delay"]
-    last = [Line(f"and of the inputs of the last {'beat' if delay == 1 else beats_of(delay)}: see --json")]
+    beats = "beat" if delay == 1 else beats_of(delay)
+    last = [
+        Line(f"and of the inputs of the last {beats}: see --json, whose `gains`"),
+        Line("have the opposite sign (inputs = -gains x deviations), SI units and radians"),
+    ]
     return [
         Line(headline(record), wraps=False),
         Line(""),

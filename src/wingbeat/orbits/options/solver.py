@@ -13,9 +13,9 @@ from wingbeat.orbits.options.diagnosis import ChangeOptions, DiagnosisOptions
 from wingbeat.orbits.options.search import SearchOptions
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class SolverOptions:
-    """Every tuning number of the solvers, each with its default.
+    """Every tuning number of the solvers, each with its default. Printed, it shows those that are not the default.
 
     Parameters
     ----------
@@ -33,6 +33,8 @@ class SolverOptions:
     >>> from wingbeat.orbits.options.search import SearchOptions
     >>> SolverOptions(search=SearchOptions(iterations=100)).changed()
     {'search': {'iterations': 100}}
+    >>> SolverOptions(), SolverOptions(search=SearchOptions(iterations=100))
+    (SolverOptions(), SolverOptions(search=SearchOptions(iterations=100)))
     """
 
     search: SearchOptions = field(default_factory=SearchOptions)
@@ -45,9 +47,23 @@ class SolverOptions:
     def __post_init__(self) -> None:
         check_options(self)
 
+    def __repr__(self) -> str:  # not every number: this is the default that `help` shows of each solver
+        return _shown(self, SolverOptions())
+
     def changed(self) -> dict[str, Any]:
         """Return the options that are not the defaults, as a nested dictionary that JSON can hold."""
         return _differences(self, DEFAULTS)
+
+
+def _shown(options: Any, usual: Any) -> str:
+    """Return options as Python writes them, without those that are the default."""
+    shown = []
+    for each in dataclasses.fields(options):
+        value, default = getattr(options, each.name), getattr(usual, each.name)
+        if value != default:
+            nested = dataclasses.is_dataclass(value)
+            shown.append(f"{each.name}={_shown(value, default) if nested else repr(value)}")
+    return f"{type(options).__name__}({', '.join(shown)})"
 
 
 def _differences(options: Any, usual: Any) -> dict[str, Any]:

@@ -278,6 +278,10 @@ def test_the_command_uncertainty_prints_both_ways(capsys, monkeypatch):
     assert main([*words, "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["frequency"]["certified"] == 10
+    assert main([*words, "--quantities", "frequency"]) == 0
+    shown = capsys.readouterr()
+    assert "To first order, not yet checked by 10 draws:\n  frequency 9.4" in shown.err
+    assert "10 of 10 certified" in shown.out
     make_hasty(monkeypatch)
     assert main(["uncertainty", "pigeon", "--speed", "10", "--set", "body.mass=3"]) == 3
     assert "infeasible" in capsys.readouterr().err

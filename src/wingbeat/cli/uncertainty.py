@@ -14,6 +14,7 @@ from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import SPECIES, Climb, Settings, Whole, WithinPlausible
 from wingbeat.cli.progress import progress_bar
 from wingbeat.errors import InvalidInputError
+from wingbeat.orbits.many.uncertainty import ErrorBar
 from wingbeat.orbits.problem.path_functions import check_quantities
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity, named_objective
@@ -68,13 +69,17 @@ def uncertainty(
     if orbit.status is not Status.CONVERGED:
         Console(stderr=True).print(f"{orbit.status.value}: {orbit.message}", markup=False)
         return EXIT_NOT_CERTIFIED
+    slopes = sensitivities(orbit, known)
+    names, fit = [quantity.name for quantity in known], model.fit()
+    if not json:
+        _announce([slopes.error_bar(name, fit, share) for name in names], samples)
     with progress_bar(f"{samples} draws") as progress:
         found = uncertainty_by_samples(
-            sensitivities(orbit, known),
-            [quantity.name for quantity in known],
+            slopes,
+            names,
             samples=samples,
             seed=seed,
-            fit=model.fit(),
+            fit=fit,
             share=share,
             processes=_processes(samples),
             progress=progress,
@@ -86,6 +91,14 @@ def uncertainty(
         for one in found.values():
             _print(one, Console())
     return EXIT_GOOD
+
+
+def _announce(bars: Sequence[ErrorBar], samples: int) -> None:
+    """Print the first-order error bars before the draws check them, so that a run that is stopped leaves an answer."""
+    console = Console(stderr=True)
+    console.print(f"To first order, not yet checked by {samples} draws:")
+    for bar in bars:
+        console.print(f"  {in_words(bar)}", markup=False, highlight=False, soft_wrap=True)
 
 
 def _known(problem: OrbitProblem, names: Sequence[str]) -> list[Quantity]:

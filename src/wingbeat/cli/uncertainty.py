@@ -94,7 +94,7 @@ def uncertainty(
 
 
 def _announce(bars: Sequence[ErrorBar], samples: int) -> None:
-    """Print the first-order error bars before the draws check them, so that a run that is stopped leaves an answer."""
+    """Print the first-order error bars before the draws, so that a run that is stopped leaves an answer."""
     console = Console(stderr=True)
     console.print(f"To first order, not yet checked by {samples} draws:")
     for bar in bars:

@@ -31,6 +31,7 @@ class Curve:
     def __init__(self, session: Session, show: Callable[[], Any]) -> None:
         self._session, self._show = session, show
         self._job: Job | None = None
+        self._gave_way = False
         self._whole = False
         self._start_near: tuple[float, Any] | None = None
         self._waiting: list[float] = []
@@ -42,7 +43,7 @@ class Curve:
     @property
     def is_running(self) -> bool:
         """Whether points are being solved."""
-        return self._job is not None
+        return self._job is not None or self._gave_way
 
     @property
     def pending(self) -> list[float]:
@@ -99,16 +100,26 @@ class Curve:
 
     def cancel(self) -> None:
         """Request no more points, and keep those already solved."""
-        if self._job is not None:
-            job, self._job = self._job, None
-            self._session.cancel(job)
+        if self.is_running:
+            job, self._job, self._gave_way = self._job, None, False
+            if job is not None:
+                self._session.cancel(job)
             total = len(self.points) + len(self._waiting)
             self._tell(f"Cancelled after {len(self.points)} of {total} speeds.")
 
+    def go_on(self) -> None:
+        """Solve the next point if the curve gave way to a search, and this has ended."""
+        if self._gave_way and self._session.rests:
+            self._next()
+
     def _next(self) -> None:
+        self._job, self._gave_way = None, False
         if not self._waiting:
-            self._job = None
             self._tell(self._summary())
+            return
+        if not self._session.rests:  # whoever moves the point does not wait for the curve
+            self._gave_way = True
+            self._show()
             return
         assert self.asked is not None
         speed = self._waiting[0]

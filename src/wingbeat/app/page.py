@@ -173,6 +173,8 @@ class Page:
         self._stop.props.set_bool("disabled", not busy)
         set_class(self._bar, "hidden", done is None)
         self._bar.props["value"] = done or 0
+        if not busy:
+            self._curve.go_on()
 
     def show_answer(self, answer: dict[str, Any]) -> None:
         """Show an answer; its curve follows once the controls are left alone."""

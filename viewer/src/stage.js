@@ -2,7 +2,7 @@
 
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { Animal } from "./animal.js";
+import { Animal, dispose } from "./animal.js";
 import { themeOf } from "./colours.js";
 import { Ground } from "./ground.js";
 import { pixelsPerMetre } from "./scale_bar.js";
@@ -50,10 +50,12 @@ export class Stage {
 
   // One flight, or two: beside one another, or the second as a ghost in the place of the first.
   setFlights(flights, ghost) {
-    for (const { group } of this.animals) this.scene.remove(group);
-    this.retired.push(...this.animals);
-    this.animals = flights.map((flight, nth) => new Animal(flight, nth && ghost ? GHOST : 1));
-    for (const { group } of this.animals) this.scene.add(group);
+    const before = this.animals;
+    this.animals = flights.map((flight, nth) => this.flown(before[nth], flight, nth && ghost ? GHOST : 1));
+    for (const { group } of before.filter((animal) => !this.animals.includes(animal))) {
+      this.scene.remove(group);
+      this.retired.push(group);
+    }
     this.span = Math.max(...flights.map((flight) => flight.semi_span));
     this.ground.fit(this.span);
     const [first, second] = this.animals;
@@ -64,9 +66,20 @@ export class Stage {
     this.setCamera(this.view ?? "oblique");
   }
 
+  // An animal in a flight: the one that was in its place, if it is the same.
+  flown(before, flight, opacity) {
+    if (before?.suits(flight, opacity)) {
+      this.retired.push(before.fly(flight));
+      return before;
+    }
+    const animal = new Animal(flight, opacity);
+    this.scene.add(animal.group);
+    return animal;
+  }
+
   // Only once their successors are drawn: else their programs are thrown away, and compiled again for these.
   dismiss() {
-    for (const animal of this.retired) animal.dispose();
+    this.retired.forEach(dispose);
     this.retired = [];
   }
 
@@ -152,7 +165,8 @@ export class Stage {
   dispose() {
     cancelAnimationFrame(this.due);
     this.sharpness.dispose();
-    for (const animal of [...this.animals, ...this.retired]) animal.dispose();
+    this.dismiss();
+    for (const { group } of this.animals) dispose(group);
     this.ground.dispose();
     this.shadow.dispose();
     this.controls.dispose();

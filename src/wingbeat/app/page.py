@@ -110,7 +110,7 @@ class Page:
         tag("p", "wingbeat explorer", "brand")
         with tag("details", classes="drawer"):
             tag("summary", "Change the animal, the air or the numbers", "button primary")
-            with part("div", "sheet"):
+            with tag("div", classes="sheet"):
                 self._controls.build_flight(lambda: self._session.ask(whole=True))
                 with folded("Expert numbers", "expert"):
                     self._controls.build_loads()

@@ -54,7 +54,7 @@ def part(name: str, classes: str, **attributes: Any) -> Any:
 
 def box(title: str, classes: str = "") -> Any:
     """Return a section with a heading; elements made in its ``with`` block are placed below the heading."""
-    section = tag("section", classes=f"box {classes}")
+    section = part("section", f"box {classes}")
     with section:
         heading = tag("h2", title)
     section.props["aria-labelledby"] = heading.html_id

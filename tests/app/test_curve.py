@@ -104,6 +104,7 @@ def test_it_gives_way_to_a_search_and_goes_on_after_it(curve, solver):
     solver.solve()  # the point that was being solved
     curve.go_on()
     assert (len(solver.asked), curve.is_running, curve.pending) == (1, True, [8, 9, 11, 12])
+    assert curve.state == "1 of 5 speeds; waiting for the search to end."
     solver.rests = True
     curve.go_on()
     curve.go_on()

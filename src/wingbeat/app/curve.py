@@ -118,8 +118,8 @@ class Curve:
             self._tell(self._summary())
             return
         if not self._session.rests:  # whoever moves the point does not wait for the curve
-            self._gave_way = True
-            self._show()
+            self._gave_way, done = True, len(self.points)
+            self._tell(f"{done} of {done + len(self._waiting)} speeds; waiting for the search to end.")
             return
         assert self.asked is not None
         speed = self._waiting[0]

@@ -1,6 +1,11 @@
-"""How soon the explorer answers a move of its point beyond the solver's time, and what its processes hold.
+"""How soon the explorer draws the picture of a move beyond the solver's time, and what its processes hold.
 
 ``python benchmarks/explorer.py [--moves 30]``: needs the extra ``app``, Playwright and Chromium; two workers.
+
+Each move is split at two moments: the server has the answer, and the page has all of it. What comes before the
+first, less the solver's time, is the server's. What lies between them is the transfer, with all that the page does
+before it fetches the answer. The rest is the browser's, until the picture is drawn. On a busy machine the time for
+which the page's own thread computes tells more than the clock.
 """
 
 import argparse
@@ -10,10 +15,12 @@ import statistics
 import threading
 import time
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import uvicorn
 from playwright.sync_api import Page, sync_playwright
 
+from wingbeat.app.face import Face
 from wingbeat.app.house import House
 from wingbeat.app.site import build
 
@@ -22,14 +29,21 @@ PATIENCE = 120_000  # ms
 
 MOVE = """async (speed) => {
     const { face } = wingbeatPage, what = document.querySelector('.what');
+    const at = (time) => (performance.timeOrigin + time) / 1000;
+    performance.clearResourceTimings();
     const begun = performance.now();
     face.ask({ speed });
-    while (face.answer?.speed !== speed || !what.textContent.includes(` ${speed} m/s`)) {
+    const isDrawn = () => face.answer?.speed === speed && what.textContent.includes(` ${speed} m/s`)
+        && face.viewer.stage.due === undefined;
+    while (!isDrawn()) {
         await new Promise((done) => setTimeout(done, 2));
         if (performance.now() - begun > 60000) throw new Error('no answer');
     }
-    return (performance.now() - begun) / 1000 - Number(what.getAttribute('data-solver-seconds'));
+    const drawn = performance.now();
+    const [answer] = performance.getEntriesByType('resource').filter(({ name }) => name.includes('/downloads/'));
+    return { begun: at(begun), arrived: at(answer.responseEnd), drawn: at(drawn) };
 }"""
+READY = "wingbeatPage.face?.viewer && wingbeatPage.face.answer"
 SOLVED = """(what) => document.querySelector('.what')?.textContent.includes(what)
     && document.querySelector('.state')?.textContent.startsWith('Solved')"""
 
@@ -40,17 +54,62 @@ def resident(pid: str | int) -> float:
     return int(status.split("VmRSS:")[1].split()[0]) / 1024
 
 
-def slide(page: Page, address: str, animal: str, moves: int) -> list[float]:
-    """Return the seconds beyond the solver's own of so many moves of the point on the curve."""
+class Move(NamedTuple):
+    """Seconds of one move beyond the solver's: in all and in parts, and of those the page's thread computed."""
+
+    whole: float
+    server: float
+    transfer: float
+    browser: float
+    computing: float
+
+
+def listen() -> list[tuple[float, float]]:
+    """Return a list that will hold when the server had each answer, and the solver's time [s]."""
+    answered: list[tuple[float, float]] = []
+    show = Face.show
+
+    def noted(self: Face, answer: dict[str, Any]) -> None:
+        answered.append((time.time(), answer["solver_seconds"]))
+        show(self, answer)
+
+    Face.show = noted
+    return answered
+
+
+def slide(page: Page, address: str, animal: str, moves: int, answered: list[tuple[float, float]]) -> list[Move]:
+    """Return what so many moves of the point on the curve take; `answered` is from `listen`."""
     page.goto(f"{address}/?species={animal}&speed=8&starts=1")
     page.wait_for_function(SOLVED, arg=f"{animal} at 8 m/s", timeout=PATIENCE)
-    beyond = []
+    page.wait_for_function(READY)
+    session = page.context.new_cdp_session(page)
+    session.send("Performance.enable", {"timeDomain": "threadTicks"})
+
+    def computed() -> float:
+        metrics = session.send("Performance.getMetrics")["metrics"]
+        return next(one["value"] for one in metrics if one["name"] == "ThreadTime")
+
+    found = []
     for move in range(moves):
         speed = round(8 + 0.1 * (1 + move % 40), 1)
-        beyond.append(page.evaluate(MOVE, speed))
+        answered.clear()
+        before = computed()
+        at = page.evaluate(MOVE, speed)
+        computing = computed() - before
+        known, solver = answered[0]
+        server, whole = known - at["begun"] - solver, at["drawn"] - at["begun"] - solver
+        found.append(Move(whole, server, at["arrived"] - known, at["drawn"] - at["arrived"], computing))
         page.wait_for_function(SOLVED, arg=f"{animal} at {speed:g} m/s", timeout=PATIENCE)
         page.wait_for_timeout(400)
-    return beyond
+    return found
+
+
+def tell(animal: str, moves: list[Move]) -> None:
+    """Print what the moves took: of each part the least, the median and the most."""
+    late = sum(move.whole > 0.3 for move in moves)
+    print(f"{animal}: {late} of {len(moves)} moves over 0.3 s beyond the solver; least / median / most [s]:")
+    for name, values in zip(Move._fields, zip(*moves, strict=True), strict=True):
+        print(f"    {name:9} {min(values):.3f} / {statistics.median(values):.3f} / {max(values):.3f}")
 
 
 def main() -> None:
@@ -58,7 +117,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--moves", type=int, default=30, help="moves of the point, for each animal")
     moves = parser.parse_args().moves
-    house = House(2)
+    house, answered = House(2), listen()
     listening = socket.create_server(("127.0.0.1", 0))
     server = uvicorn.Server(uvicorn.Config(build(house, "127.0.0.1"), log_level="warning"))
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]}, daemon=True)
@@ -71,10 +130,7 @@ def main() -> None:
         page = browser.new_page(reduced_motion="reduce")
         page.set_default_timeout(PATIENCE)
         for animal in ("pigeon", "bat"):
-            beyond = slide(page, address, animal, moves)
-            late = sum(one > 0.3 for one in beyond)
-            spread = f"{min(beyond):.3f} / {statistics.median(beyond):.3f} / {max(beyond):.3f}"
-            print(f"{animal}: {spread} s beyond the solver (least, median, most), {late} of {moves} over .3 s")
+            tell(animal, slide(page, address, animal, moves, answered))
             workers = ", ".join(f"{resident(pid):.0f}" for pid in house.pool.workers)
             print(f"    after it the server holds {resident('self'):.0f} MB, the workers {workers} MB")
         browser.close()

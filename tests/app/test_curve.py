@@ -29,6 +29,7 @@ class Solver:
     def __init__(self):
         self.scenario, self.answer, self.answered = HERE, ANSWER, HERE
         self.asked, self.cancelled = [], []
+        self.rests = True
 
     def start(self, what, hear, background):
         assert background
@@ -118,6 +119,29 @@ def test_a_paused_curve_is_finished_when_its_scenario_comes_back(curve, solver, 
     curve.cancel()
     curve.follow(HERE, ANSWER)
     assert not curve.is_running
+
+
+def test_it_gives_way_to_a_search_and_goes_on_after_it(curve, solver):
+    curve.follow(HERE, ANSWER)
+    solver.rests = False
+    solver.solve()  # the point that was being solved
+    curve.go_on()
+    assert (len(solver.asked), curve.is_running, curve.pending) == (1, True, [8, 9, 11, 12])
+    assert curve.state == "1 of 5 speeds; waiting for the search to end."
+    solver.rests = True
+    curve.go_on()
+    curve.go_on()
+    assert (len(solver.asked), solver.speed) == (2, 11)
+
+
+def test_a_curve_that_gave_way_can_be_cancelled(curve, solver):
+    solver.rests = False
+    curve.start()
+    assert curve.is_running
+    curve.cancel()
+    solver.rests = True
+    curve.go_on()
+    assert (curve.state, solver.asked, solver.cancelled) == ("Cancelled after 0 of 5 speeds.", [], [])
 
 
 def test_a_solver_that_dies_is_told_of(curve, solver):

@@ -24,7 +24,7 @@ class Shown:
     def show_scenario(self, scenario):
         pass
 
-    show_stale = show_refusals = show_scenario
+    show_stale = show_refusals = show_answer = show_scenario
 
 
 class Pool:
@@ -52,3 +52,22 @@ def test_no_more_searches_are_done_than_were_asked_for():
         ("Solving: 12 of 12 starts.", 1.0),
         ("Solving: 12 of 12 starts.", 1.0),
     ]
+
+
+def test_it_rests_only_once_the_search_that_follows_a_continued_answer_has_ended(monkeypatch):
+    monkeypatch.setattr("wingbeat.app.session._CALM", 0.0)
+    answer = {"record": {"objective_value": 1.0}, "near": {}, "seconds": 1.0}
+
+    async def visit():
+        pool = Pool()
+        session = Session("a", pool, Scenario(), Shown())
+        rests = [session.rests]
+        session.ask(whole=True)
+        for found in ({**answer, "continued": True}, answer):
+            rests.append(session.rests)
+            pool.tell(Event("done", dict(found)))
+            await asyncio.sleep(0.01)
+        return [*rests, session.rests]
+
+    with ThreadPoolExecutor(1) as thread:
+        assert thread.submit(asyncio.run, visit()).result() == [True, False, False, True]

@@ -78,6 +78,42 @@ def test_the_keyboard_moves_the_point(show, answers):
     assert page.evaluate("document.activeElement.getAttribute('role')") == "slider"
 
 
+def test_another_flight_of_the_animal_keeps_its_wings_and_leaves_nothing_behind(show):
+    page = show(fragment="#animal=pigeon&model=paper&speed=10").page
+    held = f"""async () => {{
+        const {{ renderer, animals }} = {FACE}.viewer.stage;
+        for (let frame = 0; frame < 3; frame++) await new Promise((done) => requestAnimationFrame(done));
+        animals[0].wings.seen = (animals[0].wings.seen ?? 0) + 1;
+        return [animals[0].wings.seen, renderer.info.memory.geometries, renderer.info.programs.length];
+    }}"""
+    first = page.evaluate(held)
+    page.get_by_role("slider", name="Speed").focus()
+    for nth, key in enumerate(("ArrowRight", "ArrowLeft", "End"), start=2):
+        before = corners(page)
+        page.keyboard.press(key)
+        assert corners(page) != before
+        assert page.evaluate(held) == [nth, *first[1:]]
+
+
+def test_folded_plots_are_not_drawn_and_unfolded_ones_keep_their_menus(show):
+    page = show(fragment="#animal=pigeon&model=paper&speed=10").page
+    plots = f"{FACE}.viewer.plots"
+    page.evaluate(f"{plots}.choose([{{ ys: ['body_pitch'], x: 'phase' }}])")
+    assert page.evaluate(f"[{plots}.cards.length, {plots}.choices.length]") == [0, 1]
+    page.get_by_text("Views, forces and plots").click()
+    page.wait_for_function(f"{plots}.cards.length === 1")
+    line = page.locator(".wb-plot polyline.wb-curve").first
+    before = line.get_attribute("points")
+    page.evaluate(f"{plots}.cards[0].rows.querySelector('select').dataset.seen = ''")
+    page.get_by_role("slider", name="Speed").focus()
+    page.keyboard.press("ArrowRight")
+    assert line.get_attribute("points") != before
+    assert page.locator(".wb-card select[data-seen]").input_value() == "body_pitch"
+    page.get_by_text("Views, forces and plots").click()
+    page.wait_for_function(f"{plots}.cards.length === 0")
+    assert page.evaluate(f"{plots}.choices") == [{"ys": ["body_pitch"], "x": "phase"}]
+
+
 def test_another_animal_is_loaded_and_its_link_opens_it(show, answers):
     page = show().page
     page.get_by_label("Animal").select_option("bat")

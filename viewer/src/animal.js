@@ -13,7 +13,7 @@ const SIDES = { left: 1, right: -1 };
 
 export class Animal {
   constructor(flight, opacity) {
-    this.flight = flight;
+    this.opacity = opacity;
     this.group = new THREE.Group();
     this.still = new THREE.Group(); // what is placed relative to the body's centre of mass
     this.group.add(this.still);
@@ -23,18 +23,34 @@ export class Animal {
     this.arrows = Object.fromEntries(
       Object.entries(ARROWS).map(([name, colour]) => [name, new Arrows(flight.strips, colour, opacity)]),
     );
-    this.body = new Body(flight, opacity);
     this.wings = new Wings(flight, opacity);
-    this.trails = new Trails(flight, opacity);
-    this.still.add(this.body.group, this.wings.group, ...Object.values(this.strips).map((wing) => wing.mesh));
+    this.still.add(this.wings.group, ...Object.values(this.strips).map((wing) => wing.mesh));
     this.still.add(...Object.values(this.arrows).map((each) => each.group));
-    this.wake = new Wake(flight, opacity);
-    this.group.add(this.trails.group, this.wake.group);
     this.buffers = {
       corners: new Float64Array(flight.strips * 12),
       vectors: new Float64Array(flight.strips * 3),
       tint: new Float64Array(flight.strips),
     };
+    this.fly(flight);
+  }
+
+  // Whether a flight is one of this animal, to be drawn with this opacity.
+  suits(flight, opacity) {
+    const looks = ({ strips, semi_span: span, shape }) => JSON.stringify([strips, span, shape]);
+    return opacity === this.opacity && looks(flight) === looks(this.flight);
+  }
+
+  // Fly another flight: make anew what depends on it, and keep the wings. Returns the parts that are used no more.
+  fly(flight) {
+    const used = new THREE.Group();
+    if (this.flight) used.add(this.body.group, this.trails.group, this.wake.group);
+    this.flight = flight;
+    this.body = new Body(flight, this.opacity);
+    this.trails = new Trails(flight, this.opacity);
+    this.wake = new Wake(flight, this.opacity);
+    this.still.add(this.body.group);
+    this.group.add(this.trails.group, this.wake.group);
+    return used;
   }
 
   // Draw the animal at a phase. `look`: whether strips and which colours, which arrows, their scale, whether trails and wake.
@@ -84,11 +100,13 @@ export class Animal {
     return points.map(([eta, ahead]) => this.wings.frame.place(eta, ahead, 0).map((value, k) => value + at[k]));
   }
 
-  dispose() {
-    this.group.traverse((node) => {
-      node.dispose?.(); // of instanced meshes
-      node.geometry?.dispose();
-      node.material?.dispose();
-    });
-  }
+}
+
+// Free what the graphics hold of a group.
+export function dispose(group) {
+  group.traverse((node) => {
+    node.dispose?.(); // of instanced meshes
+    node.geometry?.dispose();
+    node.material?.dispose();
+  });
 }

@@ -31,16 +31,21 @@ export class Card {
 
   choose({ ys, x }) {
     this.choice = { ys: x === PHASE ? ys : ys.slice(0, 1), x };
+    this.place.setAttribute("aria-label", `Plot ${this.nth + 1}; plus and minus zoom, brackets move, 0 shows all`);
+    this.fillRows(this.choice.ys.map(this.plots.named));
+    this.fillFoot();
+    this.plot();
+  }
+
+  // Draw the curves of the flights; the menus stay.
+  plot() {
     const { flights, last, range, seek, named } = this.plots;
-    const curves = this.choice.ys.map(named);
+    const { ys, x } = this.choice;
+    const curves = ys.map(named);
     const hooks = { seek, zoom: (to) => this.plots.zoom(to), own: () => this.plots.own };
     this.axes =
-      x === PHASE ? new Panel(curves, flights, last, hooks) : new Portrait(named(x), curves[0], flights, hooks);
-    if (x === PHASE) this.axes.draw(range);
-    this.place.setAttribute("aria-label", `Plot ${this.nth + 1}; plus and minus zoom, brackets move, 0 shows all`);
+      x === PHASE ? new Panel(curves, flights, last, range, hooks) : new Portrait(named(x), curves[0], flights, hooks);
     this.place.replaceChildren(this.axes.svg);
-    this.fillRows(curves);
-    this.fillFoot();
     this.show(this.plots.phase);
   }
 

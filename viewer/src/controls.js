@@ -97,7 +97,8 @@ export function fold(viewer) {
   viewer.pairing.remove(); // so has it for two flights
   viewer.rates.querySelector("label").textContent = "Playback"; // the page's speed is that of the flight
   viewer.root.dataset.compact = "";
-  viewer.root.append(make("details", { class: "wb-folded" }, summary, ...bars, viewer.side));
+  viewer.folded = make("details", { class: "wb-folded", ontoggle: () => viewer.unfold() }, summary, ...bars, viewer.side);
+  viewer.root.append(viewer.folded);
 }
 
 const set = (label, toggles) => make("fieldset", { class: "wb-group" }, make("legend", {}, label), ...toggles);

@@ -6,9 +6,9 @@ import { ends, valueAt, valuesOf } from "./series.js";
 import { capital } from "./writing.js";
 
 export class Panel extends Axes {
-  // `curves`: series of one unit; `seek(phase)` and `zoom(range)`: what the reader chooses here; `own()`: curves of the
-  // reader's own.
-  constructor(curves, flights, last, { seek, zoom, own }) {
+  // `curves`: series of one unit; `range`: of the phases shown at first; `seek(phase)` and `zoom(range)`: what the reader
+  // chooses here; `own()`: curves of the reader's own.
+  constructor(curves, flights, last, range, { seek, zoom, own }) {
     super(`${capital(curves.map((curve) => curve.label).join(" and "))} along the beat`, ["", curves[0].unit]);
     [this.series, this.flights, this.whole] = [curves, flights, [0, last]];
     this.seek = seek;
@@ -19,7 +19,7 @@ export class Panel extends Axes {
       draw("circle", { class: `wb-dot wb-dot-${nth} wb-at-${which}`, r: 3 }),
     );
     this.front.append(this.cursor, ...this.dots.flat());
-    this.draw(this.whole);
+    this.draw(range);
   }
 
   // A list a curve, with something for each flight.

@@ -1,4 +1,5 @@
-// Plots beside the picture: the reader chooses what they show; all those along the beat show the same part of it.
+// Plots beside the picture: the reader chooses what they show; all those along the beat show the same part of it. They
+// are drawn while they are awake: folded plots cost nothing.
 
 import { Card, PHASE } from "./card.js";
 import { make } from "./elements.js";
@@ -9,7 +10,8 @@ const MOST = 8;
 export class Plots {
   // `scene`: its series and the curves that it starts with; `seek(phase)`: what a click in a plot asks for.
   constructor(scene, flights, last, seek) {
-    Object.assign(this, { flights, last, seek, phase: 0, range: [0, last], cards: [], own: [] });
+    Object.assign(this, { flights, last, seek, phase: 0, range: [0, last], cards: [], own: [], awake: false });
+    this.about = Plots.about(scene, flights);
     this.series = offered(scene.series, flights);
     this.named = (name) => this.series.find((one) => one.name === name);
     this.first = scene.panels.map((ys) => ({ ys, x: PHASE }));
@@ -29,18 +31,48 @@ export class Plots {
       make("div", { class: "wb-bar" }, this.more, this.told),
       ...lines.map((line) => make("p", { class: "wb-note" }, line)),
     );
-    this.choose(this.first);
+    this.kept = this.first;
+  }
+
+  // What menus and words are made from: plots can show another scene and its flights if this is the same.
+  static about({ series, panels }, flights) {
+    const names = offered(series, flights).map(({ name }) => name);
+    return JSON.stringify([series, panels, names, flights.map(({ label }) => label)]);
   }
 
   // What is shown, as names: for a link, and to keep it when the flight changes.
   get choices() {
-    return this.cards.map((card) => card.choice);
+    return this.awake ? this.cards.map((card) => card.choice) : this.kept;
+  }
+
+  wake() {
+    if (this.awake) return;
+    this.awake = true;
+    this.choose(this.kept);
+  }
+
+  sleep() {
+    this.kept = this.choices;
+    this.awake = false;
+    this.cards = [];
+    this.arrange();
+  }
+
+  // Show other flights with the same series.
+  renew(flights, last) {
+    this.range = last === this.last ? this.range : [0, last];
+    [this.flights, this.last] = [flights, last];
+    for (const card of this.cards) card.plot();
   }
 
   // Show these, as far as the flight has the series; nothing that can be shown leaves the plots as they are.
   choose(choices) {
     const known = choices.filter(({ ys, x }) => this.fit(ys) && (x === PHASE || this.named(x))).slice(0, MOST);
     if (!known.length) return;
+    if (!this.awake) {
+      this.kept = known.map(({ ys, x }) => ({ ys: x === PHASE ? ys : ys.slice(0, 1), x }));
+      return;
+    }
     this.cards = [];
     for (const [nth, choice] of known.entries()) this.cards.push(new Card(nth, choice, this));
     this.arrange();
@@ -60,7 +92,7 @@ export class Plots {
 
   // Show each of these series in at least one plot along the beat.
   include(names) {
-    const isShown = (name) => this.cards.some(({ choice }) => choice.x === PHASE && choice.ys.includes(name));
+    const isShown = (name) => this.choices.some(({ x, ys }) => x === PHASE && ys.includes(name));
     const missing = names.filter((name) => !isShown(name)).map((name) => ({ ys: [name], x: PHASE }));
     if (missing.length) this.choose([...missing, ...this.choices]);
   }

@@ -2,7 +2,7 @@
 
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
-import { Animal } from "./animal.js";
+import { Animal, dispose } from "./animal.js";
 import { themeOf } from "./colours.js";
 import { Ground } from "./ground.js";
 import { pixelsPerMetre } from "./scale_bar.js";
@@ -20,7 +20,7 @@ export const CAMERAS = {
 const GHOST = 0.32;
 
 export class Stage {
-  constructor(canvas, flights) {
+  constructor(canvas, flights, ghost) {
     const inSoftware = drawsInSoftware();
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !inSoftware, alpha: true });
     this.sharpness = new Sharpness(this.renderer, inSoftware, () => {
@@ -42,45 +42,45 @@ export class Stage {
     this.ground = new Ground();
     this.scene.add(this.ground.group);
     this.animals = [];
+    this.retired = [];
     this.body = new THREE.Vector3();
     this.follows = false;
-    this.setFlights(flights);
-    this.setCamera("oblique");
+    this.setFlights(flights, ghost);
   }
 
-  setFlights(flights) {
-    for (const animal of this.animals) {
-      this.scene.remove(animal.group);
-      animal.dispose();
+  // One flight, or two: beside one another, or the second as a ghost in the place of the first.
+  setFlights(flights, ghost) {
+    const before = this.animals;
+    this.animals = flights.map((flight, nth) => this.flown(before[nth], flight, nth && ghost ? GHOST : 1));
+    for (const { group } of before.filter((animal) => !this.animals.includes(animal))) {
+      this.scene.remove(group);
+      this.retired.push(group);
     }
-    this.animals = flights.map((flight) => new Animal(flight, 1));
-    for (const animal of this.animals) this.scene.add(animal.group);
-    const span = Math.max(...flights.map((flight) => flight.semi_span));
-    const changed = span !== this.span;
-    this.span = span;
-    this.ground.fit(span);
+    this.span = Math.max(...flights.map((flight) => flight.semi_span));
+    this.ground.fit(this.span);
+    const [first, second] = this.animals;
+    const apart = ghost ? 0 : 1.25 * this.span;
+    this.offsets = second && new Map([[first, apart], [second, -apart]]);
+    this.spread = second && !ghost ? 1.75 : 1;
     if (this.ink) this.tint(this.ink);
-    if (changed && this.view) this.setCamera(this.view);
+    this.setCamera(this.view ?? "oblique");
   }
 
-  // Two flights beside one another, or the second as a ghost in the place of the first.
-  arrange(ghost) {
-    const [first, second] = this.animals;
-    this.offsets = undefined;
-    this.spread = 1;
-    if (!second) return;
-    this.scene.remove(second.group);
-    second.dispose();
-    this.animals[1] = new Animal(second.flight, ghost ? GHOST : 1);
-    this.scene.add(this.animals[1].group);
-    const apart = ghost ? 0 : 1.25 * this.span;
-    this.offsets = new Map([
-      [first, apart],
-      [this.animals[1], -apart],
-    ]);
-    this.spread = ghost ? 1 : 1.75;
-    this.tint(this.ink);
-    this.setCamera(this.view);
+  // An animal in a flight: the one that was in its place, if it is the same.
+  flown(before, flight, opacity) {
+    if (before?.suits(flight, opacity)) {
+      this.retired.push(before.fly(flight));
+      return before;
+    }
+    const animal = new Animal(flight, opacity);
+    this.scene.add(animal.group);
+    return animal;
+  }
+
+  // Only once their successors are drawn: else their programs are thrown away, and compiled again for these.
+  dismiss() {
+    this.retired.forEach(dispose);
+    this.retired = [];
   }
 
   show(phase, look) {
@@ -153,6 +153,7 @@ export class Stage {
   render() {
     this.shadow.draw(this.renderer);
     this.renderer.render(this.scene, this.camera);
+    this.dismiss();
     this.onDraw?.();
   }
 
@@ -164,7 +165,8 @@ export class Stage {
   dispose() {
     cancelAnimationFrame(this.due);
     this.sharpness.dispose();
-    for (const animal of this.animals) animal.dispose();
+    this.dismiss();
+    for (const { group } of this.animals) dispose(group);
     this.ground.dispose();
     this.shadow.dispose();
     this.controls.dispose();

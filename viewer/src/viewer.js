@@ -101,9 +101,8 @@ export class Viewer {
     this.flights = scene.flights.map((raw) => new Flight(raw));
     this.last = Math.min(...this.flights.map((flight) => flight.last));
     this.scrubber.max = this.last;
-    if (this.stage) this.stage.setFlights(this.flights);
+    if (this.stage) this.stage.setFlights(this.flights, this.ghost);
     else this.makeStage();
-    this.stage.onDraw = () => this.measures.follow(this.stage, this.look, this.flights[0]);
     this.pairing.hidden = this.flights.length < 2;
     this.wakeToggle.hidden = !this.flights.some((flight) => flight.wake);
     if (this.wakeToggle.hidden) this.look.wake = this.wakeToggle.querySelector("input").checked = false;
@@ -112,6 +111,24 @@ export class Viewer {
     });
     this.look.laps = 0;
     this.look.tipForce = Measures.tipForce(this.flights);
+    this.plot(scene);
+    const lines = this.flights.map((flight) => `${flight.label}: ${flight.summary}`);
+    this.heading.replaceChildren(...(lines.length > 1 ? lines : [this.flights[0].summary]).map((line) => make("p", {}, line)));
+    this.canvas.setAttribute("aria-label", `Animation of ${this.flights.map((flight) => flight.label).join(" and ")}`);
+    const force = Math.max(...this.flights.map((flight) => flight.largest("force", 3)));
+    this.look.scale = force > 0 ? (0.55 * this.stage.span) / force : 0;
+    this.look.thickness = 0.009 * this.stage.span;
+    this.scaleTint();
+    this.measure();
+    this.setCamera(this.stage.view);
+    this.set(Math.min(this.phase, this.last));
+  }
+
+  plot(scene) {
+    if (this.plots?.about === Plots.about(scene, this.flights)) {
+      this.plots.renew(this.flights, this.last);
+      return;
+    }
     const before = JSON.stringify(scene.panels) === this.panels ? this.plots : undefined;
     this.panels = JSON.stringify(scene.panels);
     this.plots = new Plots(scene, this.flights, this.last, (phase) => {
@@ -122,18 +139,13 @@ export class Viewer {
     if (before?.last === this.last) this.plots.zoom(before.range);
     this.plots.overlay(this.overlaid ?? []);
     this.side.replaceChildren(this.plots.element);
-    const lines = this.flights.map((flight) => `${flight.label}: ${flight.summary}`);
-    this.heading.replaceChildren(...(lines.length > 1 ? lines : [this.flights[0].summary]).map((line) => make("p", {}, line)));
-    this.canvas.setAttribute("aria-label", `Animation of ${this.flights.map((flight) => flight.label).join(" and ")}`);
-    const force = Math.max(...this.flights.map((flight) => flight.largest("force", 3)));
-    this.look.scale = force > 0 ? (0.55 * this.stage.span) / force : 0;
-    this.look.thickness = 0.009 * this.stage.span;
-    this.scaleTint();
-    this.measure();
-    this.tint();
-    this.arrange();
-    this.setCamera(this.stage.view);
-    this.set(Math.min(this.phase, this.last));
+    this.unfold();
+  }
+
+  // Plots are drawn only where the reader has unfolded them.
+  unfold() {
+    if (this.folded && !this.folded.open) this.plots.sleep();
+    else this.plots.wake();
   }
 
   // Draw curves of the reader's own into the plots, each with name, phase and values in SI units; returns the names of
@@ -142,17 +154,21 @@ export class Viewer {
     this.overlaid = curves;
     const names = this.plots.overlay(curves);
     this.plots.include(names);
-    if (names.length) this.side.closest("details")?.setAttribute("open", "");
+    if (names.length && this.folded) this.folded.open = true;
+    this.unfold();
     return names;
   }
 
   makeStage() {
-    this.stage = new Stage(this.canvas, this.flights);
+    this.stage = new Stage(this.canvas, this.flights, this.ghost);
     this.stage.controls.addEventListener("start", () => (this.eye = undefined));
+    this.stage.onDraw = () => this.measures.follow(this.stage, this.look, this.flights[0]);
+    this.tint();
   }
 
+  // Show the second flight as a ghost, or beside the first.
   arrange() {
-    this.stage.arrange(this.ghost);
+    this.stage.setFlights(this.flights, this.ghost);
     this.set(this.phase);
   }
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from wingbeat.app.formatting import number, tiles
-from wingbeat.app.widgets import Rows, button, folded, tag
+from wingbeat.app.widgets import Rows, button, folded, part, tag
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 
 
@@ -15,7 +15,7 @@ class Brief:
     """One line below the face: what was solved, and a button that pins it; `pin` is called."""
 
     def __init__(self, pin: Callable[[], Any]) -> None:
-        with tag("section", classes="brief", aria_label="Result in brief"):
+        with part("section", "brief", aria_label="Result in brief"):
             with tag("div", classes="words"):
                 self._title = tag("h2", "", "what")
                 self._message = tag("p", "", "message")

@@ -31,7 +31,7 @@ class Curve:
     def __init__(self, session: Session, show: Callable[[], Any]) -> None:
         self._session, self._show = session, show
         self._job: Job | None = None
-        self._whole, self._is_paused = False, False
+        self._whole, self._is_paused, self._gave_way = False, False, False
         self._start_near: tuple[float, Any] | None = None
         self._waiting: list[float] = []
         self.asked: Scenario | None = None
@@ -42,7 +42,7 @@ class Curve:
     @property
     def is_running(self) -> bool:
         """Whether points are being solved."""
-        return self._job is not None
+        return self._job is not None or self._gave_way
 
     @property
     def pending(self) -> list[float]:
@@ -112,16 +112,26 @@ class Curve:
             self._stop("Paused")
 
     def _stop(self, how: str) -> None:
-        if self._job is not None:
-            job, self._job = self._job, None
-            self._session.cancel(job)
+        if self.is_running:
+            job, self._job, self._gave_way = self._job, None, False
+            if job is not None:
+                self._session.cancel(job)
             total = len(self.points) + len(self._waiting)
             self._tell(f"{how} after {len(self.points)} of {total} speeds.")
 
+    def go_on(self) -> None:
+        """Solve the next point if the curve gave way to a search, and this has ended."""
+        if self._gave_way and self._session.rests:
+            self._next()
+
     def _next(self) -> None:
+        self._job, self._gave_way = None, False
         if not self._waiting:
-            self._job = None
             self._tell(self._summary())
+            return
+        if not self._session.rests:  # whoever moves the point does not wait for the curve
+            self._gave_way, done = True, len(self.points)
+            self._tell(f"{done} of {done + len(self._waiting)} speeds; waiting for the search to end.")
             return
         assert self.asked is not None
         speed = self._waiting[0]

@@ -69,8 +69,8 @@ class Face:
             trailing_events=True,
         )
         self._place.on("push", push, args=[])
-        about = {"choices": _choices(scenario), "chosen": _chosen(scenario), "ready": READY if is_ready else None}
-        about["session"] = session
+        choices, chosen = _offered(scenario)
+        about = {"choices": choices, "chosen": chosen, "ready": READY if is_ready else None, "session": session}
         text = json.dumps(about).replace("<", "\\u003c")
         ui.add_head_html(f"<script>wingbeatPage.begin({text});</script>")
 
@@ -95,8 +95,8 @@ class Face:
     def choose(self, scenario: Scenario) -> None:
         """Show which animal and model are chosen."""
         before, self._scenario = self._scenario, scenario
-        if _choices(before) != _choices(scenario) or _chosen(before) != _chosen(scenario):
-            self._run("choose", _choices(scenario), _chosen(scenario))
+        if _offered(before) != _offered(scenario):
+            self._run("choose", *_offered(scenario))
 
     def show(self, answer: dict[str, Any]) -> None:
         """Show an answer; one that was continued is provisional."""
@@ -129,12 +129,14 @@ class Face:
         run_script(f"wingbeatPage.{act}({', '.join(json.dumps(word) for word in words)})")
 
 
-def _choices(scenario: Scenario) -> dict[str, Any]:
+def _offered(scenario: Scenario) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return animals and models to choose from, and those that are chosen."""
     own = scenario.species if scenario.species_file else None
     listed = [{"name": name, "title": title} for name, title in animals() if name != own]
     if own is not None:
         listed.insert(0, {"name": own, "title": f"{own} (loaded file)"})
-    return {"animals": listed, "models": [{"name": name, "title": title} for name, title in MODEL_TITLES.items()]}
+    models = [{"name": name, "title": title} for name, title in MODEL_TITLES.items()]
+    return {"animals": listed, "models": models}, {"animal": scenario.species, "model": scenario.face_model}
 
 
 def _chosen(scenario: Scenario) -> dict[str, Any]:

@@ -136,6 +136,9 @@ window.wingbeatPage = {
     link.click();
     link.remove();
   },
+  mark(name, on) {
+    document.body.classList.toggle(name, on);
+  },
   setQuery(query) {
     history.replaceState(null, "", `${location.pathname}?${query}${location.hash}`);
   },

@@ -22,7 +22,7 @@ from wingbeat.app.pins import Pins
 from wingbeat.app.scenario import Scenario
 from wingbeat.app.session import Session
 from wingbeat.app.trouble import Trouble
-from wingbeat.app.widgets import button, choice_field, folded, run_script, set_class, tag
+from wingbeat.app.widgets import button, choice_field, folded, part, run_script, set_class, tag
 from wingbeat.errors import InvalidInputError
 from wingbeat.workers.fair_pool import FairPool
 
@@ -52,6 +52,7 @@ class Page:
         self._session = Session(name, pool, scenario, self)
         self._curve = Curve(self._session, self._show_curve)
         self._curve_shown: dict[str, Any] | None = None
+        self._marks: set[str] = set()
         self._errands = Errands(self._session, downloads, self)
         self._build(scenario)
         self._asked = False
@@ -97,8 +98,7 @@ class Page:
         tag("a", "Skip to the result", "skip", href="#answer")
         with tag("header", classes="top"):
             self._build_header()
-        self._whole = tag("div", classes="whole")
-        with self._whole:
+        with tag("div", classes="whole"):
             ask, push = self._controls.choose, lambda: self._errands.push(self._face)
             self._face = Face(self._downloads, self.name, scenario, self._is_ready, ask, push)
             self._brief = Brief(self._pin)
@@ -114,7 +114,7 @@ class Page:
                 self._controls.build_flight(lambda: self._session.ask(whole=True))
                 with folded("Expert numbers", "expert"):
                     self._controls.build_loads()
-        with tag("div", classes="status"):
+        with part("div", "status"):
             self._state = tag("p", "", "state", role="status", aria_live="polite")
             tag("p", "This result belongs to an earlier request.", "earlier")
             self._bar = tag("progress", classes="hidden", max=1, value=0, aria_label="Starts done")
@@ -159,7 +159,7 @@ class Page:
         self._face.choose(scenario)
         if not self._curve.suits(scenario):
             self._curve.pause()
-        set_class(self._whole, "old-curve", not self._curve.suits(scenario))
+        self._mark("old-curve", not self._curve.suits(scenario))
         self._curve_panel.show_sweep(scenario)
         run_script(f"wingbeatPage.setQuery({json.dumps(to_query(scenario))})")
 
@@ -170,6 +170,8 @@ class Page:
         self._stop.props.set_bool("disabled", not busy)
         set_class(self._bar, "hidden", done is None)
         self._bar.props["value"] = done or 0
+        if not busy:
+            self._curve.go_on()
 
     def show_answer(self, answer: dict[str, Any]) -> None:
         """Show an answer; its curve follows once the controls are left alone."""
@@ -196,11 +198,17 @@ class Page:
             self._curve_shown = data
             self._face.show_curve(data)
         self._curve_panel.show()
-        set_class(self._whole, "old-curve", not curve.suits(self._session.scenario))
+        self._mark("old-curve", not curve.suits(self._session.scenario))
 
     def show_stale(self, stale: bool) -> None:
         """Dim the answer while it belongs to another scenario than the controls show."""
-        set_class(self._whole, "stale", stale)
+        self._mark("stale", stale)
+
+    def _mark(self, name: str, on: bool) -> None:
+        """Give the page's body a class, or remove it; a class of an element would have all inside it drawn anew."""
+        if (name in self._marks) != on:
+            self._marks ^= {name}
+            run_script(f"wingbeatPage.mark({json.dumps(name)}, {json.dumps(on)})")
 
     def show_refusals(self, refusals: list[list[str]]) -> None:
         """Show each refusal beside its control, or at the top if it belongs to no control."""

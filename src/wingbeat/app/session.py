@@ -82,6 +82,11 @@ class Session:
         """The scenario of the answer."""
         return self._answered
 
+    @property
+    def rests(self) -> bool:
+        """Whether no search runs, and none from every start is about to follow a continued answer."""
+        return self._job is None and self._calm is None
+
     def change(self, **choices: Any) -> bool:
         """Change to another scenario; return whether each of its choices is valid by itself."""
         self.scenario = dataclasses.replace(self.scenario, **choices)
@@ -118,7 +123,7 @@ class Session:
         return True
 
     def _submit(self, near: dict[str, Any] | None) -> None:
-        self._again = False
+        self._again, self._calm = False, None
         if self._job is not None:
             self._pool.cancel(self._job)
         self._asked += 1

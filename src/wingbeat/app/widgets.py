@@ -35,9 +35,26 @@ def tag(name: str, text: str | None = None, classes: str = "", **attributes: Any
     return made
 
 
+class _Part(Element, component="part.js"):
+    """An element whose content the browser draws anew without the rest of the page."""
+
+
+def part(name: str, classes: str, **attributes: Any) -> Any:
+    """Return an HTML element like `tag`, for a part of the page that changes often or holds many elements.
+
+    The browser draws its content anew by itself. The element itself belongs to the page around, so its own
+    attributes should rarely change.
+    """
+    made = _Part().classes(classes)
+    made.props["as"] = name
+    for key, value in attributes.items():
+        made.props[key.replace("_", "-")] = value
+    return made
+
+
 def box(title: str, classes: str = "") -> Any:
     """Return a section with a heading; elements made in its ``with`` block are placed below the heading."""
-    section = tag("section", classes=f"box {classes}")
+    section = part("section", f"box {classes}")
     with section:
         heading = tag("h2", title)
     section.props["aria-labelledby"] = heading.html_id
@@ -47,7 +64,7 @@ def box(title: str, classes: str = "") -> Any:
 
 def folded(title: str, classes: str = "") -> Any:
     """Return a part of the page that is folded until the user opens it, like `box`."""
-    fold = tag("details", classes=f"box fold {classes}")
+    fold = part("details", f"box fold {classes}")
     with fold:
         tag("summary", title)
     return fold

@@ -98,7 +98,9 @@ def _term(name: str) -> dict[str, Any]:
 
 
 def _along_the_beat(dataset: xr.Dataset) -> list[str]:
-    return [str(n) for n, values in dataset.data_vars.items() if values.dims == ("phase",) and n in NOMENCLATURE]
+    # Of variables: a data array for each would take longer than all the rest of a scene.
+    known = dataset.variables
+    return [str(n) for n in dataset.data_vars if known[n].dims == ("phase",) and n in NOMENCLATURE]
 
 
 def _push(push: Push) -> dict[str, Any]:
@@ -136,7 +138,8 @@ def _flight(label: str, dataset: xr.Dataset) -> dict[str, Any]:
             f"cannot show {label!r}: it has fewer than two samples before the vehicle tumbled; "
             "`wingbeat show` prints the status of a saved file"
         )
-    dataset = dataset.isel(phase=reached)
+    if not reached.all():
+        dataset = dataset.isel(phase=reached)
     vehicle, air = (json.loads(dataset.attrs[name]) for name in ("vehicle", "air"))
     body, wing = vehicle["body"], vehicle["wing"]
     beat = json.loads(dataset.attrs["wingbeat"])
@@ -196,18 +199,19 @@ def _arrays(dataset: xr.Dataset) -> dict[str, tuple[np.ndarray, str]]:
     Single precision suffices for positions about the body and for series. The body's place is double: positions
     in the world are sums with it.
     """
-    place = np.stack([dataset["x"].values, np.zeros(dataset.sizes["phase"]), dataset["z"].values], axis=-1)
+    known = dataset.variables
+    place = np.stack([known["x"].values, np.zeros(dataset.sizes["phase"]), known["z"].values], axis=-1)
     lift, drag = strip_loads(dataset)
-    exact = {name: dataset[name].values for name in EXACT}
+    exact = {name: known[name].values for name in EXACT}
     single = {
-        "corners": dataset["strip_corner"].values - place[:, None, None],
-        "alpha": dataset["alpha"].values,
-        "strip_lift": dataset["lift"].values,
+        "corners": known["strip_corner"].values - place[:, None, None],
+        "alpha": known["alpha"].values,
+        "strip_lift": known["lift"].values,
         "lift": lift,
         "drag": drag,
-        "force": dataset["strip_force"].values,
+        "force": known["strip_force"].values,
     }
-    single |= {name: dataset[name].values for name in _along_the_beat(dataset) if name not in exact}
+    single |= {name: known[name].values for name in _along_the_beat(dataset) if name not in exact}
     return {n: (v, "f8") for n, v in exact.items()} | {n: (v, "f4") for n, v in single.items()}
 
 

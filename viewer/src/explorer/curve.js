@@ -75,6 +75,7 @@ export class Curve {
 
   // Mark a certified answer for comparison; without one the mark goes.
   pin(point) {
+    if (point === this.pinned) return;
     this.pinned = point;
     this.draw();
   }

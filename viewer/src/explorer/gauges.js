@@ -18,7 +18,9 @@ export class Gauges {
       if (!this.rows.has(gauge.name)) this.rows.set(gauge.name, new Row());
       this.rows.get(gauge.name).show(gauge, before.get(gauge.name));
     }
-    this.element.replaceChildren(...gauges.map(({ name }) => this.rows.get(name).element));
+    const rows = gauges.map(({ name }) => this.rows.get(name).element);
+    const stays = rows.length === this.element.children.length && rows.every((row, nth) => row === this.element.children[nth]);
+    if (!stays) this.element.replaceChildren(...rows);
   }
 }
 

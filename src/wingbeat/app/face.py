@@ -46,6 +46,7 @@ class Face:
     is_ready : whether the answer to the first choice was solved beforehand.
     ask : called with the choices that were changed: species, model or speed [m/s].
     push : called when the visitor wants the flight on the page pushed.
+    pin : called with whether the flight on the page is to stay beside those that follow.
     """
 
     def __init__(
@@ -56,6 +57,7 @@ class Face:
         is_ready: bool,
         ask: Callable[..., Any],
         push: Callable[[], Any],
+        pin: Callable[[bool], Any],
     ) -> None:
         self._downloads, self._session, self._ask = downloads, session, ask
         self._scenario = scenario
@@ -70,6 +72,7 @@ class Face:
             trailing_events=True,
         )
         self._place.on("push", push, args=[])
+        self._place.on("pin", lambda event: pin(event.args is True), js_handler="(event) => emit(event.detail)")
         about = {"choices": _choices(scenario), "chosen": _chosen(scenario), "ready": READY if is_ready else None}
         about["session"] = session
         text = json.dumps(about).replace("<", "\\u003c")

@@ -21,12 +21,13 @@ window.wingbeatPage = {
         const place = document.getElementById("answer");
         if (!place || !window.wingbeatExplorer) return;
         watcher.disconnect();
-        this.face = wingbeatExplorer.explore(place, { theme: this.theme, snap: false, pinning: false });
+        this.face = wingbeatExplorer.explore(place, { theme: this.theme, snap: false });
         this.face.onask = (asked) => {
           this.want(asked);
           place.dispatchEvent(new CustomEvent("ask", { detail: asked }));
         };
         this.face.onpush = () => place.dispatchEvent(new CustomEvent("push"));
+        this.face.pins.onpin = (wanted) => place.dispatchEvent(new CustomEvent("pin", { detail: wanted }));
         this.face.onfile = async (file) => {
           const refused = await this.upload({ files: [file] }, session);
           if (refused) this.face.own.refuse(file.name, [refused]);

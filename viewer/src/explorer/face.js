@@ -15,9 +15,8 @@ import { Verdict } from "./verdict.js";
 let made = 0;
 
 export class Face {
-  // With `snap` the point rests on computed speeds only; without, the page can ask for any speed. Without `pinning` the
-  // page itself chooses what to compare with.
-  constructor(element, { theme = "system", snap = true, pinning = true } = {}) {
+  // With `snap` the point rests on computed speeds only; without, the page can ask for any speed.
+  constructor(element, { theme = "system", snap = true } = {}) {
     this.onask = () => {};
     // Set before `setChoices` by a page that can: `onpush()` brings flights of the answer on the page through gusts, by
     // `showPushes`; `onfile(file)` takes a species file.
@@ -28,7 +27,7 @@ export class Face {
     this.verdict = new Verdict();
     this.curve = new Curve((speed) => this.ask({ speed }), snap);
     this.gauges = new Gauges();
-    this.pins = new Pins(() => this.show(), pinning);
+    this.pins = new Pins(() => this.show());
     this.tour = new Tour(this);
     this.own = new OwnData(this);
     this.root = make("section", { class: "wbx", "aria-label": "Explorer" }, make("style", {}, styles + extraStyles));

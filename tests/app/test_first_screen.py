@@ -119,7 +119,7 @@ def test_a_refused_choice_opens_the_drawer_at_its_control(visit):
     page.keyboard.press("Escape")
     page.locator(".sheet").wait_for(state="hidden")
     enter(page, "Speed [m/s]", "fast")
-    page.locator(".refusal", has_text="Speed [m/s]: 'fast' is not a number.").wait_for()
+    page.locator(".refusal", has_text="Speed [m/s]: 'fast' is not a number; type one, such as 9.5.").wait_for()
 
 
 def test_the_flight_is_pushed_and_says_how_it_ends(visit):

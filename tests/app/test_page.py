@@ -163,7 +163,9 @@ def test_a_slider_is_answered_by_continuing_and_then_by_a_whole_search(visit, mo
 
 GREY = """(place) => {
     const shades = [];
-    for (let at = document.querySelector(place); at; at = at.parentElement) shades.push(getComputedStyle(at).filter);
+    for (let at = document.querySelector(place); at; at = at.parentElement) {
+        shades.push(getComputedStyle(at).filter);
+    }
     return shades.every((each) => each === 'none') ? 0 : shades.includes('grayscale(1)') ? 1 : 0.5;
 }"""
 PLACES = (".wbx-sentence", ".wbx-lights", ".wbx-gauges", ".tiles", ".answer .groups", ".influence .acts")

@@ -35,6 +35,7 @@ window.wingbeatPage = {
         this.face.setChoices(choices, chosen);
         if (!ready) this.face.say("Solving the first wingbeat. The first solve after the server starts takes some seconds.");
         watchRefusals();
+        watchHead();
         built();
       };
       const watcher = new MutationObserver(build);
@@ -154,6 +155,16 @@ const typing = (is) => (event) => {
 document.addEventListener("input", typing(true));
 document.addEventListener("change", typing(false));
 document.addEventListener("focusout", typing(false));
+
+// The drawer begins below the first row of the head, which is taller while two messages stand in it.
+function watchHead() {
+  const status = document.querySelector(".status");
+  const tell = () => {
+    const below = Math.max(49, Math.ceil(status.getBoundingClientRect().bottom) + 9);
+    document.body.style.setProperty("--head", `${below}px`);
+  };
+  new ResizeObserver(tell).observe(status);
+}
 
 // A control whose value is refused is brought to view with all that it is folded into, and one sentence at the top says
 // what is wrong.

@@ -20,6 +20,10 @@ DROP = """([name, text]) => {
     document.body.dispatchEvent(new DragEvent("dragover", about));
     return document.body.dispatchEvent(new DragEvent("drop", about));
 }"""
+IN_VIEW = """(() => {{
+    const {{ top, bottom }} = document.querySelector('{}').getBoundingClientRect();
+    return top > 0 && bottom < innerHeight;
+}})()"""
 
 
 def wait_for(page, condition):
@@ -71,7 +75,7 @@ def test_a_flight_is_pinned_in_the_face_and_flies_beside_the_next(visit):
     page.locator(".wbx-handle").press("End")
     solved(page, "pigeon at 11 m/s")
     wait_for(page, f"{FACE}.answer.speed === 11 && {FACE}.viewer.flights.length === 2")
-    assert page.locator(".wbx-pins p").inner_text() == "Pinned: rock pigeon at 10 m/s, model paper."
+    assert page.locator(".wbx-pins p").inner_text() == "Pinned, shown pale: rock pigeon at 10 m/s, model paper."
     assert page.locator(".wbx-pin").count() == 1  # its place on the curve
     now, before = page.evaluate(f"{FACE}.viewer.flights.map((flight) => flight.frequency)")
     assert now == page.evaluate(f"{FACE}.answer.frequency")
@@ -132,6 +136,7 @@ def test_measured_flights_that_are_dropped_lie_behind_the_curve_and_stay_in_the_
     row.wait_for()
     assert row.locator("span").last.inner_text() == "mine.csv: 3 points behind the curve"
     assert page.locator(".wbx-own-mark").count() == 3
+    wait_for(page, IN_VIEW.format(".wbx-own-mark"))
     page.locator(".wbx-handle").press("Home")  # they stay behind the curve of another speed
     solved(page, "pigeon at 9 m/s")
     assert page.locator(".wbx-own-mark").count() == 3
@@ -140,6 +145,7 @@ def test_measured_flights_that_are_dropped_lie_behind_the_curve_and_stay_in_the_
     refused = page.locator(".wbx-own-state")
     refused.get_by_text("bad.csv is not shown:").wait_for()
     assert "is in kcal/h; convert it to W" in refused.inner_text()
+    wait_for(page, IN_VIEW.format(".wbx-own-state li"))  # though the file was dropped far above
     assert row.count() == 1
     page.get_by_role("button", name="Remove mine.csv").click()
     assert page.locator(".wbx-own-mark").count() == 0

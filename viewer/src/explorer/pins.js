@@ -46,7 +46,8 @@ export class Pins {
     this.button.textContent = this.answer ? "Remove the comparison" : "Pin this flight to compare";
     this.way.textContent = this.ghost ? "Show side by side" : "Show as a ghost";
     this.way.hidden = this.words.hidden = !this.answer;
-    this.words.textContent = this.answer ? `Pinned: ${title(this.answer)}.` : "";
+    const where = this.ghost ? "shown pale" : "farther away in the side view";
+    this.words.textContent = this.answer ? `Pinned, ${where}: ${title(this.answer)}.` : "";
   }
 
   // The scene of the answer on the page, with the pinned flight as the second.

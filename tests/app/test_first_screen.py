@@ -1,8 +1,10 @@
 """The first screen of the explorer: an animal that flies at once, and a point on the curve that one drags."""
 
+import io
 import json
 from pathlib import Path
 
+import PIL.Image
 import pytest
 
 import wingbeat as wb
@@ -59,6 +61,16 @@ def test_on_a_phone_the_animal_is_in_the_first_screen(visit, theme):
     lights = page.locator(".wbx-lights").bounding_box()
     assert lights["y"] + lights["height"] <= box["y"]
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def test_on_a_phone_the_picture_is_still_drawn_as_it_goes_below_the_head(visit):
+    page = visit("", viewport={"width": 390, "height": 844})
+    page.wait_for_function(FLIES)
+    page.evaluate("() => scrollTo(0, document.querySelector('.wb-canvas').getBoundingClientRect().bottom - 190)")
+    box = page.locator(".wb-canvas").bounding_box()
+    clip = {"x": box["x"] + 20, "y": box["y"] + box["height"] - 60, "width": 300, "height": 50}
+    picture = PIL.Image.open(io.BytesIO(page.screenshot(clip=clip))).convert("RGB")
+    assert len(set(picture.getdata())) > 20  # the ground, not one flat colour
 
 
 def test_the_point_of_the_curve_is_dragged_to_another_speed(visit):

@@ -25,7 +25,7 @@ from wingbeat.app.widgets import button, choice_field, folded, run_script, set_c
 from wingbeat.errors import InvalidInputError
 from wingbeat.workers.fair_pool import FairPool
 
-_THEMES = (("system", "As the system"), ("light", "Light"), ("dark", "Dark"))
+_THEMES = (("system", "System"), ("light", "Light"), ("dark", "Dark"))
 _MOST_LINES = 10
 _ACCEPT = ".toml,.nc,.json"
 

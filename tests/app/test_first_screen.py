@@ -9,6 +9,7 @@ import pytest
 
 import wingbeat as wb
 from tests.app.page import asks_for, drawer, enter, solved, unfold
+from tests.helpers.browsers import PATIENCE
 from wingbeat.app.first import read_first
 from wingbeat.app.jobs import do
 from wingbeat.app.links import to_plain
@@ -138,6 +139,7 @@ def test_the_flight_is_pushed_and_says_how_it_ends(visit):
     page = visit()
     solved(page, "pigeon")
     page.get_by_role("button", name="Push it with a gust").click()
+    page.locator(".wb-push").wait_for(timeout=2 * PATIENCE)
     page.get_by_role("button", name="Push", exact=True).click()
     outcome = page.locator(".wb-outcome").inner_text()
     assert "tumbles" in outcome or "settled" in outcome

@@ -1,12 +1,15 @@
 """The first screen of the explorer: an animal that flies at once, and a point on the curve that one drags."""
 
+import io
 import json
 from pathlib import Path
 
+import PIL.Image
 import pytest
 
 import wingbeat as wb
 from tests.app.page import asks_for, drawer, enter, solved, unfold
+from tests.helpers.browsers import PATIENCE
 from wingbeat.app.first import read_first
 from wingbeat.app.jobs import do
 from wingbeat.app.links import to_plain
@@ -59,6 +62,16 @@ def test_on_a_phone_the_animal_is_in_the_first_screen(visit, theme):
     lights = page.locator(".wbx-lights").bounding_box()
     assert lights["y"] + lights["height"] <= box["y"]
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def test_on_a_phone_the_picture_is_still_drawn_as_it_goes_below_the_head(visit):
+    page = visit("", viewport={"width": 390, "height": 844})
+    page.wait_for_function(FLIES)
+    page.evaluate("() => scrollTo(0, document.querySelector('.wb-canvas').getBoundingClientRect().bottom - 190)")
+    box = page.locator(".wb-canvas").bounding_box()
+    clip = {"x": box["x"] + 20, "y": box["y"] + box["height"] - 60, "width": 300, "height": 50}
+    picture = PIL.Image.open(io.BytesIO(page.screenshot(clip=clip))).convert("RGB")
+    assert len(picture.getcolors(300 * 50)) > 20  # the ground, not one flat colour
 
 
 def test_the_point_of_the_curve_is_dragged_to_another_speed(visit):
@@ -119,13 +132,14 @@ def test_a_refused_choice_opens_the_drawer_at_its_control(visit):
     page.keyboard.press("Escape")
     page.locator(".sheet").wait_for(state="hidden")
     enter(page, "Speed [m/s]", "fast")
-    page.locator(".refusal", has_text="Speed [m/s]: 'fast' is not a number.").wait_for()
+    page.locator(".refusal", has_text="Speed [m/s]: 'fast' is not a number; type one, such as 9.5.").wait_for()
 
 
 def test_the_flight_is_pushed_and_says_how_it_ends(visit):
     page = visit()
     solved(page, "pigeon")
     page.get_by_role("button", name="Push it with a gust").click()
+    page.locator(".wb-push").wait_for(timeout=2 * PATIENCE)
     page.get_by_role("button", name="Push", exact=True).click()
     outcome = page.locator(".wb-outcome").inner_text()
     assert "tumbles" in outcome or "settled" in outcome

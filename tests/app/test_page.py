@@ -161,20 +161,23 @@ def test_a_slider_is_answered_by_continuing_and_then_by_a_whole_search(visit, mo
     assert float(page.locator(".what").get_attribute("data-solver-seconds")) > 0
 
 
-DIM = """(place) => {
-    const sheer = (element) => element ? getComputedStyle(element).opacity * sheer(element.parentElement) : 1;
-    return sheer(document.querySelector(place));
+GREY = """(place) => {
+    const shades = [];
+    for (let at = document.querySelector(place); at; at = at.parentElement) {
+        shades.push(getComputedStyle(at).filter);
+    }
+    return shades.every((each) => each === 'none') ? 0 : shades.includes('grayscale(1)') ? 1 : 0.5;
 }"""
 PLACES = (".wbx-sentence", ".wbx-lights", ".wbx-gauges", ".tiles", ".answer .groups", ".influence .acts")
 EARLIER = "This result belongs to an earlier request."
 
 
 def dims(page, place=".wbx-lights"):
-    page.wait_for_function(f"({DIM})({place!r}) < 0.6")
+    page.wait_for_function(f"({GREY})({place!r}) === 1")
 
 
 def is_bright(page, place=".wbx-lights"):
-    page.wait_for_function(f"({DIM})({place!r}) === 1")
+    page.wait_for_function(f"({GREY})({place!r}) === 0")
 
 
 def test_an_answer_is_dimmed_while_another_question_is_solved(visit, served):

@@ -3,6 +3,9 @@
 import { make } from "./elements.js";
 
 const nameOf = ({ direction, size, feedback }) => [direction, size, ...(feedback ? ["feedback"] : [])].join("*");
+// Where a gust comes from, in plain words.
+const FROM = { upward: "from below", downward: "from above", head: "from ahead", tail: "from behind" };
+
 const unique = (values) => [...new Set(values)];
 
 export class Pushes {
@@ -44,7 +47,7 @@ export class Pushes {
   choice(label, values) {
     const id = `${this.id}-push-${label.replace(/\W/g, "")}`;
     const select = make("select", { id });
-    for (const value of values) select.append(make("option", { value }, String(value)));
+    for (const value of values) select.append(make("option", { value }, FROM[value] ?? String(value)));
     return { select, element: make("span", { class: "wb-choice" }, make("label", { for: id }, label), select) };
   }
 

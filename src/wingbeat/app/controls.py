@@ -7,13 +7,14 @@ from collections.abc import Callable
 from typing import Any
 
 from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, INFLOWS, LIBRARY, UNSTEADY
+from wingbeat.app.face import animals
 from wingbeat.app.formatting import from_shown, sentence
 from wingbeat.app.numbers import Numbers
 from wingbeat.app.scenario import Scenario, own_species, species_in
 from wingbeat.app.widgets import Field, box, button, choice_field, number_field, slider, tag, text_field
 from wingbeat.errors import InvalidInputError
 from wingbeat.explorer import default_speeds
-from wingbeat.explorer.models import parts_of
+from wingbeat.explorer.models import MODEL_TITLES, parts_of
 from wingbeat.models import model_of
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.orbits.problem.quantities import QUANTITIES
@@ -43,25 +44,23 @@ class Controls:
         """Make the main controls: animal and flight; `solve` is called when the visitor asks for it."""
         now = self._scenario
         with box("Animal and flight", "first"):
-            names = [(name, name) for name in species_names()]
             self._own = (_OWN, f"{now.species} (loaded file)") if now.species_file else None
             self._animal_place = tag("div")
             with self._animal_place:
-                self._build_animal(names)
+                self._build_animal()
             self._fields["speed"] = number_field("Speed", f"{now.speed:g}", self._number("speed"), unit="m/s")
             self._slider = slider("Speed [m/s]", now.speed, 0.0, _FASTEST, 0.1, self._number("speed"))
             self._fields["climb"] = number_field("Climb", f"{now.climb:g}", self._number("climb"), unit="m/s")
-            animal = ("animal", "animal: air loads and objective of a bird, bat or robot")
-            whole = [("paper", "paper: the plate of Su et al."), animal]
+            whole = [(name, MODEL_TITLES[name]) for name in ("paper", "animal")]
             self._fields["model"] = choice_field("Flight model", whole, now.model, self._choose_model)
             quantities = [(name, _quantity(name)) for name in QUANTITIES]
             self._fields["minimise"] = choice_field("Minimise", quantities, now.minimise, self._word("minimise"))
             button("Solve", solve, "primary", title="Search again from every start")
 
-    def _build_animal(self, names: list[tuple[str, str]]) -> None:
+    def _build_animal(self) -> None:
         own = [self._own] if self._own else []
         value = _OWN if self._scenario.species_file else self._scenario.species
-        self._fields["species"] = choice_field("Animal", [*own, *names], value, self._choose_animal)
+        self._fields["species"] = choice_field("Animal", [*own, *animals()], value, self._choose_animal)
 
     def build_loads(self) -> None:
         """Make the controls of air loads, search, bounds and numbers."""
@@ -118,7 +117,7 @@ class Controls:
             self._own = (_OWN, f"{scenario.species} (loaded file)") if scenario.species_file else None
             self._animal_place.clear()
             with self._animal_place:
-                self._build_animal([(name, name) for name in species_names()])
+                self._build_animal()
             self._build_numbers()
         elif scenario.values != before.values or scenario.bounds != before.bounds:
             self._numbers.show(scenario)

@@ -99,8 +99,14 @@ class Errands:
         say: Callable[[str], Any] | None = None,
         end: Callable[[], Any] | None = None,
         told: Callable[[int, int], str] | None = None,
+        name: str = "The request",
     ) -> Job | None:
-        """Submit a job to the pool in addition to the search, and show its progress and result."""
+        """Submit a job to the pool in addition to the search, and show its progress and result.
+
+        Parameters
+        ----------
+        name : what is refused, if the job is.
+        """
         say = say or (lambda text: self._view.show_state(text, busy=False))
 
         def hear(event: Event) -> None:
@@ -111,7 +117,7 @@ class Errands:
             elif event.kind == "progress" and told is not None:
                 say(told(*event.value))
             elif event.kind == "done" and "refused" in event.value:
-                say("Refused.")
+                say(f"{name} was refused.")
                 self._view.show_trouble(*(sentence(*each) for each in event.value["refused"]))
             elif event.kind == "done":
                 say("Done.")
@@ -174,7 +180,7 @@ class Errands:
                 self._session.scenario = from_plain(found["scenario"])
                 self._session.ask(whole=True)
 
-        self._start({"do": "read", "path": path, "label": label}, f"Reading {label}.", show, end=end)
+        self._start({"do": "read", "path": path, "label": label}, f"Reading {label}.", show, end=end, name=label)
 
     def leave(self) -> None:
         """Release the files that are not read yet, because the visitor has left."""

@@ -45,6 +45,7 @@ class Face:
     is_ready : whether the answer to the first choice was solved beforehand.
     ask : called with the choices that were changed: species, model or speed [m/s].
     push : called when the visitor wants the flight on the page pushed.
+    pin : called with whether the flight on the page is to stay beside those that follow.
     """
 
     def __init__(
@@ -55,6 +56,7 @@ class Face:
         is_ready: bool,
         ask: Callable[..., Any],
         push: Callable[[], Any],
+        pin: Callable[[bool], Any],
     ) -> None:
         self._downloads, self._session, self._ask = downloads, session, ask
         self._scenario = scenario
@@ -69,6 +71,7 @@ class Face:
             trailing_events=True,
         )
         self._place.on("push", push, args=[])
+        self._place.on("pin", lambda event: pin(event.args is True), js_handler="(event) => emit(event.detail)")
         choices, chosen = _offered(scenario)
         about = {"choices": choices, "chosen": chosen, "ready": READY if is_ready else None, "session": session}
         text = json.dumps(about).replace("<", "\\u003c")

@@ -30,7 +30,7 @@ def refusals(faults: Iterable[Fault]) -> list[list[str]]:
 
 def not_a_number(text: str) -> str:
     """Return the message for a text that is not a number."""
-    return f"{text[:30]!r} is not a number"
+    return f"{text[:30]!r} is not a number; type one, such as 9.5"
 
 
 def spoken_path(path: str) -> str:

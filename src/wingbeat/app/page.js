@@ -21,7 +21,7 @@ window.wingbeatPage = {
         const place = document.getElementById("answer");
         if (!place || !window.wingbeatExplorer) return;
         watcher.disconnect();
-        this.face = wingbeatExplorer.explore(place, { theme: this.theme, snap: false, pinning: false });
+        this.face = wingbeatExplorer.explore(place, { theme: this.theme, snap: false });
         this.face.onask = (asked) => {
           this.want(asked);
           place.dispatchEvent(new CustomEvent("ask", { detail: asked }));
@@ -29,6 +29,7 @@ window.wingbeatPage = {
         this.face.onpushed = () => this.linkPush();
         this.face.linked.want(pushInAddress());
         this.face.onpush = () => place.dispatchEvent(new CustomEvent("push"));
+        this.face.pins.onpin = (wanted) => place.dispatchEvent(new CustomEvent("pin", { detail: wanted }));
         this.face.onfile = async (file) => {
           const refused = await this.upload({ files: [file] }, session);
           if (refused) this.face.own.refuse(file.name, [refused]);
@@ -36,6 +37,7 @@ window.wingbeatPage = {
         this.face.setChoices(choices, chosen);
         if (!ready) this.face.say("Solving the first wingbeat. The first solve after the server starts takes some seconds.");
         watchRefusals();
+        watchHead();
         built();
       };
       const watcher = new MutationObserver(build);
@@ -175,6 +177,16 @@ const typing = (is) => (event) => {
 document.addEventListener("input", typing(true));
 document.addEventListener("change", typing(false));
 document.addEventListener("focusout", typing(false));
+
+// The drawer begins below the first row of the head, which is taller while two messages stand in it.
+function watchHead() {
+  const status = document.querySelector(".status");
+  const tell = () => {
+    const below = Math.max(49, Math.ceil(status.getBoundingClientRect().bottom) + 9);
+    document.body.style.setProperty("--head", `${below}px`);
+  };
+  new ResizeObserver(tell).observe(status);
+}
 
 // A control whose value is refused is brought to view with all that it is folded into, and one sentence at the top says
 // what is wrong.

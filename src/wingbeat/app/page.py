@@ -26,7 +26,7 @@ from wingbeat.app.widgets import button, choice_field, folded, part, run_script,
 from wingbeat.errors import InvalidInputError
 from wingbeat.workers.fair_pool import FairPool
 
-_THEMES = (("system", "As the system"), ("light", "Light"), ("dark", "Dark"))
+_THEMES = (("system", "System"), ("light", "Light"), ("dark", "Dark"))
 _ACCEPT = ".toml,.nc,.json"
 
 
@@ -100,7 +100,7 @@ class Page:
             self._build_header()
         with tag("div", classes="whole"):
             ask, push = self._controls.choose, lambda: self._errands.push(self._face)
-            self._face = Face(self._downloads, self.name, scenario, self._is_ready, ask, push)
+            self._face = Face(self._downloads, self.name, scenario, self._is_ready, ask, push, self._keep)
             self._brief = Brief(self._pin)
             self._pins = Pins(self._face.compare, self._bring_back)
             with tag("div", classes="below"):
@@ -109,7 +109,9 @@ class Page:
     def _build_header(self) -> None:
         tag("p", "wingbeat explorer", "brand")
         with tag("details", classes="drawer"):
-            tag("summary", "Change the animal, the air or the numbers", "button primary")
+            with tag("summary", classes="button primary"):
+                tag("span", "Change the animal, the air or the numbers", "wide-only")
+                tag("span", "Animal, air, numbers", "narrow-only")
             with tag("div", classes="sheet"):
                 self._controls.build_flight(lambda: self._session.ask(whole=True))
                 with folded("Expert numbers", "expert"):
@@ -230,6 +232,10 @@ class Page:
     def _pin(self) -> None:
         if self._session.answer is not None:
             self._pins.pin(self._session.answer)
+
+    def _keep(self, wanted: bool) -> None:
+        """Pin the answer and fly it beside those that follow, or end the comparison."""
+        self._pins.compare(self._session.answer if wanted else None)
 
     def _bring_back(self, answer: dict[str, Any]) -> None:
         sweep = self._session.scenario.sweep

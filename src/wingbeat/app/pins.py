@@ -45,6 +45,13 @@ class Pins:
         self._note.set_text(text)
         self._draw()
 
+    def compare(self, answer: dict[str, Any] | None) -> None:
+        """Pin an answer and show it as a ghost; None ends the comparison."""
+        if answer is not None:
+            self.pin(answer)
+            self._note.set_text("Pinned, and shown beside the result on the page.")
+        self._fly(answer)
+
     def _fly(self, answer: dict[str, Any] | None) -> None:
         self._ghost = answer
         self._draw()

@@ -125,7 +125,8 @@ def lights_of(record: dict[str, Any]) -> list[dict[str, Any]]:
     """
     said = statements(record)
     certified = record["status"] == "converged"
-    closes = f"flown again, it {said.closes}" if certified else f"{said.closes}. {record['message']}"
+    why_not = said.closes.removeprefix("does not close: ")  # the light itself says that it does not
+    closes = f"flown again, it {said.closes}" if certified else f"{why_not}. {_sentence(record['message'])}"
     # The statement is "plausible: yes", "plausible: no: frequency 12 above 10 Hz" or "plausible: unknown: ...".
     verdict, why = (*re.split("[:;] ", said.plausible.removeprefix("plausible: "), maxsplit=1), "")[:2]
     words = f"every number is inside its plausible range{f'; {why}' if why else ''}" if verdict == "yes" else why

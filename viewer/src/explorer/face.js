@@ -16,9 +16,8 @@ const UNCERTIFIED = "the closest wingbeat: it does not fly";
 let made = 0;
 
 export class Face {
-  // With `snap` the point rests on computed speeds only; without, the page can ask for any speed. Without `pinning` the
-  // page itself chooses what to compare with.
-  constructor(element, { theme = "system", snap = true, pinning = true } = {}) {
+  // With `snap` the point rests on computed speeds only; without, the page can ask for any speed.
+  constructor(element, { theme = "system", snap = true } = {}) {
     this.onask = () => {};
     // Set before `setChoices` by a page that can: `onpush()` brings flights of the answer on the page through gusts, by
     // `showPushes`; `onfile(file)` takes a species file.
@@ -30,7 +29,7 @@ export class Face {
     this.verdict = new Verdict();
     this.curve = new Curve((speed) => this.ask({ speed }), snap);
     this.gauges = new Gauges();
-    this.pins = new Pins(() => this.show(), pinning);
+    this.pins = new Pins(() => this.show());
     this.tour = new Tour(this);
     this.linked = new LinkedPush(this);
     this.own = new OwnData(this);

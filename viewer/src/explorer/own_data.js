@@ -102,6 +102,7 @@ export class OwnData {
 
   say(...parts) {
     this.state.append(...parts);
+    this.state.scrollIntoView({ block: "nearest" }); // the file may have been dropped far above
   }
 
   // What is shown -----------------------------------------------------------------------------------------------------
@@ -110,6 +111,7 @@ export class OwnData {
     if (faults.texts.length) return;
     this.shown = [...this.shown.filter(({ title }) => title !== data.title), data];
     this.show();
+    if (data.points) this.face.curve.element.scrollIntoView({ block: "nearest" });
   }
 
   remove(data) {

@@ -4,12 +4,14 @@ import { make } from "../elements.js";
 import { short } from "../writing.js";
 
 export class Pins {
-  // `act` is called when the pinned answer or the way to show it changes. Without `pinning` the page chooses what is pinned.
-  constructor(act, pinning) {
+  // `act` is called when the pinned answer or the way to show it changes. A page that keeps pinned answers itself sets
+  // `onpin(wanted)`: it pins the answer on the page, or ends the comparison, by `Face.compare`.
+  constructor(act) {
+    this.onpin = undefined;
     this.answer = undefined;
     this.ghost = true;
     this.act = act;
-    this.button = make("button", { type: "button", hidden: !pinning, onclick: () => this.toggle() });
+    this.button = make("button", { type: "button", onclick: () => this.toggle() });
     this.way = make("button", { type: "button", onclick: () => this.turn() });
     this.words = make("p");
     this.element = make("div", { class: "wbx-pins" }, this.button, this.way, this.words);
@@ -23,7 +25,8 @@ export class Pins {
   }
 
   toggle() {
-    this.pin(this.answer ? undefined : this.current);
+    if (this.onpin) this.onpin(!this.answer);
+    else this.pin(this.answer ? undefined : this.current);
   }
 
   // Pin an answer, or none.
@@ -43,7 +46,8 @@ export class Pins {
     this.button.textContent = this.answer ? "Remove the comparison" : "Pin this flight to compare";
     this.way.textContent = this.ghost ? "Show side by side" : "Show as a ghost";
     this.way.hidden = this.words.hidden = !this.answer;
-    this.words.textContent = this.answer ? `Pinned: ${title(this.answer)}.` : "";
+    const where = this.ghost ? "shown pale" : "farther away in the side view";
+    this.words.textContent = this.answer ? `Pinned, ${where}: ${title(this.answer)}.` : "";
   }
 
   // The scene of the answer on the page, with the pinned flight as the second.

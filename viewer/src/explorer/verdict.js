@@ -25,6 +25,7 @@ export class Verdict {
     this.lights.replaceChildren(...answer.lights.map((light) => this.light(light)));
     const { warnings } = answer;
     this.warnings.classList.toggle("wbx-narrow", !warnings.length);
+    if (answer.status !== "converged") this.warnings.open = true; // it says why, and what would fly
     const count = warnings.length === 1 ? "1 warning" : `${warnings.length} warnings`;
     this.summary.replaceChildren(make("span", { class: "wbx-narrow" }, "Reasons, "), count);
     // Where the page is narrow, there is no room beside the lights.

@@ -67,7 +67,7 @@ def test_a_flight_without_a_certificate_has_no_numbers_in_its_sentence(record, s
     assert sentence_of(record, "rock pigeon") == words
     closes, plausible = lights_of(record)
     assert not closes["good"]
-    assert "the lift fails." in closes["text"]
+    assert "The lift fails." in closes["text"]
     assert (plausible["good"], plausible["known"]) == (False, False)
 
 

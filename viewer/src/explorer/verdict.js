@@ -13,6 +13,7 @@ export class Verdict {
     this.list = make("ul", { tabindex: "0", "aria-label": "Warnings" });
     this.warnings = make("details", { class: "wbx-warnings" }, this.summary, this.list);
     this.warnings.open = window.matchMedia("(min-width: 900px)").matches;
+    this.warnings.hidden = true; // until there is an answer
     this.element = make("div", { class: "wbx-verdict" }, this.lights, this.warnings);
     this.spoken = make("p", { class: "wbx-unseen", role: "status" });
   }
@@ -24,6 +25,7 @@ export class Verdict {
     this.speak(answer.sentence);
     this.lights.replaceChildren(...answer.lights.map((light) => this.light(light)));
     const { warnings } = answer;
+    this.warnings.hidden = false;
     this.warnings.classList.toggle("wbx-narrow", !warnings.length);
     if (answer.status !== "converged") this.warnings.open = true; // it says why, and what would fly
     const count = warnings.length === 1 ? "1 warning" : `${warnings.length} warnings`;

@@ -18,7 +18,7 @@ def write_live(app: Sphinx) -> None:
     for name, speed in (("pigeon", 10.0), ("bat", 6.0)):
         orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species(name), speed=speed))
         assert orbit.status is wb.Status.CONVERGED, orbit.message
-        flights.append((f"{name}, {speed:g} m/s", orbit.dataset))
+        flights.append((name, orbit.dataset))
     wb.viewer.write_page(flights, path)
 
 

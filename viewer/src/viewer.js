@@ -112,7 +112,7 @@ export class Viewer {
     this.look.laps = 0;
     this.look.tipForce = Measures.tipForce(this.flights);
     this.plot(scene);
-    const lines = this.flights.map((flight) => `${flight.label}: ${flight.summary}`);
+    const lines = this.flights.map(({ label, summary }) => (summary.startsWith(label) ? summary : `${label}: ${summary}`));
     this.heading.replaceChildren(...(lines.length > 1 ? lines : [this.flights[0].summary]).map((line) => make("p", {}, line)));
     this.canvas.setAttribute("aria-label", `Animation of ${this.flights.map((flight) => flight.label).join(" and ")}`);
     const force = Math.max(...this.flights.map((flight) => flight.largest("force", 3)));

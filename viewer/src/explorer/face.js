@@ -161,6 +161,7 @@ export class Face {
     const { answer } = this;
     if (!answer) return;
     const pinned = this.pins.answer;
+    this.root.dataset.status = answer.status;
     this.verdict.show(answer);
     this.gauges.show(answer.gauges, pinned?.gauges);
     this.curve.mark(answer.speed);
@@ -216,7 +217,6 @@ export class Face {
     this.root.remove();
   }
 }
-
 
 function rows(answer, pinned) {
   const before = new Map((pinned?.numbers ?? []).map(([label, value]) => [label, value]));

@@ -132,7 +132,7 @@ export class Share {
         );
     });
     const missing = kinds.length === 1 ? "This browser cannot record a canvas, so there is no video here." : "";
-    const note = `One beat at the chosen speed; a video lasts at least 2 s. ${missing}`;
+    const note = `One beat at the chosen speed; a video lasts at least 2\u00a0s. ${missing}`;
     return this.part(
       "Moving picture",
       make("span", { class: "wb-choice" }, make("label", { for: kind.id }, "Format"), kind),

@@ -84,7 +84,7 @@ def statements(record: dict[str, Any]) -> Statements:
     if certified and worst is not None:
         closes = f"closes to {worst:.0e}"
     else:
-        closes = "does not close: the flight diverged" if worst is None else f"does not close: residual {worst:.1e}"
+        closes = "does not close: the flight diverged" if worst is None else f"does not close: residual {worst:.2g}"
     judged = record.get("plausibility") or []
     outside = [one for one in judged if one["within"] is False]
     unknown = [_NAMES[one["name"]] for one in judged if one["low"] is None and one["high"] is None]

@@ -60,11 +60,11 @@ def curve_report(record: dict[str, Any]) -> Report:
 
 def _implausible(points: list[dict[str, Any]]) -> list[Block]:
     """Say at which speeds the best orbit is outside which plausible ranges; nothing for a file of before."""
-    told = [(point["speed"], point["optima"][0].get("outside_ranges")) for point in points if point["optima"]]
-    if not told or any(names is None for _, names in told):
+    judged = [(point["speed"], point["optima"][0].get("outside_ranges")) for point in points if point["optima"]]
+    if not judged or any(names is None for _, names in judged):
         return []
     lines: list[Block] = [Line(""), Line("outside plausible ranges", tone="title")]
-    for names, group in itertools.groupby(told, key=lambda one: one[1]):
+    for names, group in itertools.groupby(judged, key=lambda one: one[1]):
         speeds = [speed for speed, _ in group]
         where = f"{speeds[0]:g}" if len(speeds) == 1 else f"{speeds[0]:g} to {speeds[-1]:g}"
         if names:

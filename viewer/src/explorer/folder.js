@@ -127,7 +127,7 @@ export class Folder {
   }
 }
 
-// What is asked for by a link: an animal begins at a speed of its own.
+// What a link asks for: an animal begins at a speed of its own.
 function chosen(before, { animal, model, speed }) {
   const asked = animal ? { animal, speed } : { animal: before.animal, speed: speed ?? before.speed };
   return { ...asked, model: model ?? before.model };

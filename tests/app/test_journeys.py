@@ -7,19 +7,12 @@ import pytest
 
 import wingbeat as wb
 from tests.app.page import asks_for, solved
-from tests.helpers.browsers import PATIENCE
+from tests.helpers.browsers import DROP, PATIENCE
 
 QUERY = "species=pigeon&speed=10&starts=1&sweep=9:11:1"
 FACE = "wingbeatPage.face"
 LONG = 2 * PATIENCE  # ms for what solves several flights
 FLIGHTS = "Speed [m/s],Power (W),sd,who\n9,41,3,bird A\n10,38.5,,\n11,52,4,bird B\n"
-DROP = """([name, text]) => {
-    const transfer = new DataTransfer();
-    transfer.items.add(new File([text], name));
-    const about = { bubbles: true, cancelable: true, dataTransfer: transfer };
-    document.body.dispatchEvent(new DragEvent("dragover", about));
-    return document.body.dispatchEvent(new DragEvent("drop", about));
-}"""
 IN_VIEW = """(() => {{
     const {{ top, bottom }} = document.querySelector('{}').getBoundingClientRect();
     return top > 0 && bottom < innerHeight;

@@ -6,20 +6,13 @@ import math
 import pytest
 
 import wingbeat as wb
-from tests.helpers.browsers import AXE
+from tests.helpers.browsers import AXE, DROP
 from tests.helpers.places import ROOT
 from wingbeat.explorer import measured_points
 
 FACE = "document.querySelector('.wbx').face"
 EXAMPLE = ROOT / "examples" / "pigeon_flights.csv"
 FLIGHTS = "Speed [m/s],Power (W),sd,who\n8,41,3,bird A\n10,38.5,,\n13,52,4,bird B\n"
-DROP = """([name, text]) => {
-    const transfer = new DataTransfer();
-    transfer.items.add(new File([text], name));
-    const about = { bubbles: true, cancelable: true, dataTransfer: transfer };
-    document.body.dispatchEvent(new DragEvent("dragover", about));
-    return document.body.dispatchEvent(new DragEvent("drop", about));
-}"""
 
 
 def give(page, *files):

@@ -14,6 +14,14 @@ FLAGS = (
     *("--disable-component-update", "--disable-sync", "--enable-unsafe-swiftshader"),
 )
 PATIENCE = 60_000  # ms; a browser on a busy machine starts slowly
+# Drops a file, given as name and text, on the page; returns false if the page took it.
+DROP = """([name, text]) => {
+    const transfer = new DataTransfer();
+    transfer.items.add(new File([text], name));
+    const about = { bubbles: true, cancelable: true, dataTransfer: transfer };
+    document.body.dispatchEvent(new DragEvent("dragover", about));
+    return document.body.dispatchEvent(new DragEvent("drop", about));
+}"""
 # What the viewer's bundler and the accessibility tests bring, where somebody has run npm.
 NODE_MODULES = ROOT / "viewer" / "node_modules"
 AXE = NODE_MODULES / "axe-core" / "axe.min.js"

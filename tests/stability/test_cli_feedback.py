@@ -52,7 +52,9 @@ def test_its_json_is_that_of_the_library(saved, patient, cruise, capsys, tmp_pat
 
 def test_feedback_that_comes_late_is_lost_and_ends_with_3(saved, capsys):
     assert main(["feedback", saved, "--late", "1", "--noise", "body_pitch=0.01"]) == 3
-    assert "feedback, 1 beat late: lost" in capsys.readouterr().out
+    printed = capsys.readouterr().out
+    assert "feedback, 1 beat late: lost" in printed
+    assert "A weaker gust" in printed
 
 
 def test_the_figure_shows_flights_and_shares(cruise, held):

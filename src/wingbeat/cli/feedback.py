@@ -31,6 +31,11 @@ from wingbeat.winds import Wind
 FREE, HELD = "no feedback", "feedback"
 # The gust that is flown if none is given: upward at 2 m/s, for 0.3 s.
 _GUST = ["w=2", "duration=0.3"]
+_ADVICE = (
+    "The gains are those of small deviations, and this gust leads beyond them. A weaker gust (--gust w=1), "
+    "feedback in the same beat (--delay 0) or a gait that is stable by itself (wingbeat orbit ... --stable) may "
+    "survive."
+)
 
 
 def feedback(
@@ -144,6 +149,8 @@ def _print(held: Feedback, flights: dict[str, GustFlight], late: int, survey: Gu
         console.print(
             _outcome(name if name == FREE or not late else f"{name}, {beats_of(late)} late", one), soft_wrap=True
         )
+    if not flights[HELD].survived:
+        console.print(_ADVICE, markup=False, soft_wrap=True)
     if survey is not None:
         print_report([Line(""), *survey_report(survey.record())], console)
 

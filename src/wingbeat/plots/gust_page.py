@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -63,16 +63,18 @@ def survey_page(survey: GustSurvey) -> Figure:
 
 
 def _draw_flights(pitch: Axes, height: Axes, flights: Mapping[str, GustFlight]) -> None:
-    for (name, one), line in zip(flights.items(), _LINES, strict=False):
+    for nth, ((name, one), line) in enumerate(zip(flights.items(), _LINES, strict=False)):
+        # The first line is dashed, and above the others: where flights are equal, both are seen.
+        look: dict[str, Any] = line | {"zorder": 3.0 - 0.1 * nth}
         time = one.flight.time
         samples = (len(time) - 1) // len(one.flight.wingbeats)
         degrees = np.degrees(one.pitch)
         lost = np.flatnonzero(~(np.abs(degrees) <= _SHOWN))
         end = int(lost[0]) if len(lost) else len(time)
-        pitch.plot(time[:end], degrees[:end], label=name, **line)
+        pitch.plot(time[:end], degrees[:end], label=name, **look)
         tops = np.arange(len(one.height))
         kept = tops[tops * samples < end]
-        height.plot(time[kept * samples], one.height[kept], label=name, **line)
+        height.plot(time[kept * samples], one.height[kept], label=name, **look)
     first = next(iter(flights.values())).flight
     if first.air is not None:
         blows = np.hypot(*first.air.T) > 0

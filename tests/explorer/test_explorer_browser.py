@@ -101,7 +101,7 @@ def test_folded_plots_are_not_drawn_and_unfolded_ones_keep_their_menus(show):
     page.evaluate(f"{plots}.choose([{{ ys: ['body_pitch'], x: 'phase' }}])")
     assert page.evaluate(f"[{plots}.cards.length, {plots}.choices.length]") == [0, 1]
     page.get_by_text("Views, forces and plots").click()
-    page.wait_for_function(f"{plots}.cards.length === 1")
+    page.wait_for_function(f"() => {plots}.cards.length === 1")
     line = page.locator(".wb-plot polyline.wb-curve").first
     before = line.get_attribute("points")
     page.evaluate(f"{plots}.cards[0].rows.querySelector('select').dataset.seen = ''")
@@ -110,7 +110,7 @@ def test_folded_plots_are_not_drawn_and_unfolded_ones_keep_their_menus(show):
     assert line.get_attribute("points") != before
     assert page.locator(".wb-card select[data-seen]").input_value() == "body_pitch"
     page.get_by_text("Views, forces and plots").click()
-    page.wait_for_function(f"{plots}.cards.length === 0")
+    page.wait_for_function(f"() => {plots}.cards.length === 0")
     assert page.evaluate(f"{plots}.choices") == [{"ys": ["body_pitch"], "x": "phase"}]
 
 
@@ -136,7 +136,7 @@ def test_a_link_put_into_the_open_page_is_followed(show, answers):
         assert page.evaluate("location.hash").startswith(f"#animal={answer['species']}&model=")
         assert page.evaluate("location.hash").endswith(f"&speed={answer['speed']:g}")
     page.evaluate("location.hash = '#animal=unicorn&speed=fast'")
-    page.wait_for_function("!location.hash.includes('unicorn')")
+    page.wait_for_function("() => !location.hash.includes('unicorn')")
     assert sentence(page) == answers["pigeon"][3]["sentence"]
     assert complaints == []
 

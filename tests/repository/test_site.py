@@ -6,7 +6,7 @@ import re
 import pytest
 
 import wingbeat as wb
-from tests.helpers.browsers import AXE
+from tests.helpers.browsers import AXE, shown_files
 from tests.helpers.places import ROOT
 from wingbeat.cli.app import build_app
 from wingbeat.measured_motion.reading import KNOWN_KEYS
@@ -105,31 +105,39 @@ def test_the_site_has_the_explorer_with_what_the_tours_need(site):
     assert sum(path.stat().st_size for path in folder.rglob("*.js")) < 15e6
 
 
-@pytest.mark.parametrize("name", PAGES)
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_a_page_keeps_to_itself(site, browser, name, scheme):
-    context = browser.new_context(color_scheme=scheme, viewport={"width": 1280, "height": 900})
-    asked = []
-    context.on("request", lambda request: asked.append(request.url))
-    page = context.new_page()
-    page.goto((site / name).as_uri())
-    page.wait_for_load_state("networkidle")
-    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
-    context.close()
+@pytest.fixture
+def opened(site, browser):
+    """A function that opens a page of the site from disk, given its name and the options of its window."""
+    with shown_files(browser, "body", width=1280, height=900) as opened:
+        yield lambda name, **options: opened(site / name, **options)
 
 
-@pytest.mark.parametrize("name", PAGES)
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_axe_finds_nothing_serious(site, browser, name, scheme):
+@pytest.fixture(scope="module", params=[f"{scheme}-{name}" for name in PAGES for scheme in ("light", "dark")])
+def seen(request, site, browser):
+    """A page of the site that was read to its end, with all that it asked for."""
+    scheme, name = request.param.split("-", 1)
+    with shown_files(browser, "body", width=1280, height=900) as opened:
+        shown = opened(site / name, color_scheme=scheme, reduced_motion="no-preference")
+        # Pictures that wait to be seen, and scripts that wait for a quiet moment, ask then.
+        shown.page.evaluate("scrollTo(0, document.body.scrollHeight)")
+        shown.page.evaluate(
+            "new Promise(done => requestIdleCallback(() => setTimeout(done, 300), { timeout: 5000 }))"
+        )
+        yield shown
+
+
+def test_a_page_keeps_to_itself(seen):
+    assert seen.requests
+    assert [url for url in seen.requests if not url.startswith(("file:", "data:", "blob:"))] == []
+
+
+def test_axe_finds_nothing_serious(seen):
     if not AXE.exists():
         pytest.skip("needs axe-core: npm ci in the folder viewer")
-    page = browser.new_page(color_scheme=scheme, viewport={"width": 1280, "height": 900})
-    page.goto((site / name).as_uri())
-    page.add_script_tag(content=AXE.read_text())
-    faults = page.evaluate("axe.run(document, {iframes: false}).then(found => found.violations)")
+    seen.page.add_script_tag(content=AXE.read_text())
+    faults = seen.page.evaluate("axe.run(document, {iframes: false}).then(found => found.violations)")
     serious = [fault for fault in faults if fault["impact"] in ("serious", "critical")]
     assert [(fault["id"], fault["nodes"][0]["html"][:120]) for fault in serious] == []
-    page.close()
 
 
 def test_no_page_names_a_script_a_style_or_a_picture_of_another_host(site):
@@ -143,16 +151,12 @@ def test_no_page_names_a_script_a_style_or_a_picture_of_another_host(site):
     assert {name: tags for name, tags in found.items() if tags} == {}
 
 
-def test_a_phone_shows_the_first_page_without_scrolling_sideways(site, browser):
-    page = browser.new_page(viewport={"width": 390, "height": 844})
-    page.goto((site / "index.html").as_uri())
+def test_a_phone_shows_the_first_page_without_scrolling_sideways(opened):
+    page = opened("index.html", width=390, height=844).page
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
-    page.close()
 
 
-def test_the_search_works_from_disk(site, browser):
-    page = browser.new_page()
-    page.goto((site / "search.html").as_uri() + "?q=certificate")
-    page.wait_for_selector("#search-results li", timeout=30_000)
+def test_the_search_works_from_disk(opened):
+    page = opened("search.html", fragment="?q=certificate").page
+    page.wait_for_selector("#search-results li")
     assert page.locator("#search-results li").count() > 3
-    page.close()

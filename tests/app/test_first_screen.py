@@ -8,12 +8,11 @@ import PIL.Image
 import pytest
 
 import wingbeat as wb
-from tests.app.page import asks_for, drawer, enter, solved, unfold
+from tests.app.page import asks_for, choose, drawer, enter, solved, unfold
 from tests.helpers.browsers import PATIENCE
-from wingbeat.app.first import read_first
+from wingbeat.app.first import first_scenario, read_first
 from wingbeat.app.jobs import do
 from wingbeat.app.links import to_plain
-from wingbeat.app.scenario import Scenario
 from wingbeat.workers.main import Context
 
 FLIES = "() => window.wingbeatPage?.face?.viewer?.flights.length === 1"
@@ -22,7 +21,9 @@ FLIES = "() => window.wingbeatPage?.face?.viewer?.flights.length === 1"
 def test_what_was_solved_beforehand_is_what_a_fresh_solve_finds():
     """After a change of numbers or scenes, ``python -m wingbeat.app.first`` writes the file again."""
     first, context = read_first(), Context(lambda told: None, lambda: False)
-    fresh = do({"do": "orbit", "scenario": to_plain(Scenario())}, context)
+    scenario = first_scenario()
+    assert first.scenario == scenario
+    fresh = do({"do": "orbit", "scenario": to_plain(scenario)}, context)
     for name in ("mean_positive_power", "objective_value", "cost_of_transport"):
         assert first.answer["record"][name] == pytest.approx(fresh["record"][name], rel=1e-6), name
     assert first.answer.keys() == fresh.keys()
@@ -34,8 +35,9 @@ def test_what_was_solved_beforehand_is_what_a_fresh_solve_finds():
     (flight,), (flown,) = face["scene"]["flights"], again["scene"]["flights"]
     assert flight.keys() == flown.keys()
     assert flight["arrays"].keys() == flown["arrays"].keys()
-    assert [point["speed"] for point in first.points] == Scenario().speeds()
-    near, asked = first.points[8]["near"], to_plain(Scenario().at(first.points[8]["speed"]))
+    assert [point["speed"] for point in first.points] == scenario.speeds()
+    assert all(point["plausible"] for point in first.points)
+    near, asked = first.points[8]["near"], to_plain(scenario.at(first.points[8]["speed"]))
     point = do({"do": "point", "scenario": asked, "near": near, "whole": False}, context)
     assert point["mean_positive_power"] == pytest.approx(first.points[8]["mean_positive_power"], rel=1e-6)
 
@@ -45,11 +47,33 @@ def test_the_first_picture_comes_without_a_solve(visit, served, monkeypatch):
     monkeypatch.setattr(served.house.pool, "submit", lambda *what: asked.append(what))
     page = visit("")
     page.wait_for_function(FLIES)
-    solved(page, "pigeon at 10 m/s, su-fan")
+    solved(page, "pigeon at 12 m/s, feathered-flapping")
     assert page.locator(".state").inner_text() == "Solved beforehand."
-    assert page.locator(".wbx-sentence").inner_text().startswith("A rock pigeon at 10 m/s beats ")
-    assert page.locator(".wbx-dot").count() == len(Scenario().speeds())
+    sentence = page.locator(".wbx-sentence").inner_text()
+    assert sentence.startswith("A rock pigeon at 12 m/s beats ")
+    assert sentence.endswith("within what its muscle gives.")
+    assert page.locator(".wbx-good").count() == 2
+    assert page.locator(".wbx-dot").count() == len(first_scenario().speeds())
     assert asked == []
+
+
+def test_the_limits_of_the_first_flight_can_be_dropped_and_taken_again(visit):
+    page = visit("")
+    page.wait_for_function(FLIES)
+    within = drawer(page).get_by_label("Keep to plausible ranges", exact=True)
+    assert within.input_value() == "yes"
+    page.locator(".wbx-choices select").nth(1).select_option("paper")
+    solved(page, "pigeon at 12 m/s, su-fan")
+    assert within.input_value() == "no"
+    assert page.locator(".wbx-bad").count() == 1
+    choose(page, "Flight model", "plausible")
+    asks_for(page, "within_plausible=yes")
+    solved(page, "pigeon at 12 m/s, feathered-flapping")
+    page.locator(".wbx-sentence", has_text="within what its muscle gives.").wait_for()
+    choose(page, "Keep to plausible ranges", "no")
+    chosen = page.locator(".wbx-choices select").nth(1)
+    page.wait_for_function("document.querySelectorAll('.wbx-choices select')[1].value === 'animal'")
+    assert chosen.locator("option:checked").text_content() == "live animal, no limits"
 
 
 @pytest.mark.parametrize("theme", ["light", "dark"])

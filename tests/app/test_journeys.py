@@ -68,7 +68,10 @@ def test_a_flight_is_pinned_in_the_face_and_flies_beside_the_next(visit):
     page.locator(".wbx-handle").press("End")
     solved(page, "pigeon at 11 m/s")
     wait_for(page, f"{FACE}.answer.speed === 11 && {FACE}.viewer.flights.length === 2")
-    assert page.locator(".wbx-pins p").inner_text() == "Pinned, shown pale: rock pigeon at 10 m/s, model paper."
+    assert (
+        page.locator(".wbx-pins p").inner_text()
+        == "Pinned, shown pale: rock pigeon at 10 m/s, model: Su et al. 2023."
+    )
     assert page.locator(".wbx-pin").count() == 1  # its place on the curve
     now, before = page.evaluate(f"{FACE}.viewer.flights.map((flight) => flight.frequency)")
     assert now == page.evaluate(f"{FACE}.answer.frequency")

@@ -38,7 +38,8 @@ scenarios = st.builds(
     starts=st.none() | st.integers(1, 100),
     seed=st.integers(0, 100_000),
     sweep=st.tuples(st.floats(0, 10), st.floats(11, 20), st.floats(1, 5)),
-)
+    within_plausible=st.booleans(),
+).filter(lambda scenario: not (scenario.within_plausible and scenario.bounds))
 
 
 @given(scenarios)
@@ -186,6 +187,15 @@ def test_a_model_that_is_chosen_is_that_of_the_command(name):
     assert (found.vehicle, found.aero, found.free) == (wanted.vehicle, wanted.aero, wanted.free)
     assert (found.bounds, found.minimise, found.origin) == (wanted.bounds, wanted.minimise, wanted.origin)
     assert problem_of(Scenario(species=name)).origin == models.paper().problem(species, 10.0).origin
+
+
+def test_bounds_of_ones_own_and_plausible_ranges_exclude_each_other():
+    with pytest.raises(InvalidInputError, match="cannot be combined with bounds of your own"):
+        problem_of(Scenario(within_plausible=True, bounds={"frequency": (5.0, 9.0)}))
+    with pytest.raises(InvalidInputError, match="within_plausible = 'maybe': must be yes or no"):
+        from_query("species=pigeon&within_plausible=maybe")
+    with pytest.raises(InvalidInputError, match="within_plausible"):
+        from_plain({"within_plausible": "yes"})
 
 
 def test_a_model_for_a_species_of_unknown_kind_is_refused():

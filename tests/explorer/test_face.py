@@ -71,6 +71,12 @@ def test_a_flight_without_a_certificate_has_no_numbers_in_its_sentence(record, s
     assert (plausible["good"], plausible["known"]) == (False, False)
 
 
+def test_a_flight_with_limits_is_missed_within_them(record):
+    record |= {"status": "infeasible", "message": "the lift fails", "constraints": {"strouhal<=0.4": 0.5}}
+    told = "In this model, a rock pigeon at 12 m/s has no wingbeat that closes within its limits."
+    assert sentence_of(record, "rock pigeon") == told
+
+
 def test_what_is_not_known_is_neither_good_nor_a_fault(record):
     for one in record["plausibility"]:
         one |= {"low": None, "high": None}

@@ -6,13 +6,13 @@ import wingbeat as wb
 from wingbeat.app.controls import choices_of
 from wingbeat.app.scenario import Scenario, problem_of
 from wingbeat.explorer import LATTICE_MODELS, solve_lattice
-from wingbeat.explorer.models import MODEL_TITLES, name_of, parts_of
+from wingbeat.explorer.models import EXPLORER_MODELS, name_of
 
 
 def test_every_model_of_the_package_is_offered_under_its_own_name():
     assert set(wb.models.MODELS) < set(LATTICE_MODELS)
-    assert all(parts_of(name) == (name, None) for name in wb.models.MODELS)
-    assert len(set(MODEL_TITLES.values())) == len(LATTICE_MODELS)
+    assert all(EXPLORER_MODELS[name][1:] == (name, None, False) for name in wb.models.MODELS)
+    assert len({one.title for one in EXPLORER_MODELS.values()}) == len(LATTICE_MODELS)
 
 
 @pytest.mark.parametrize("name", LATTICE_MODELS)
@@ -22,9 +22,18 @@ def test_folder_and_page_mean_the_same_problem_by_a_name(name, monkeypatch):
     monkeypatch.setattr("wingbeat.explorer.lattice.lattice_of", lambda *_: {})
     bat = wb.load_species("bat")
     solve_lattice(bat, name, [8.0])
-    model, coefficients = parts_of(name)
+    _, model, coefficients, within = EXPLORER_MODELS[name]
     chosen = choices_of(model, bat) | ({"aero": coefficients} if coefficients else {})
-    scenario = Scenario(species="bat", speed=8.0, model=model, **chosen)
-    assert scenario.face_model == name_of(model, scenario.aero) == name
-    assert problem_of(scenario).aero == asked[0].aero
-    assert problem_of(scenario).minimise == asked[0].minimise
+    scenario = Scenario(species="bat", speed=8.0, model=model, within_plausible=within, **chosen)
+    assert scenario.face_model == name_of(model, scenario.aero, within) == name
+    problem = problem_of(scenario)
+    assert problem.aero == asked[0].aero
+    assert problem.minimise == asked[0].minimise
+    assert problem.bounds == asked[0].bounds
+    assert problem.subject_to == asked[0].subject_to
+    assert bool(problem.subject_to) == within
+
+
+def test_another_model_is_refused_by_its_name():
+    with pytest.raises(wb.InvalidInputError, match=r"model = 'fish'.*plausible, animal, paper, dickinson"):
+        solve_lattice(wb.load_species("bat"), "fish", [8.0])

@@ -99,7 +99,8 @@ def test_the_built_site_has_a_page_for_each_name(site):
 def test_the_site_has_the_explorer_with_what_the_tours_need(site):
     folder = site / "explorer"
     assert {path.stem for path in (folder / "data").glob("*.js")} == {
-        *("pigeon-animal", "pigeon-paper", "pigeon-paper-pushes", "bat-paper", "bat-dickinson"),
+        *("pigeon-plausible", "pigeon-plausible-pushes", "pigeon-paper", "pigeon-paper-pushes"),
+        *("bat-plausible", "bat-paper", "bat-dickinson"),
         *("annas-hummingbird-animal", "robofalcon2-paper"),
     }
     assert sum(path.stat().st_size for path in folder.rglob("*.js")) < 15e6

@@ -46,6 +46,11 @@ def word(value: Any) -> str | None:
     return value if good else None
 
 
+def switch(value: Any) -> bool | None:
+    """Return a truth value."""
+    return value if isinstance(value, bool) else None
+
+
 def text_of(value: Any) -> str | None:
     """Return a text that UTF-8 can encode; JSON may contain lone surrogates, which have no code in UTF-8."""
     return value if isinstance(value, str) and value.encode(errors="ignore").decode() == value else None

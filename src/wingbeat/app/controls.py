@@ -14,7 +14,7 @@ from wingbeat.app.scenario import Scenario, own_species, species_in
 from wingbeat.app.widgets import Field, box, button, choice_field, number_field, slider, tag, text_field
 from wingbeat.errors import InvalidInputError
 from wingbeat.explorer import default_speeds
-from wingbeat.explorer.models import MODEL_TITLES, parts_of
+from wingbeat.explorer.models import EXPLORER_MODELS, name_of
 from wingbeat.models import model_of
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.orbits.problem.quantities import QUANTITIES
@@ -22,7 +22,8 @@ from wingbeat.species import Species, species_names
 from wingbeat.studies.recipe import OF_ELEMENTS
 
 _OWN = "(loaded file)"
-_CHOICES = ("model", "aero", "extension", "force_point", "airspeed", "unsteady", "inflow", "hand", "minimise")
+_CHOICES = ("aero", "extension", "force_point", "airspeed", "unsteady", "inflow", "hand", "minimise")
+_YES_NO = ("no", "yes")
 _FASTEST = 25.0  # m/s, the right end of the slider; faster is typed
 
 
@@ -51,8 +52,8 @@ class Controls:
             self._fields["speed"] = number_field("Speed", f"{now.speed:g}", self._number("speed"), unit="m/s")
             self._slider = slider("Speed [m/s]", now.speed, 0.0, _FASTEST, 0.1, self._number("speed"))
             self._fields["climb"] = number_field("Climb", f"{now.climb:g}", self._number("climb"), unit="m/s")
-            whole = [(name, MODEL_TITLES[name]) for name in ("paper", "animal")]
-            self._fields["model"] = choice_field("Flight model", whole, now.model, self._choose_model)
+            whole = [(name, one.title) for name, one in EXPLORER_MODELS.items() if one.coefficients is None]
+            self._fields["model"] = choice_field("Flight model", whole, _flight_model(now), self._choose_model)
             quantities = [(name, _quantity(name)) for name in QUANTITIES]
             self._fields["minimise"] = choice_field("Minimise", quantities, now.minimise, self._word("minimise"))
             button("Solve", solve, "primary", title="Search again from every start")
@@ -99,6 +100,13 @@ class Controls:
             self._fields["starts"] = number_field("Starts", starts, self._whole("starts"), hint=hint)
             self._fields["seed"] = number_field("Seed", str(now.seed), self._whole("seed"))
             hint = "such as peak_power<=30, body_pitch_range<=10 deg; separate limits by commas"
+            within, held = [(name, name) for name in _YES_NO], _YES_NO[now.within_plausible]
+            self._fields["within_plausible"] = choice_field(
+                "Keep to plausible ranges",
+                within,
+                held,
+                lambda text: self._change(within_plausible=text == _YES_NO[True]),
+            )
             limits = ", ".join(now.limits)
             self._fields["limits"] = text_field("Within limits", limits, self._limits, hint=hint)
         self._numbers_place = tag("div", classes="numbers")
@@ -125,6 +133,8 @@ class Controls:
             self._fields[name].show(f"{getattr(scenario, name):g}")
         for name in _CHOICES:
             self._fields[name].show(getattr(scenario, name))
+        self._fields["model"].show(_flight_model(scenario))
+        self._fields["within_plausible"].show(_YES_NO[scenario.within_plausible])
         for name in ("strips", "starts", "seed"):
             value = getattr(scenario, name)
             self._fields[name].show("" if value is None else str(value))
@@ -171,7 +181,7 @@ class Controls:
         # The changed numbers belonged to another animal, and a model depends on the kind of flyer.
         species = own_species(Scenario(species=name))
         if model is None and self._scenario.model != "paper":
-            model = self._scenario.model
+            model = self._scenario.face_model
         loads = {} if model is None else _modelled(model, species)
         speed, sweep = speeds_for(species, self._scenario.speed)
         self._change(species=name, species_file="", values={}, bounds={}, speed=speed, sweep=sweep, **loads)
@@ -220,9 +230,9 @@ def choices_of(name: str, species: Species) -> dict[str, Any]:
 
 def _modelled(name: str, species: Species) -> dict[str, Any]:
     """Return the choices of the page for a model by its name in the face."""
-    model, coefficients = parts_of(name)
-    chosen = {"model": model, **choices_of(model, species)}
-    return chosen | ({} if coefficients is None else {"aero": coefficients})
+    meant = EXPLORER_MODELS[name]
+    chosen = {"model": meant.model, "within_plausible": meant.within_plausible, **choices_of(meant.model, species)}
+    return chosen | ({} if meant.coefficients is None else {"aero": meant.coefficients})
 
 
 def speeds_for(species: Species, speed: float) -> tuple[float, tuple[float, float, float]]:
@@ -236,6 +246,11 @@ def speeds_for(species: Species, speed: float) -> tuple[float, tuple[float, floa
 def _animal_of(scenario: Scenario) -> tuple[str, str]:
     """Return the species and its model, which together determine the numbers on the page."""
     return scenario.species_file or scenario.species, scenario.model
+
+
+def _flight_model(scenario: Scenario) -> str:
+    """Return the model's name in the drawer, which has the coefficients in a field of their own."""
+    return name_of(scenario.model, "", scenario.within_plausible)
 
 
 def _quantity(name: str) -> str:

@@ -12,7 +12,7 @@ from nicegui import ui
 from wingbeat.app.downloads import Download, Downloads
 from wingbeat.app.scenario import Scenario
 from wingbeat.app.widgets import run_script, tag
-from wingbeat.explorer.models import MODEL_TITLES
+from wingbeat.explorer.models import EXPLORER_MODELS
 from wingbeat.orbits.problem.problem import FASTEST
 from wingbeat.species import load_species, species_names
 from wingbeat.viewer import bundle_path
@@ -86,7 +86,7 @@ class Face:
         wanted: dict[str, Any] = {}
         if changed.get("animal") in [name for name, _ in animals()]:
             wanted["species"] = changed["animal"]
-        if changed.get("model") in MODEL_TITLES:
+        if changed.get("model") in EXPLORER_MODELS:
             wanted["model"] = changed["model"]
         speed = changed.get("speed")
         # A truth value counts as a number in Python, and a whole number may be too large for a float.
@@ -138,7 +138,7 @@ def _offered(scenario: Scenario) -> tuple[dict[str, Any], dict[str, Any]]:
     listed = [{"name": name, "title": title} for name, title in animals() if name != own]
     if own is not None:
         listed.insert(0, {"name": own, "title": f"{own} (loaded file)"})
-    models = [{"name": name, "title": title} for name, title in MODEL_TITLES.items()]
+    models = [{"name": name, "title": one.title} for name, one in EXPLORER_MODELS.items()]
     return {"animals": listed, "models": models}, {"animal": scenario.species, "model": scenario.face_model}
 
 

@@ -10,9 +10,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from wingbeat.app.links import to_plain
+from wingbeat.app.links import from_plain, to_plain
 from wingbeat.app.scenario import Scenario
 from wingbeat.files import write_atomically
+from wingbeat.species import load_species
 from wingbeat.workers.main import Context
 
 FILE = Path(__file__).with_name("first.json")
@@ -24,7 +25,7 @@ class First:
 
     Attributes
     ----------
-    scenario : that of an empty page.
+    scenario : that of an empty page: a live pigeon within its plausible ranges.
     answer : as a worker returns it.
     points : of the curve, as a worker returns them.
     """
@@ -37,14 +38,22 @@ class First:
 def read_first() -> First:
     """Return what was solved beforehand."""
     found = json.loads(FILE.read_text("utf-8"))
-    return First(Scenario(), found["answer"], found["points"])
+    return First(from_plain(found["scenario"]), found["answer"], found["points"])
+
+
+def first_scenario() -> Scenario:
+    """Return the scenario of an empty page."""
+    from wingbeat.app.controls import choices_of  # here, because what reads the file needs no form
+
+    choices = choices_of("animal", load_species("pigeon"))
+    return Scenario(speed=12.0, model="animal", within_plausible=True, sweep=(6.0, 18.0, 1.0), **choices)
 
 
 def solve_first() -> dict[str, Any]:
     """Solve the scenario of an empty page and its curve, each speed from every start and from its neighbour."""
     from wingbeat.app.jobs import do  # here, because a server that only reads the file solves nothing itself
 
-    context, scenario = Context(lambda told: None, lambda: False), Scenario()
+    context, scenario = Context(lambda told: None, lambda: False), first_scenario()
     answer = do({"do": "orbit", "scenario": to_plain(scenario)}, context)
     # How long it took here is of no use to a visitor.
     answer["seconds"] = answer["solver_seconds"] = answer["record"]["solve_seconds"] = 0.0
@@ -53,7 +62,7 @@ def solve_first() -> dict[str, Any]:
         near = next((point["near"] for point in reversed(points) if point["near"]), None)
         what = {"do": "point", "scenario": to_plain(scenario.at(speed)), "near": near, "whole": True}
         points.append(do(what, context))
-    return {"answer": answer, "points": points}
+    return {"scenario": to_plain(scenario), "answer": answer, "points": points}
 
 
 if __name__ == "__main__":

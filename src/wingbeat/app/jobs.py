@@ -61,7 +61,7 @@ def _orbit(what: dict[str, Any], context: Context) -> dict[str, Any]:
     continued = _continued(problem, what.get("near"))
     if continued is not None:
         return answer_of(Orbit.of(continued, 1), scenario.face_model, begun) | {"continued": True}
-    orbit = solve_orbit(problem, scenario.starts, scenario.seed, context.progress)
+    orbit = solve_orbit(problem, scenario.search_starts, scenario.seed, context.progress)
     context.check()
     return answer_of(orbit, scenario.face_model, begun)
 
@@ -86,7 +86,7 @@ def _point(what: dict[str, Any], context: Context) -> dict[str, Any]:
     other = None if continued is None else Orbit.of(continued, 1)
     if other is not None and not what["whole"]:
         return _point_of(other, scenario.speed)
-    orbit = solve_orbit(problem, scenario.starts, scenario.seed, context.progress)
+    orbit = solve_orbit(problem, scenario.search_starts, scenario.seed, context.progress)
     context.check()
     if other is not None and (
         orbit.status is not Status.CONVERGED

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-from wingbeat.app.checked import every, finite, number_in, table, text_of, value_in, word
+from wingbeat.app.checked import every, finite, number_in, switch, table, text_of, value_in, word
 from wingbeat.app.scenario import LARGEST_FILE, Scenario
 from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError
 
@@ -21,6 +21,8 @@ _LONGEST_QUERY = 24_000
 _VERSION = 1
 _NUMBERS = ("speed", "climb", "blend_width_deg", "induced_factor", "hand_from", "upstroke_factor")
 _WHOLE = ("strips", "starts", "seed")
+_SWITCHES = ("within_plausible",)
+_YES_OR_NO = ("yes", "no")
 _WORDS = (
     "species",
     "model",
@@ -40,8 +42,9 @@ def to_query(scenario: Scenario) -> str:
     empty, words = Scenario(), []
     for name in (*_WORDS, *_NUMBERS, *_WHOLE):
         value = getattr(scenario, name)
-        if value != getattr(empty, name) or name in ("species", "speed"):
+        if value != getattr(empty, name) or name in ("species", "model", "speed"):
             words.append((name, value if isinstance(value, str) else repr(value)))
+    words += [(name, "yes") for name in _SWITCHES if getattr(scenario, name)]
     if scenario.species_file:
         packed = zlib.compress(scenario.species_file.encode(), 9)
         words.append(("species_file", base64.urlsafe_b64encode(packed).decode().rstrip("=")))
@@ -92,13 +95,17 @@ def _read_pair(plain: dict[str, Any], name: str, text: str, faults: FaultList) -
             faults.add(name, text, "is given twice", "keep one of them")
         else:
             given[path] = values if name == "bound" else values[0]
-    elif name not in (*_WORDS, *_NUMBERS, *_WHOLE, "sweep", "species_file"):
-        known = ", ".join((*_WORDS, *_NUMBERS, *_WHOLE, "sweep", "species_file", "limit", "bound", "set"))
-        faults.add(name[:60], text[:60], "is not part of a link", f"the parts of a link are {known}")
+    elif name not in (*_WORDS, *_NUMBERS, *_WHOLE, *_SWITCHES, "sweep", "species_file"):
+        parts = (*_WORDS, *_NUMBERS, *_WHOLE, *_SWITCHES, "sweep", "species_file", "limit", "bound", "set")
+        faults.add(name[:60], text[:60], "is not part of a link", f"the parts of a link are {', '.join(parts)}")
     elif name in plain:
         faults.add(name, text[:60], "is given twice", "keep one of them")
     elif name in _WORDS:
         plain[name] = text
+    elif name in _SWITCHES:
+        if text not in _YES_OR_NO:
+            faults.add(name, text[:60], "must be yes or no")
+        plain[name] = text == "yes"
     elif name == "species_file":
         plain[name] = _unpacked(text, faults)
     else:
@@ -151,6 +158,7 @@ def from_plain(plain: Any) -> Scenario:
         **dict.fromkeys(_WORDS, word),
         **dict.fromkeys(_NUMBERS, finite),
         **dict.fromkeys(_WHOLE, lambda value: value),  # the scenario's own check names the range
+        **dict.fromkeys(_SWITCHES, switch),
         "species_file": text_of,
         "limits": lambda value: every(value, word),
         "sweep": lambda value: found if (found := every(value, finite)) and len(found) == 3 else None,

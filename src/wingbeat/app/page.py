@@ -43,9 +43,9 @@ class Page:
     def __init__(self, name: str, pool: FairPool, downloads: Downloads, first: First, query: str) -> None:
         self.name, self._downloads, self._first = name, downloads, first
         self._client: Client = ui.context.client
-        self._refusals, scenario = [], Scenario()
+        self._refusals, scenario = [], first.scenario
         try:
-            scenario = from_query(query)
+            scenario = from_query(query) if query else first.scenario
         except InvalidInputError as error:
             self._refusals = [f"The link was not understood. {fault}" for fault in error.faults]
         self._is_ready = scenario.asks_as(first.scenario)

@@ -20,7 +20,7 @@ from wingbeat.aero import (
 )
 from wingbeat.aero.choosing import load_hand
 from wingbeat.errors import FaultList, FileError, InvalidInputError
-from wingbeat.explorer.models import name_of
+from wingbeat.explorer.models import name_of, search_starts
 from wingbeat.models import MODELS, model_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, FASTEST, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.problem.quantities import QUANTITIES
@@ -52,8 +52,9 @@ class Scenario:
     limits : limits on quantities, texts as for ``--subject-to``.
     bounds : bounds of free parameters in place of the species' own. Species keep ``tail_tilt`` fixed; bounds make
         it free.
+    within_plausible : whether the flight keeps to the species' plausible ranges; then `bounds` are empty.
     values : numbers of the species that were changed, by their paths.
-    starts : number of starts, None for the default.
+    starts : number of starts, None for the default, see `search_starts`.
     seed : of the random starts.
     sweep : first and last speed and step of the curve [m/s].
     """
@@ -78,6 +79,7 @@ class Scenario:
     minimise: str = "frequency"
     limits: tuple[str, ...] = ()
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    within_plausible: bool = False
     values: Mapping[str, float | tuple[float, ...]] = field(default_factory=dict)
     starts: int | None = None
     seed: int = 0
@@ -86,7 +88,12 @@ class Scenario:
     @property
     def face_model(self) -> str:
         """The model by its name in the face, see `wingbeat.explorer.models`."""
-        return name_of(self.model, self.aero)
+        return name_of(self.model, self.aero, self.within_plausible)
+
+    @property
+    def search_starts(self) -> int | None:
+        """The number of starts of a search, None for the solver's default."""
+        return search_starts(self.starts, self.within_plausible)
 
     def faults(self) -> FaultList:
         """Return the faults of each choice by itself; `problem_of` checks the choices together."""
@@ -110,6 +117,9 @@ class Scenario:
         faults.number("hand_from", self.hand_from, at_least=0, at_most=1)
         faults.number("upstroke_factor", self.upstroke_factor, at_least=0, at_most=1)
         faults.choice("minimise", self.minimise, tuple(QUANTITIES))
+        if self.within_plausible and self.bounds:
+            fix = "take back the changed bounds, or switch the plausible ranges off"
+            faults.add("within_plausible", "yes", "cannot be combined with bounds of your own", fix)
         faults.whole("strips", self.strips, 1, MOST_STRIPS)
         faults.whole("seed", self.seed, 0, 100_000)
         if self.starts is not None:
@@ -216,7 +226,7 @@ def problem_of(scenario: Scenario) -> OrbitProblem:
         scenario.speed,
         climb=scenario.climb,
         free=(*species.free, *freed),
-        bounds=dict(scenario.bounds),
+        bounds="plausible" if scenario.within_plausible else dict(scenario.bounds),
         minimise=scenario.minimise,
         subject_to=scenario.limits,
     )

@@ -31,9 +31,10 @@ def explore(
     models: Annotated[
         str,
         Parameter(
-            help="Models, with commas between them; `dickinson` is `paper` with the coefficients of a fruit fly."
+            help="Models, with commas between them. `plausible` is `animal` within plausible ranges; `dickinson` "
+            "is `paper` with the coefficients of a fruit fly."
         ),
-    ] = "animal,paper",
+    ] = "plausible,paper",
     speeds: Annotated[
         list[str] | None,
         Parameter(
@@ -42,7 +43,9 @@ def explore(
             help="Speeds [m/s]: numbers, or start:stop:step; default: nine that suit the mass of each animal.",
         ),
     ] = None,
-    starts: Annotated[Whole | None, Parameter(help="Number of starts at each speed; default: as `orbit`.")] = None,
+    starts: Annotated[
+        Whole | None, Parameter(help="Number of starts at each speed; default: as `orbit`, 3 for `plausible`.")
+    ] = None,
     seed: Seed = 0,
     push: Annotated[
         bool,

@@ -7,6 +7,7 @@ from typing import Any
 
 from wingbeat.errors import FileError
 from wingbeat.explorer.gauges import gauges_of
+from wingbeat.explorer.models import EXPLORER_MODELS
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import Orbit
@@ -31,16 +32,16 @@ _MUSCLE = "positive_power_per_mass"
 def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
     """Return what the explorer shows of an orbit, fit for JSON.
 
-    The keys are species, title, kind, model, speed and climb [m/s], status, power [W], frequency [Hz], sentence,
-    spent, mass, lights, gauges, numbers, warnings and scene. Power is the mean of the positive part at the wing
-    hinges. What is spent on the air (profile, induced, parasite and unsteady) are means over the beat [W], or None
-    without a certified beat. The mass is in kg. Gauges and numbers are in the units that readers prefer. The scene
-    is None if the flight tumbles before there is anything to show; a certified flight never does.
+    The keys are species, title, kind, model, model_title, speed and climb [m/s], status, power [W], frequency
+    [Hz], sentence, spent, mass, lights, gauges, numbers, warnings and scene. Power is the mean of the positive part
+    at the wing hinges. What is spent on the air (profile, induced, parasite and unsteady) are means over the beat
+    [W], or None without a certified beat. The mass is in kg. Gauges and numbers are in the units that readers
+    prefer. The scene is None if the flight tumbles before there is anything to show; a certified flight never does.
 
     Parameters
     ----------
     orbit : certified or not.
-    model : name of the model that made the problem, such as ``"animal"`` or ``"paper"``.
+    model : the explorer's name of the model that made the problem, see `wingbeat.explorer.models`.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -54,6 +55,7 @@ def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
         "title": title,
         "kind": species.kind,
         "model": model,
+        "model_title": EXPLORER_MODELS[model].title if model in EXPLORER_MODELS else model,
         "speed": record["speed"],
         "climb": record["climb"],
         "status": record["status"],
@@ -96,7 +98,8 @@ def sentence_of(record: dict[str, Any], title: str) -> str:
     """
     who = f"{_article(title)} {title} {_place(record)}"
     if record["status"] == "infeasible":
-        return f"In this model, {who[0].lower()}{who[1:]} has no wingbeat that closes."
+        which = "that closes within its limits" if record.get("constraints") else "that closes"
+        return f"In this model, {who[0].lower()}{who[1:]} has no wingbeat {which}."
     if record["status"] != "converged":
         return f"No wingbeat that closes was found for {who[0].lower()}{who[1:]}."
     beats, power = _short(record["wingbeat"]["frequency"]), _short(record["mean_positive_power"])

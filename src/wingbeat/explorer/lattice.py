@@ -10,7 +10,7 @@ import numpy as np
 from wingbeat.errors import FaultList
 from wingbeat.explorer.face import face_of, is_plausible
 from wingbeat.explorer.measured import measured_points
-from wingbeat.explorer.models import parts_of
+from wingbeat.explorer.models import EXPLORER_MODELS, LATTICE_MODELS, search_starts
 from wingbeat.explorer.pushed import pushes_of
 from wingbeat.explorer.thinning import thinned
 from wingbeat.models import model_of
@@ -68,7 +68,7 @@ def solve_lattice(
     species : the animal or robot.
     model : one of `wingbeat.explorer.LATTICE_MODELS`.
     speeds : increasing [m/s].
-    starts, seed : as in `solve_orbits`.
+    starts, seed : as in `solve_orbits`; without a number of starts, the model ``"plausible"`` takes three.
     progress : called with (speeds done, speeds in all).
     push : whether to fly through gusts as well, which takes some seconds.
 
@@ -84,9 +84,11 @@ def solve_lattice(
     faults = FaultList()
     if not len(speeds) or any(np.diff(speeds) <= 0):
         faults.add("speeds", list(speeds), "must be at least one, and increase", "for example 8, 10, 12")
+    faults.choice("model", model, LATTICE_MODELS)
     faults.raise_if_any()
     problems = [_problem(model, species, float(speed)) for speed in speeds]
-    orbits = solve_orbits(problems, starts, seed, in_order=True, progress=progress)
+    within = EXPLORER_MODELS[model].within_plausible
+    orbits = solve_orbits(problems, search_starts(starts, within), seed, in_order=True, progress=progress)
     return lattice_of(species, model, orbits, push)
 
 
@@ -119,9 +121,8 @@ def lattice_of(species: Species, model: str, orbits: Sequence[Orbit], push: bool
 
 
 def _problem(model: str, species: Species, speed: float) -> OrbitProblem:
-    name, coefficients = parts_of(model)
-    changes: dict[str, Any] = {} if coefficients is None else {"aero": coefficients}
-    return model_of(name, species).problem(species, speed, **changes)
+    meant = EXPLORER_MODELS[model]
+    return model_of(meant.model, species).problem(species, speed, **meant.changes)
 
 
 def _small(answer: dict[str, Any], sources: dict[str, str]) -> dict[str, Any]:

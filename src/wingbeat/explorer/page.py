@@ -14,7 +14,7 @@ from typing import Any
 
 from wingbeat._version import __version__
 from wingbeat.errors import FaultList, FileError
-from wingbeat.explorer.models import MODEL_TITLES
+from wingbeat.explorer.models import EXPLORER_MODELS
 from wingbeat.files import write_atomically
 from wingbeat.viewer import bundle_path
 
@@ -88,7 +88,7 @@ def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any
     faults.raise_if_any()
     catalogue = {
         "animals": [{"name": name, "title": title} for name, title in titles.items()],
-        "models": [{"name": name, "title": MODEL_TITLES.get(name, name)} for name in models],
+        "models": [{"name": name, "title": EXPLORER_MODELS[name].title} for name in models],
         "files": [path.name for path in written],
         "start": start,
     }

@@ -58,6 +58,6 @@ export class Pins {
   }
 }
 
-export function title({ title, speed, model }) {
-  return `${title} at ${short(speed)} m/s, model ${model}`;
+export function title({ title, speed, model_title: model }) {
+  return `${title} at ${short(speed)} m/s, model: ${model}`;
 }

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from sphinx.application import Sphinx
 
 # One start at each speed, and the neighbours' results, keep the build short; the command has more starts. Within
-# plausible ranges one start misses the best wingbeat of the bat at 7 m/s by 5 % of its metabolic power; two find it.
+# plausible ranges one start misses the bat's best wingbeat at 7 m/s by 5 % of its metabolic power; two find it.
 STARTS = {"plausible": 2}
 SPEEDS = {
     "pigeon": (7.0, 8.0, 10.0, 11.0, 12.0, 14.0, 16.0, 18.0),

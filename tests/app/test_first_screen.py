@@ -13,6 +13,7 @@ from tests.helpers.browsers import PATIENCE
 from wingbeat.app.first import first_scenario, read_first
 from wingbeat.app.jobs import do
 from wingbeat.app.links import to_plain
+from wingbeat.workers.fair_pool import Event
 from wingbeat.workers.main import Context
 
 FLIES = "() => window.wingbeatPage?.face?.viewer?.flights.length === 1"
@@ -44,6 +45,7 @@ def test_what_was_solved_beforehand_is_what_a_fresh_solve_finds():
 
 def test_the_first_picture_comes_without_a_solve(visit, served, monkeypatch):
     asked = []
+    monkeypatch.setattr(served.house, "_is_warm", False)
     monkeypatch.setattr(served.house.pool, "submit", lambda *what: asked.append(what))
     page = visit("")
     page.wait_for_function(FLIES)
@@ -54,7 +56,26 @@ def test_the_first_picture_comes_without_a_solve(visit, served, monkeypatch):
     assert sentence.endswith("within what its muscle gives.")
     assert page.locator(".wbx-good").count() == 2
     assert page.locator(".wbx-dot").count() == len(first_scenario().speeds())
-    assert asked == []
+    # The page asks for nothing; the server gets ready for the first move, once.
+    assert [session for session, *_ in asked] == ["warm-up"]
+    visit("").wait_for_function(FLIES)
+    assert len(asked) == 1
+
+
+def test_a_second_worker_gets_ready_after_the_first(served, monkeypatch):
+    asked = []
+    monkeypatch.setattr(served.house, "_is_warm", False)
+    monkeypatch.setattr(served.house.pool, "submit", lambda *what, **how: asked.append((what, how)))
+    served.house.warm_up()
+    ((session, what, tell), how), *others = asked
+    assert (session, how, others) == ("warm-up", {}, [])
+    tell(Event("started"))
+    assert len(asked) == 1
+    tell(Event("done", {}))
+    ((_, again, tell), how) = asked[1]
+    assert (again, how) == (what, {"background": True})
+    tell(Event("done", {}))
+    assert len(asked) == 2
 
 
 def test_the_limits_of_the_first_flight_can_be_dropped_and_taken_again(visit):

@@ -10,8 +10,9 @@ from nicegui import Client
 from wingbeat.app.downloads import Downloads
 from wingbeat.app.face import animals
 from wingbeat.app.first import read_first
+from wingbeat.app.links import to_plain
 from wingbeat.app.page import Page
-from wingbeat.workers.fair_pool import FairPool
+from wingbeat.workers.fair_pool import Event, FairPool
 
 _WORK = "wingbeat.app.jobs:do"
 
@@ -25,6 +26,7 @@ class House:
     """
 
     def __init__(self, processes: int) -> None:
+        self._is_warm = False
         self.pool = FairPool(_WORK, processes)
         self.downloads = Downloads()
         self.first = read_first()
@@ -32,10 +34,27 @@ class House:
         self.pages: dict[str, Page] = {}
         self.folder = tempfile.TemporaryDirectory(prefix="wingbeat-")
 
+    def warm_up(self) -> None:
+        """Solve the first flight in one worker, then in another, so that a move need not wait for its compilation.
+
+        Only the first call does anything.
+        """
+        if self._is_warm:
+            return
+        self._is_warm = True
+        near = self.first.answer["near"]
+        what = {"do": "orbit", "scenario": to_plain(self.first.scenario), "near": near}
+
+        def go_on(event: Event) -> None:
+            if event.ends:  # in the background, which takes another worker
+                self.pool.submit("warm-up", what, lambda event: None, background=True)
+
+        self.pool.submit("warm-up", what, go_on)
+
     def open_page(self, client: Client, query: str) -> None:
         """Build a page for a new visitor."""
         name = secrets.token_urlsafe(12)
-        page = self.pages[name] = Page(name, self.pool, self.downloads, self.first, query)
+        page = self.pages[name] = Page(name, self.pool, self.downloads, self.first, query, self.warm_up)
 
         def leave() -> None:
             del self.pages[name]

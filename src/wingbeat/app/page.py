@@ -38,10 +38,19 @@ class Page:
     name : of the session.
     pool, downloads, first : of the server.
     query : query of the page's address, which may hold a scenario.
+    warm_up : called when a visitor sees the flight that was solved beforehand, who may soon move on from it.
     """
 
-    def __init__(self, name: str, pool: FairPool, downloads: Downloads, first: First, query: str) -> None:
-        self.name, self._downloads, self._first = name, downloads, first
+    def __init__(
+        self,
+        name: str,
+        pool: FairPool,
+        downloads: Downloads,
+        first: First,
+        query: str,
+        warm_up: Callable[[], Any],
+    ) -> None:
+        self.name, self._downloads, self._first, self._warm_up = name, downloads, first, warm_up
         self._client: Client = ui.context.client
         self._refusals, scenario = [], first.scenario
         try:
@@ -73,6 +82,7 @@ class Page:
                 self._curve.take(self._first.scenario, self._first.answer, self._first.points)
             self._session.take_ready(self._first.answer)
             self._is_ready = False
+            self._warm_up()
         if self._refusals:  # shown after the request, because a request removes earlier messages
             self.show_trouble(*self._refusals)
 

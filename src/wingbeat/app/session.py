@@ -13,10 +13,13 @@ from wingbeat.app.links import to_plain
 from wingbeat.app.scenario import Scenario
 from wingbeat.workers.fair_pool import Event, FairPool, Job
 
-# After so many seconds without a change, a search from every start follows an answer that was continued.
+# After so many seconds without a change, a search from every start follows an answer that was continued. After a
+# long continuation it waits longer: the search takes long, too, and the next move would wait for one of its starts.
 _CALM = 0.35
-# If a continuation takes at most this time, its result is awaited while the slider moves on.
-_BRIEF = 0.4
+_CALM_BY_CONTINUATION = 3.0
+# If a continuation takes at most this time, its result is awaited while the slider moves on. Within plausible
+# ranges those of pigeon and bat take 0.3 to 1.2 s.
+_BRIEF = 1.5
 # A continued orbit must be better by this share before the page says so.
 _BETTER = 1e-4
 BUSY = "Too many of your jobs are waiting already; wait for them, or cancel some."
@@ -181,6 +184,9 @@ class Session:
             total = event.value[1]
             done = min(event.value[0], total)
             self._view.show_state(f"Solving: {done} of {total} starts.", busy=True, done=done / max(total, 1))
+            if self._again:  # the continuation failed, and the search that follows it is of an earlier request
+                self._brief_since = None
+                self.ask()
         elif event.ends:
             self._end(scenario, event)
 
@@ -215,7 +221,8 @@ class Session:
         self._show(answer, scenario)
         if answer.get("continued") and not self._again:
             self._view.show_state("Continued from the previous result; now solving from every start.", busy=True)
-            self._calm = self._loop.call_later(_CALM, self._inside, self._submit, None)
+            wait = max(_CALM, _CALM_BY_CONTINUATION * answer["seconds"])
+            self._calm = self._loop.call_later(wait, self._inside, self._submit, None)
         elif not self._again:
             self._view.show_state(f"Solved in {answer['seconds']:.2g} s.", busy=False)
 

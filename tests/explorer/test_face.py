@@ -77,6 +77,15 @@ def test_a_flight_with_limits_is_missed_within_them(record):
     assert sentence_of(record, "rock pigeon") == told
 
 
+def test_of_derived_numbers_the_face_says_how_many_there_are():
+    flown = wb.models.animal(wb.load_species("pigeon")).species(wb.load_species("pigeon"))
+    shorter = [face._shorter(text) for text in (*flown.warnings, "the speed is odd")]
+    assert shorter == [
+        "numbers from scaling laws, not measured: 4 of the tail, 6 of the muscle",
+        "the speed is odd",
+    ]
+
+
 def test_what_is_not_known_is_neither_good_nor_a_fault(record):
     for one in record["plausibility"]:
         one |= {"low": None, "high": None}

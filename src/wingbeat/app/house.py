@@ -54,7 +54,7 @@ class House:
     def open_page(self, client: Client, query: str) -> None:
         """Build a page for a new visitor."""
         name = secrets.token_urlsafe(12)
-        page = self.pages[name] = Page(name, self.pool, self.downloads, self.first, query, self.warm_up)
+        page = self.pages[name] = Page(name, self, query)
 
         def leave() -> None:
             del self.pages[name]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from contextlib import AbstractContextManager
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from nicegui import Client, ui
 
@@ -13,10 +13,8 @@ from wingbeat.app.answer import Answer, Brief, Influence
 from wingbeat.app.controls import Controls
 from wingbeat.app.curve import Curve, drawn
 from wingbeat.app.curve_panel import CurvePanel
-from wingbeat.app.downloads import Downloads
 from wingbeat.app.errands import Errands
 from wingbeat.app.face import Face
-from wingbeat.app.first import First
 from wingbeat.app.links import from_plain, from_query, to_query
 from wingbeat.app.pins import Pins
 from wingbeat.app.scenario import Scenario
@@ -24,7 +22,9 @@ from wingbeat.app.session import Session
 from wingbeat.app.trouble import Trouble
 from wingbeat.app.widgets import button, choice_field, folded, part, run_script, set_class, tag
 from wingbeat.errors import InvalidInputError
-from wingbeat.workers.fair_pool import FairPool
+
+if TYPE_CHECKING:
+    from wingbeat.app.house import House
 
 _THEMES = (("system", "System"), ("light", "Light"), ("dark", "Dark"))
 _ACCEPT = ".toml,.nc,.json"
@@ -36,33 +36,24 @@ class Page:
     Parameters
     ----------
     name : of the session.
-    pool, downloads, first : of the server.
+    house : what all visitors share.
     query : query of the page's address, which may hold a scenario.
-    warm_up : called when a visitor sees the flight that was solved beforehand, who may soon move on from it.
     """
 
-    def __init__(
-        self,
-        name: str,
-        pool: FairPool,
-        downloads: Downloads,
-        first: First,
-        query: str,
-        warm_up: Callable[[], Any],
-    ) -> None:
-        self.name, self._downloads, self._first, self._warm_up = name, downloads, first, warm_up
+    def __init__(self, name: str, house: House, query: str) -> None:
+        self.name, self._house, self._first = name, house, house.first
         self._client: Client = ui.context.client
-        self._refusals, scenario = [], first.scenario
+        self._refusals, scenario = [], self._first.scenario
         try:
-            scenario = from_query(query) if query else first.scenario
+            scenario = from_query(query) if query else scenario
         except InvalidInputError as error:
             self._refusals = [f"The link was not understood. {fault}" for fault in error.faults]
-        self._is_ready = scenario.asks_as(first.scenario)
-        self._session = Session(name, pool, scenario, self)
+        self._is_ready = scenario.asks_as(self._first.scenario)
+        self._session = Session(name, house.pool, scenario, self)
         self._curve = Curve(self._session, self._show_curve)
         self._curve_shown: dict[str, Any] | None = None
         self._marks: set[str] = set()
-        self._errands = Errands(self._session, downloads, self)
+        self._errands = Errands(self._session, house.downloads, self)
         self._build(scenario)
         self._asked = False
         self._client.on_connect(self._come)
@@ -82,7 +73,7 @@ class Page:
                 self._curve.take(self._first.scenario, self._first.answer, self._first.points)
             self._session.take_ready(self._first.answer)
             self._is_ready = False
-            self._warm_up()
+            self._house.warm_up()  # who looks at it may soon move on
         if self._refusals:  # shown after the request, because a request removes earlier messages
             self.show_trouble(*self._refusals)
 
@@ -99,7 +90,7 @@ class Page:
         """Release everything of the page, because its visitor has left."""
         self._session.leave()
         self._errands.leave()
-        self._downloads.leave(self.name)
+        self._house.downloads.leave(self.name)
 
     # What stands where -------------------------------------------------------------------------------------------
 
@@ -110,7 +101,7 @@ class Page:
             self._build_header()
         with tag("div", classes="whole"):
             ask, push = self._controls.choose, lambda: self._errands.push(self._face)
-            self._face = Face(self._downloads, self.name, scenario, self._is_ready, ask, push, self._keep)
+            self._face = Face(self._house.downloads, self.name, scenario, self._is_ready, ask, push, self._keep)
             self._brief = Brief(self._pin)
             self._pins = Pins(self._face.compare, self._bring_back)
             with tag("div", classes="below"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from typing import Any
 
 from wingbeat.errors import FileError
@@ -15,6 +16,7 @@ from wingbeat.results.plausibility import statements
 from wingbeat.results.power import SPENT
 from wingbeat.results.record import beat_mean
 from wingbeat.results.rows import mass_of
+from wingbeat.species.warnings import NOT_MEASURED
 from wingbeat.viewer import scene
 
 # Numbers of the record that are listed, and how they are called; those that a record lacks are left out.
@@ -67,7 +69,7 @@ def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
         "lights": lights_of(record),
         "gauges": gauges_of(record),
         "numbers": numbers_of(record),
-        "warnings": [_sentence(text) for text in record["warnings"]],
+        "warnings": [_sentence(_shorter(text)) for text in record["warnings"]],
         "scene": _scene_of(orbit, title),
     }
 
@@ -190,6 +192,15 @@ def _short(value: float) -> str:
 def _lower(label: str) -> str:
     """Return a label within a sentence; names of people keep their capital."""
     return label if label.startswith(("Strouhal", "Reynolds")) else f"{label[:1].lower()}{label[1:]}"
+
+
+def _shorter(warning: str) -> str:
+    """Return a warning; of numbers that scaling laws gave, only how many there are of each part."""
+    if not warning.startswith(NOT_MEASURED):
+        return warning
+    parts = Counter(path.partition(".")[0] for path in warning.removeprefix(NOT_MEASURED).split(", "))
+    listed = ", ".join(f"{count} of the {part}" for part, count in parts.items())
+    return f"numbers from scaling laws, not measured: {listed}"
 
 
 def _sentence(text: str) -> str:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from wingbeat.species.record import Species
 
 DERIVED = "derived: "  # begins the source of a number that a scaling law gave
+NOT_MEASURED = "derived by scaling laws, not measured: "  # begins the warning that lists such numbers
 
 
 def find_warnings(species: Species) -> tuple[str, ...]:
@@ -41,7 +42,7 @@ def find_warnings(species: Species) -> tuple[str, ...]:
         if path.startswith("vehicle.") and number.source.startswith(DERIVED)
     ]
     if derived:
-        found.append(f"derived by scaling laws, not measured: {', '.join(derived)}")
+        found.append(NOT_MEASURED + ", ".join(derived))
     found += _outside_data(species)
     if species.vehicle.tail is None and (species.wingbeat.tail_tilt or "tail_tilt" in species.free):
         found.append("wingbeat.tail_tilt has no effect: there is no tail; add the table [vehicle.tail]")

@@ -14,6 +14,7 @@ from wingbeat.app.jobs import do
 from wingbeat.app.links import from_plain, to_json
 from wingbeat.app.scenario import Scenario, problem_of
 from wingbeat.app.uploads import clean_label, scenario_of
+from wingbeat.models import model_of
 from wingbeat.results.orbit import load_orbit
 from wingbeat.results.provenance import inputs_of
 from wingbeat.species import template
@@ -161,3 +162,18 @@ def test_an_orbit_whose_tail_turns_comes_back_with_bounds_that_free_it():
     assert plain is not None, why_not
     assert plain["bounds"] == {"tail_tilt": [-0.5, 0.4]}
     assert problem_of(from_plain(plain)).free == problem.free
+
+
+@pytest.mark.parametrize("model", ["paper", "animal"])
+@pytest.mark.parametrize("asked", [{"bounds": "plausible"}, {"subject_to": ["peak_power<=3"]}, {}])
+def test_an_orbit_comes_back_with_its_model_and_its_limits(model, asked):
+    bat = wb.load_species("bat")
+    problem = model_of(model, bat).problem(bat, 8.0, **asked)
+    unsolved: Any = SimpleNamespace(problem=problem, inputs=inputs_of(problem, 1, 0))
+    plain, why_not = scenario_of(unsolved)
+    assert plain is not None, why_not
+    assert (plain["model"], plain["within_plausible"]) == (model, "bounds" in asked)
+    assert plain["limits"] == ["peak_power<=3.0"] * ("subject_to" in asked)
+    assert (plain["bounds"], plain["set"]) == ({}, {})
+    again = problem_of(from_plain(plain))
+    assert (again.bounds, again.subject_to) == (problem.bounds, problem.subject_to)

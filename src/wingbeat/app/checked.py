@@ -11,6 +11,7 @@ from wingbeat.errors import is_number
 _LONGEST_WORD = 200
 _LONGEST_NUMBER = 40  # characters
 _MOST_PARTS = 1000
+NO_YES = ("no", "yes")  # a truth value as a text
 
 
 def number_in(text: str) -> float | None:
@@ -44,6 +45,11 @@ def word(value: Any) -> str | None:
     """Return a text of one line that is not too long to be shown."""
     good = isinstance(value, str) and len(value) <= _LONGEST_WORD and value.isprintable()
     return value if good else None
+
+
+def truth_in(text: str) -> bool | None:
+    """Return the truth value that a text is."""
+    return text == NO_YES[True] if text in NO_YES else None
 
 
 def switch(value: Any) -> bool | None:

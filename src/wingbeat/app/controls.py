@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any
 
 from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, INFLOWS, LIBRARY, UNSTEADY
+from wingbeat.app.checked import NO_YES, truth_in
 from wingbeat.app.face import animals
 from wingbeat.app.formatting import from_shown, sentence
 from wingbeat.app.numbers import Numbers
@@ -23,7 +24,6 @@ from wingbeat.studies.recipe import OF_ELEMENTS
 
 _OWN = "(loaded file)"
 _CHOICES = ("aero", "extension", "force_point", "airspeed", "unsteady", "inflow", "hand", "minimise")
-_YES_NO = ("no", "yes")
 _FASTEST = 25.0  # m/s, the right end of the slider; faster is typed
 
 
@@ -99,14 +99,14 @@ class Controls:
             hint = "empty: the default number"
             self._fields["starts"] = number_field("Starts", starts, self._whole("starts"), hint=hint)
             self._fields["seed"] = number_field("Seed", str(now.seed), self._whole("seed"))
-            hint = "such as peak_power<=30, body_pitch_range<=10 deg; separate limits by commas"
-            within, held = [(name, name) for name in _YES_NO], _YES_NO[now.within_plausible]
+            answers, answer = [(word, word) for word in NO_YES], NO_YES[now.within_plausible]
             self._fields["within_plausible"] = choice_field(
                 "Keep to plausible ranges",
-                within,
-                held,
-                lambda text: self._change(within_plausible=text == _YES_NO[True]),
+                answers,
+                answer,
+                lambda text: self._change(within_plausible=truth_in(text)),
             )
+            hint = "such as peak_power<=30, body_pitch_range<=10 deg; separate limits by commas"
             limits = ", ".join(now.limits)
             self._fields["limits"] = text_field("Within limits", limits, self._limits, hint=hint)
         self._numbers_place = tag("div", classes="numbers")
@@ -134,7 +134,7 @@ class Controls:
         for name in _CHOICES:
             self._fields[name].show(getattr(scenario, name))
         self._fields["model"].show(_flight_model(scenario))
-        self._fields["within_plausible"].show(_YES_NO[scenario.within_plausible])
+        self._fields["within_plausible"].show(NO_YES[scenario.within_plausible])
         for name in ("strips", "starts", "seed"):
             value = getattr(scenario, name)
             self._fields[name].show("" if value is None else str(value))

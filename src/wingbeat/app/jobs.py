@@ -189,10 +189,11 @@ def _read(what: dict[str, Any], context: Context) -> dict[str, Any]:
 def _answer_of_file(orbit: Orbit, label: str) -> dict[str, Any]:
     """Return the answer in a file, and its scenario if the page's controls can represent it."""
     begun = time.perf_counter()
+    origin = orbit.problem.origin.name if orbit.problem.origin else MODELS[0]
     try:
-        answer = answer_of(orbit, orbit.problem.origin.name if orbit.problem.origin else MODELS[0], begun)
+        scenario, why_not = scenario_of(orbit)
+        answer = answer_of(orbit, origin if scenario is None else from_plain(scenario).face_model, begun)
     except Exception as error:  # whatever can be wrong with what somebody wrote into a file
         reason = first_line(error)[:200]
         raise FileError(f"cannot show the orbit in {label!r}: it is damaged ({reason}); solve it again") from None
-    scenario, why_not = scenario_of(orbit)
     return {"answer": answer, "scenario": scenario, "why_not": why_not}

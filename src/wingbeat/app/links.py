@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-from wingbeat.app.checked import every, finite, number_in, switch, table, text_of, value_in, word
+from wingbeat.app.checked import NO_YES, every, finite, number_in, switch, table, text_of, truth_in, value_in, word
 from wingbeat.app.scenario import LARGEST_FILE, Scenario
 from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError
 
@@ -22,7 +22,6 @@ _VERSION = 1
 _NUMBERS = ("speed", "climb", "blend_width_deg", "induced_factor", "hand_from", "upstroke_factor")
 _WHOLE = ("strips", "starts", "seed")
 _SWITCHES = ("within_plausible",)
-_YES_OR_NO = ("yes", "no")
 _WORDS = (
     "species",
     "model",
@@ -44,7 +43,7 @@ def to_query(scenario: Scenario) -> str:
         value = getattr(scenario, name)
         if value != getattr(empty, name) or name in ("species", "model", "speed"):
             words.append((name, value if isinstance(value, str) else repr(value)))
-    words += [(name, "yes") for name in _SWITCHES if getattr(scenario, name)]
+    words += [(name, NO_YES[True]) for name in _SWITCHES if getattr(scenario, name)]
     if scenario.species_file:
         packed = zlib.compress(scenario.species_file.encode(), 9)
         words.append(("species_file", base64.urlsafe_b64encode(packed).decode().rstrip("=")))
@@ -103,9 +102,9 @@ def _read_pair(plain: dict[str, Any], name: str, text: str, faults: FaultList) -
     elif name in _WORDS:
         plain[name] = text
     elif name in _SWITCHES:
-        if text not in _YES_OR_NO:
+        plain[name] = truth_in(text)
+        if plain[name] is None:
             faults.add(name, text[:60], "must be yes or no")
-        plain[name] = text == "yes"
     elif name == "species_file":
         plain[name] = _unpacked(text, faults)
     else:

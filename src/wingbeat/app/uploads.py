@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import itertools
 import math
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +11,7 @@ from wingbeat.app.links import from_json, to_plain
 from wingbeat.app.scenario import MOST_STARTS, Scenario, problem_of, species_from_text, species_in
 from wingbeat.errors import FileError
 from wingbeat.files import read_text
+from wingbeat.models import MODELS
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.provenance import inputs_of
@@ -156,9 +158,9 @@ def _checked(path: str, label: str) -> Orbit:
 def scenario_of(orbit: Orbit) -> tuple[dict[str, Any] | None, str]:
     """Return the scenario that gives the problem of an orbit, or None and the reason why there is none."""
     inputs, why_not = orbit.inputs, ""
-    for written_out in (False, True):
+    for written_out, within in itertools.product((False, True), (True, False)):
         try:
-            scenario = _asking_for(orbit.problem, inputs, written_out)
+            scenario = _asking_for(orbit.problem, inputs, written_out, within)
             again = inputs_of(problem_of(scenario), inputs["starts"], inputs["seed"])
         except (LookupError, TypeError, ValueError, AttributeError, FileError) as error:
             why_not = str(error).splitlines()[0][:160]
@@ -171,8 +173,15 @@ def scenario_of(orbit: Orbit) -> tuple[dict[str, Any] | None, str]:
     return None, why_not
 
 
-def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool) -> Scenario:
-    """Return a scenario for the problem; its species is the built-in one of this name, or the text of a file."""
+def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool, within: bool) -> Scenario:
+    """Return a scenario for the problem.
+
+    Parameters
+    ----------
+    problem, inputs : of an orbit.
+    written_out : whether its species is the text of a file, or the built-in one of its name.
+    within : whether it keeps to the plausible ranges, or has bounds and limits of its own.
+    """
     species, aero = problem.species, problem.aero
     name, text = species.name, ""
     if written_out:
@@ -183,11 +192,15 @@ def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool
         name = clean_label(name)
     elements: dict[str, Any] = {name: getattr(aero, name) for name in OF_ELEMENTS}
     elements["hand"] = getattr(aero.hand, "name", "none")
-    known = species_in(Scenario(species=name, species_file=text))
+    model = problem.origin.name if problem.origin else MODELS[0]
+    known = species_in(Scenario(species=name, species_file=text, model=model))
     bounds = known.bounds | known.path_bounds
+    own = {n: (float(p[0]), float(p[1])) for n, p in problem.bounds.items() if tuple(p) != bounds.get(n)}
+    limits = tuple(f"{c.quantity.name}{'<=' if c.at_most else '>='}{c.limit!r}" for c in problem.subject_to)
     return Scenario(
         species=name,
         species_file=text,
+        model=model,
         speed=problem.speed,
         climb=problem.climb,
         aero=aero.coefficients.name,
@@ -195,8 +208,9 @@ def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool
         blend_width_deg=aero.coefficients.blend_width_deg,
         **elements,
         minimise=problem.minimise.name,
-        limits=tuple(f"{c.quantity.name}{'<=' if c.at_most else '>='}{c.limit!r}" for c in problem.subject_to),
-        bounds={n: (float(p[0]), float(p[1])) for n, p in problem.bounds.items() if tuple(p) != bounds.get(n)},
+        limits=() if within else limits,
+        bounds={} if within else own,
+        within_plausible=within,
         values={
             path: number.value
             for path, number in species.numbers.items()

@@ -28,7 +28,8 @@ if TYPE_CHECKING:
 # Model, animal, speed [m/s].
 FLIGHTS = (("paper", "pigeon", 12.0), ("paper", "bat", 8.0), ("animal", "pigeon", 12.0), ("animal", "bat", 8.0))
 SEGMENTS = 4
-OPEN, AT_ONCE, LATE, WITHIN = "open loop", "LQR", "LQR, one beat late", f"{SEGMENTS} segments"
+OPEN, AT_ONCE, LATE = "no feedback", "feedback", "feedback one beat late"
+WITHIN = f"feedback {SEGMENTS} times a beat"
 CONTROLS = (OPEN, AT_ONCE, LATE, WITHIN)
 LEVELS = ("light", "moderate")
 _LINES: tuple[dict[str, Any], ...] = (SECOND, FIRST, THIRD, {"color": PURPLE, "linestyle": (0, (5, 1, 1, 1))})
@@ -46,8 +47,8 @@ COLUMNS = (
 TEXT = """# Which gusts are survived?
 
 `python validation/gust_survival.py` writes this page. It flies a pigeon at 12 m/s and a bat at 8 m/s, by the models
-[`paper` and `animal`](../guide/models.md), through random gusts and through turbulence. They fly in open loop, and
-with the feedback of the page on [control](../guide/control.md).{missing}
+[`paper` and `animal`](../guide/models.md), through random gusts and through turbulence. They fly without
+feedback, and with that of the page on [control](../guide/control.md).{missing}
 
 - **Gusts.** {gusts} gusts for each line of the table, the same for all controls of an orbit. Their size is uniform
   up to 5 m/s, their direction uniform, their duration 1 to 8 beats. A flight lasts 30 beats.
@@ -55,9 +56,9 @@ with the feedback of the page on [control](../guide/control.md).{missing}
 - **Turbulence.** {seeds} seeds of each level, 30 s each, with Dryden's spectra 30 m above the ground. The upward
   component has a root mean square of {light:.2f} m/s (light) and {moderate:.2f} m/s (moderate). It blows with
   full strength from the start.
-- **Control.** *LQR* changes the inputs of the next beat, *one beat late* those of the beat after it, with gains
-  that know of the delay. *{segments} segments* raises flap and pitch by a bump in each quarter of the stroke
-  (`feedback_in_beat`). All measure without noise.
+- **Control.** *Feedback* changes the wingbeat for the next beat. If it is *one beat late*, it changes the beat after
+  that, with gains that allow for the delay. *Feedback {segments} times a beat* raises flap and pitch by a bump in each
+  quarter of the stroke (`feedback_in_beat`). All measure without noise.
 - **Survived.** The body pitch stays within 60 degrees of the orbit's, and the vehicle does not sink 5 m below the
   orbit's path.
 
@@ -75,7 +76,7 @@ shares in bins of the size and of the direction of the gusts. A share near one h
 {gust_error:.1f} percent in {gusts} gusts, and of {seed_error:.0f} percent in {seeds} seeds.
 """
 
-FINDINGS = """- In open loop, no orbit survives more than {open} of the gusts, or {open_light} of the light
+FINDINGS = """- Without feedback, no orbit survives more than {open} of the gusts, or {open_light} of the light
   turbulence.
 - One beat of delay takes the paper's bat from {bat} of the gusts to {bat_late}. The paper's pigeon hardly notices
   it in single gusts, but in light turbulence it falls from {pigeon_light} to {pigeon_late_light}.

@@ -22,8 +22,8 @@ from wingbeat.workers.gc import collect_seldom
 # squares of 1080 rows and 307 columns then take fifty times as long (2.2 in place of 0.04 s).
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
-# On a busy machine a command takes long enough to say so on stderr, which tests expect to be empty. Those of the lines
-# set a time of their own.
+# On a busy machine a command takes long enough to say so on stderr, which tests expect to be empty. Those of the
+# lines set a time of their own.
 progress.FIRST_LINE = 1e6
 
 # As wingbeat's own processes do: through what JAX holds, looks for garbage took 53 of 1260 core-seconds.

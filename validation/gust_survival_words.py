@@ -56,9 +56,9 @@ feedback, and with that of the page on [control](../guide/control.md).{missing}
 - **Turbulence.** {seeds} seeds of each level, 30 s each, with Dryden's spectra 30 m above the ground. The upward
   component has a root mean square of {light:.2f} m/s (light) and {moderate:.2f} m/s (moderate). It blows with
   full strength from the start.
-- **Control.** *Feedback* changes the wingbeat for the next beat. If it is *one beat late*, it changes the beat after
-  that, with gains that allow for the delay. *Feedback {segments} times a beat* raises flap and pitch by a bump in each
-  quarter of the stroke (`feedback_in_beat`). All measure without noise.
+- **Control.** *Feedback* changes the wingbeat for the next beat. If it is *one beat late*, it changes the beat
+  after that, with gains that allow for the delay. *Feedback {segments} times a beat* raises flap and pitch by a
+  bump in each quarter of the stroke (`feedback_in_beat`). All measure without noise.
 - **Survived.** The body pitch stays within 60 degrees of the orbit's, and the vehicle does not sink 5 m below the
   orbit's path.
 

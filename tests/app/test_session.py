@@ -90,6 +90,7 @@ def test_the_search_that_follows_waits_longer_after_a_long_continuation():
     with ThreadPoolExecutor(1) as thread:
         assert thread.submit(asyncio.run, visit(0.02)).result() == [0.35]
         assert thread.submit(asyncio.run, visit(0.5)).result() == [1.5]
+        assert thread.submit(asyncio.run, visit(40.0)).result() == [2.0]  # it was compiled
 
 
 def test_a_move_does_not_wait_for_the_search_that_follows_a_failed_continuation():

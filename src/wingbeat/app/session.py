@@ -17,6 +17,7 @@ from wingbeat.workers.fair_pool import Event, FairPool, Job
 # long continuation it waits longer: the search takes long, too, and the next move would wait for one of its starts.
 _CALM = 0.35
 _CALM_BY_CONTINUATION = 3.0
+_LONGEST_CALM = 2.0  # for the first continuation is compiled, too
 # If a continuation takes at most this time, its result is awaited while the slider moves on. Within plausible
 # ranges those of pigeon and bat take 0.3 to 1.2 s.
 _BRIEF = 1.5
@@ -221,7 +222,7 @@ class Session:
         self._show(answer, scenario)
         if answer.get("continued") and not self._again:
             self._view.show_state("Continued from the previous result; now solving from every start.", busy=True)
-            wait = max(_CALM, _CALM_BY_CONTINUATION * answer["seconds"])
+            wait = min(max(_CALM, _CALM_BY_CONTINUATION * answer["seconds"]), _LONGEST_CALM)
             self._calm = self._loop.call_later(wait, self._inside, self._submit, None)
         elif not self._again:
             self._view.show_state(f"Solved in {answer['seconds']:.2g} s.", busy=False)

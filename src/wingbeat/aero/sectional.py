@@ -7,6 +7,7 @@ has ``c_l = C_L cos(eps) + C_D sin(eps)`` and ``c_d = C_D cos(eps) - C_L sin(eps
 
 from __future__ import annotations
 
+import functools
 import math
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -48,6 +49,8 @@ class SectionalKernel(NamedTuple):
         return horner(tuple(pieces), cells - cell)
 
 
+# A problem asks twice for the kernel, at 0.03 s each, and an answer of the explorer sets up its problem five times.
+@functools.lru_cache(maxsize=32)
 def sectional_kernel(model: CoefficientModel) -> Kernel:
     """Return the kernel of the sectional coefficients that follow from those of a wing of finite aspect ratio.
 

@@ -137,11 +137,14 @@ class Solution:
         """
         return certified_beat(self.problem, self.wingbeat, self.certificate)
 
-    def value_of(self, quantity: Quantity) -> float:
-        """Return a quantity of the certified flight in its unit; for a series, its largest value."""
+    def value_of(self, quantity: Quantity, beat: Beat | None = None) -> float:
+        """Return a quantity of the certified flight in its unit; for a series, its largest value.
+
+        Whoever asks for several hands over the `beat`, which is else computed again for each.
+        """
         if isinstance(quantity, MapQuantity):
             return float(np.max(quantity.of(self.monodromy)))
-        return float(np.max(quantity.of(self.beat())))
+        return float(np.max(quantity.of(self.beat() if beat is None else beat)))
 
     @functools.cached_property
     def monodromy(self) -> np.ndarray:

@@ -6,8 +6,9 @@ from tests.helpers.browsers import PATIENCE
 
 
 def solved(page, what):
-    """Wait until an answer to this stands on the page and nothing is being solved."""
+    """Wait until an answer to this stands on the page, in the face, too, and nothing is being solved."""
     script = """(what) => document.querySelector('.what')?.textContent.includes(what)
+        && wingbeatPage.shown === Number(document.querySelector('.what').dataset.count)
         && document.querySelector('.state')?.textContent.startsWith('Solved')
         && document.querySelectorAll('.wbx-light').length === 2"""
     page.wait_for_function(script, arg=what, timeout=2 * PATIENCE)

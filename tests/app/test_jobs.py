@@ -4,6 +4,7 @@ import base64
 import json
 import resource
 import threading
+import time
 from pathlib import Path
 
 import pytest
@@ -56,6 +57,13 @@ def test_a_neighbour_is_continued_in_one_search(answer):
 def test_what_is_near_something_else_is_not_continued(answer):
     other = {"free": ["frequency"], "unknowns": answer["near"]["unknowns"]}
     assert "continued" not in work({"do": "orbit", "scenario": to_plain(PIGEON), "near": other})
+
+
+def test_a_continuation_that_fails_counts_as_solving(answer, monkeypatch):
+    monkeypatch.setattr("wingbeat.app.jobs.search_near", lambda problem, start: time.sleep(0.2))
+    found = work({"do": "orbit", "scenario": to_plain(PIGEON), "near": answer["near"]})
+    assert "continued" not in found
+    assert found["seconds"] > found["solver_seconds"] >= found["record"]["solve_seconds"] + 0.2
 
 
 def test_a_point_is_no_worse_than_its_own_search(answer):

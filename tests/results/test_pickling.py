@@ -12,6 +12,7 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.orbits.problem.parameters import parameters_of
+from wingbeat.orbits.problem.quantities import MAP_QUANTITIES, QUANTITIES
 
 PIGEON = wb.load_species("pigeon")
 PROBLEM = wb.OrbitProblem(PIGEON, speed=10.0)
@@ -92,6 +93,12 @@ def test_curves_flights_and_polars_can_be_pickled(spawned):
     again = pickle.loads(pickle.dumps(polar))
     assert again.record() == polar.record()
     assert_same_series(again.dataset, polar.dataset)
+
+
+@pytest.mark.parametrize("name", [*QUANTITIES, *MAP_QUANTITIES])
+def test_every_quantity_can_be_sent_to_another_process(name):
+    limit = wb.Constraint(name, 1.0)
+    assert pickle.loads(pickle.dumps(limit)) == limit
 
 
 def lift_of_the_beat(beat):

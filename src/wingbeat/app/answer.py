@@ -21,13 +21,14 @@ class Brief:
                 self._message = tag("p", "", "message")
             self._pin = button("Pin", pin, disabled=True, title="Keep this result to compare it with the next one")
 
-    def show(self, answer: dict[str, Any]) -> None:
-        """Show what was solved."""
+    def show(self, answer: dict[str, Any], count: int) -> None:
+        """Show what was solved; the face shows the same as soon as it has drawn so many answers."""
         record = answer["record"]
         climb = f", climbing {number(record['climb'])} m/s" if record["climb"] else ""
         aero = record["aero"]["coefficients"]
         self._title.set_text(f"{record['species']} at {number(record['speed'])} m/s{climb}, {aero}")
         self._title.props["data-solver-seconds"] = answer["solver_seconds"]
+        self._title.props["data-count"] = count
         self._message.set_text(_message(answer))
         self._pin.props.pop("disabled", None)
 

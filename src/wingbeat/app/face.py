@@ -60,6 +60,7 @@ class Face:
     ) -> None:
         self._downloads, self._session, self._ask = downloads, session, ask
         self._scenario = scenario
+        self.count = 0  # of answers that the browser was given
         self._place: Any = tag("div", classes="face", id="answer", tabindex="-1")
         # The component's event, with what is chosen now.
         self._place.on(
@@ -103,6 +104,7 @@ class Face:
 
     def show(self, answer: dict[str, Any]) -> None:
         """Show an answer; one that was continued is provisional."""
+        self.count += 1
         self._run("show", self._address(answer["face"]), bool(answer.get("continued")))
 
     def show_curve(self, data: dict[str, Any]) -> None:

@@ -180,7 +180,7 @@ class Page:
         """Show an answer; its curve follows once the controls are left alone."""
         if not self._is_ready:
             self._face.show(answer)
-        self._brief.show(answer)
+        self._brief.show(answer, self._face.count)
         self._answer.show(answer)
         self._influence.clear()
         if answer["scenario"] is not None and not answer.get("continued"):

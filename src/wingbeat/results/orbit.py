@@ -205,7 +205,7 @@ class Orbit(Saveable, Reported):
         """Pitch state at phase 0 and free parameters, in the form of a solver's initial guess."""
         return self.problem.unknowns_of(np.array(self.initial_state), self.wingbeat)
 
-    @property
+    @functools.cached_property
     def problem(self) -> OrbitProblem:
         """The problem that this orbit solves, set up again from the inputs unless they name a user's function."""
         if self._problem is not None and own_functions(self._inputs):

@@ -15,8 +15,8 @@ from wingbeat.datasets import SHAPE, at_station
 from wingbeat.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.beat import Beat, mean_positive
+from wingbeat.orbits.problem.drive import drive_numbers
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.problem.quantities import of_drive
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
 from wingbeat.results.aero_record import aero_record
@@ -98,7 +98,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "distinct_optima": solution.distinct_optima,
         "starts_at_best": solution.starts_at_best,
         **power_summary(solution, beat),
-        **{name: solution.value_of(quantity, beat) for name, quantity in of_drive(problem.vehicle.drive).items()},
+        **drive_numbers(beat),
         **flight_numbers(problem, wingbeat.frequency, wingbeat.flap_amplitude),
         "body_pitch_range": float(np.ptp(certificate.states[:, 2])),
         "alpha_quarter_span": alpha_range(beat, 0.25),

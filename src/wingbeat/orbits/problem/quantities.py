@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from wingbeat._jax.config import jnp
-from wingbeat.actuators import Drive
 from wingbeat.errors import FaultList, suggest
 from wingbeat.nomenclature import NOMENCLATURE, plain, plain_unit
 from wingbeat.orbits.flight.beat import Beat
@@ -201,12 +200,6 @@ QUANTITIES: dict[str, Quantity] = {
         ),
     )
 }
-
-
-def of_drive(drive: Drive) -> dict[str, Quantity]:
-    """Return the quantities of a vehicle's muscles and of its motor, if it has them."""
-    there = {name for name in ("muscle", "motor") if getattr(drive, name) is not None}
-    return {name: quantity for name, quantity in QUANTITIES.items() if quantity.needs in there}
 
 
 # Short names on the command line.

@@ -1,11 +1,13 @@
 """The explorer in a browser: the point on the curve changes speed and animal, by pointer and by keyboard."""
 
+import copy
 import itertools
 
 import numpy as np
 import pytest
 
-from tests.helpers.browsers import AXE
+from tests.helpers.browsers import AXE, shown_files
+from wingbeat.explorer import write_explorer
 from wingbeat.explorer.thinning import unpacked
 
 FACE = "document.querySelector('.wbx').face"
@@ -53,6 +55,55 @@ def test_dragging_changes_the_speed_the_numbers_and_the_animal(show, answers):
     assert "speed=14" in page.evaluate("location.hash")
     slider = page.get_by_role("slider", name="Speed")
     assert slider.get_attribute("aria-valuenow") == "14"
+
+
+SHOWN = "Array.from(document.querySelector('.wb-viewer').viewer.flights[0].arrays.corners)"
+
+
+def slid(page, speed):
+    """Move the held point on the curve, and return the speed that it reached and the corners that are drawn."""
+    page.mouse.move(*page.evaluate(ACROSS, speed))
+    page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+    reached = page.evaluate(f"{FACE}.curve.scale.speedAt(Number({FACE}.curve.knob.getAttribute('cx')))")
+    return reached, np.array(page.evaluate(SHOWN))
+
+
+def test_between_two_computed_speeds_the_picture_is_blended_and_no_number_is(show, answers):
+    page = show(fragment="#animal=pigeon&model=paper&speed=12").page
+    at_twelve = np.array(page.evaluate(SHOWN))
+    page.get_by_role("slider", name="Speed").press("ArrowLeft")
+    at_ten = np.array(page.evaluate(SHOWN))
+    words = page.locator(".wb-warning")
+    page.mouse.move(*page.evaluate(ACROSS, 10.1))
+    page.mouse.down()
+    for speed, answer in ((10.7, answers["pigeon"][1]), (11.6, answers["pigeon"][2])):
+        reached, drawn = slid(page, speed)
+        blended = at_ten + (reached - 10.0) / 2.0 * (at_twelve - at_ten)
+        np.testing.assert_allclose(drawn, blended, rtol=0, atol=1e-6)
+        assert words.inner_text() == "Picture between the wingbeats at 10 and 12 m/s"
+        assert sentence(page) == answer["sentence"]
+        assert float(gauge(page, "frequency").get_attribute("data-exact")) == answer["frequency"]
+    page.mouse.up()
+    words.wait_for(state="hidden")
+    np.testing.assert_array_equal(page.evaluate(SHOWN), at_twelve)
+
+
+def test_no_picture_lies_beside_a_flight_that_differs_or_does_not_close(browser, pushed, tmp_path):
+    lattice = copy.deepcopy(pushed)
+    del lattice["pushes"]
+    lattice["answers"][1]["status"] = "infeasible"
+    lattice["answers"][3]["scene"]["flights"][0]["arrays"]["corners"]["scale"] *= -1.0
+    write_explorer(tmp_path / "explorer", [lattice])
+    with shown_files(browser, ".wbx canvas", 1280, 844) as opened:
+        page = opened(tmp_path / "explorer" / "index.html").page
+        page.mouse.move(*page.evaluate(ACROSS, 12.0))
+        page.mouse.down()
+        for speed, nearest in ((13.6, 14.0), (12.4, 12.0), (11.6, 12.0), (10.4, 10.0), (8.4, 8.0)):
+            slid(page, speed)
+            words = page.locator(".wb-warning").text_content()
+            assert words == ("the closest wingbeat: it does not fly" if nearest == 10.0 else "")
+            assert page.evaluate(f"{FACE}.answer.speed") == nearest
+        page.mouse.up()
 
 
 def test_the_strips_are_those_of_the_whole_flight(show, answers):

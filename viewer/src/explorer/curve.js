@@ -17,6 +17,7 @@ export class Curve {
   // `act` is called with a speed that the reader chooses. With `snap` only computed speeds can be chosen.
   constructor(act, snap) {
     this.act = act;
+    this.onslide = () => {}; // called with each speed on the way of the point, and with none when it rests
     this.snap = snap;
     this.quantity = QUANTITIES[0];
     this.data = { points: [], measured: [], pending: [] };
@@ -205,12 +206,14 @@ export class Curve {
     const speed = Math.min(Math.max(speedAt(across), first), last);
     this.place(speed);
     this.ask(this.snap ? this.nearest(speed)?.speed : Math.round(10 * speed) / 10);
+    this.onslide(speed);
   }
 
   release() {
     if (!this.dragging) return;
     this.dragging = false;
     this.place(this.speed);
+    this.onslide();
   }
 
   key(event) {

@@ -105,6 +105,15 @@ export class Face {
     if (asked) this.viewer.pushes.element.querySelector("select")?.focus();
   }
 
+  // Fly another flight in the picture of the answer on the page; without one, the answer's own. Beside a pinned flight
+  // only answers fly.
+  showBetween(flight) {
+    const { answer } = this;
+    if (!answer?.scene || this.pins.answer) return;
+    this.fly(flight ? { ...answer.scene, flights: [flight] } : answer.scene, answer.species);
+    this.label(answer, flight?.summary);
+  }
+
   // Show an answer beside the one on the page; without one the comparison ends.
   compare(answer) {
     this.pins.pin(answer);
@@ -169,9 +178,16 @@ export class Face {
     this.numbers.replaceChildren(...rows(answer, pinned));
     this.picture.hidden = !answer.scene;
     if (answer.scene) this.fly(this.pins.scene(answer), answer.species);
-    if (this.viewer) this.viewer.warning.textContent = answer.status === "converged" ? "" : UNCERTIFIED;
+    this.label(answer);
     if (!answer.scene) this.say("This flight tumbles before there is anything to show.");
     this.tellPush();
+  }
+
+  // Say in the picture what it does not show: a flight, or the flight of the answer.
+  label({ status }, between = "") {
+    if (!this.viewer) return;
+    this.viewer.warning.textContent = status === "converged" ? between : UNCERTIFIED;
+    this.viewer.warning.classList.toggle("wbx-between", between !== "");
   }
 
   // `whose`: the species.

@@ -2,6 +2,7 @@
 // `open` or `hold`, because a page that opens from disk may not fetch.
 
 import { make } from "../elements.js";
+import { Between } from "./between.js";
 import { Face } from "./face.js";
 
 export class Folder {
@@ -12,6 +13,7 @@ export class Folder {
     this.asked = catalogue.start;
     this.face = new Face(element, {});
     this.face.onask = (asked) => this.ask(asked);
+    this.face.curve.onslide = (speed) => this.slide(speed);
     this.face.onpush = () => this.push();
     this.face.onpushed = () => this.link();
     this.face.has = ({ animal, model, push }) => catalogue.files.includes(file(animal, model, push));
@@ -112,11 +114,25 @@ export class Folder {
   show(lattice) {
     const away = ({ speed }) => Math.abs(speed - (this.asked.speed ?? lattice.speed));
     const answer = lattice.answers.reduce((best, each) => (away(each) < away(best) ? each : best));
-    if (this.shown !== lattice) this.face.showCurve(lattice.curve);
+    if (this.shown !== lattice) {
+      this.face.showCurve(lattice.curve);
+      this.between = new Between(lattice.answers);
+    }
     this.shown = lattice;
     this.asked.speed = answer.speed;
     this.face.showAnswer(answer);
     this.link();
+  }
+
+  // While the point is on its way, the animal flies between two computed speeds; the numbers stay those of the nearest.
+  slide(speed) {
+    this.sliding = speed;
+    this.due ??= requestAnimationFrame(() => {
+      this.due = undefined;
+      const flight = this.sliding === undefined ? undefined : this.between?.at(this.sliding);
+      if (flight || this.isBetween) this.face.showBetween(flight);
+      this.isBetween = Boolean(flight);
+    });
   }
 
   // Write what is shown into the page's address.

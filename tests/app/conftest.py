@@ -30,6 +30,7 @@ def served() -> Iterator[Served]:
     from wingbeat.app.server import House, configure
 
     house = House(2)
+    house._is_warm = True  # no test hears of a warm-up that another began
     listening = socket.create_server(("127.0.0.1", 0))
     server = uvicorn.Server(configure(house, "127.0.0.1"))
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]}, daemon=True)

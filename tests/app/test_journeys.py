@@ -169,6 +169,7 @@ def test_a_species_file_that_is_dropped_is_solved_or_refused_in_words(visit):
 def test_the_keyboard_alone_reaches_the_point_of_the_curve_and_changes_the_speed(visit):
     page = visit(QUERY)
     solved(page, "pigeon at 10 m/s")
+    wait_for(page, f"{FACE}.curve.data.points.length === 3 && !{FACE}.curve.data.pending.length")
     focused = "document.activeElement"
     page.keyboard.press("Tab")
     assert page.evaluate(f"{focused}.textContent") == "Skip to the result"

@@ -183,6 +183,7 @@ def test_the_example_holds_the_package_s_measurements(show):
 def test_four_files_have_marks_of_their_own_and_one_name_is_one_file(show):
     page = show().page
     give(page, *((f"{nth}.csv", FLIGHTS) for nth in range(3)))
+    page.locator(".wbx-own-list li").nth(2).wait_for()  # read one after the other
     give(page, ("2.csv", "speed,power\n8,40\n"), ("3.csv", FLIGHTS))
     page.wait_for_function("() => document.querySelectorAll('.wbx-own-list li').length === 4")
     assert [text.split(":")[0] for text in listed(page)] == ["0.csv", "1.csv", "2.csv", "3.csv"]

@@ -29,7 +29,7 @@ AXE = NODE_MODULES / "axe-core" / "axe.min.js"
 
 def until(page, script):
     """Wait until a script is true; the viewer's pages forbid what Playwright's own waiting needs."""
-    for _ in range(200):
+    for _ in range(PATIENCE // 100):
         if page.evaluate(script):
             return
         page.wait_for_timeout(100)

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.browsers import until
 from tests.viewer.test_browser import VIEWER
 from wingbeat.viewer.wake import wake_of
 
@@ -85,7 +86,7 @@ def projected(page, points):
 def test_the_scale_bar_is_as_long_as_the_arrow_of_its_force(show, page_of_one, bat, width, camera):
     page = show(page_of_one, width=width).page
     page.evaluate(f"{VIEWER}.setCamera('{camera}')")
-    page.wait_for_timeout(300)
+    until(page, f"{VIEWER}.stage.due === undefined")
     force, scale = page.evaluate(f"[{VIEWER}.measures.bar.force, {VIEWER}.look.scale]")
     target = np.array(page.evaluate(f"{VIEWER}.stage.controls.target.toArray()"))
     _, view = projected(page, target[None])
@@ -101,10 +102,9 @@ def test_the_scale_bar_is_as_long_as_the_arrow_of_its_force(show, page_of_one, b
 
 def test_without_arrows_there_is_no_scale_bar(show, page_of_one):
     page = show(page_of_one).page
-    assert page.locator(".wb-force-bar").is_visible()
+    page.locator(".wb-force-bar").wait_for()
     page.get_by_label("resultant", exact=True).uncheck()
-    page.wait_for_timeout(300)
-    assert page.locator(".wb-force-bar").is_hidden()
+    page.locator(".wb-force-bar").wait_for(state="hidden")
 
 
 def test_the_ground_passes_at_the_speed_of_the_flight_from_beat_to_beat(show, page_of_one, bat):

@@ -131,6 +131,8 @@ def test_the_gif_has_the_frames_and_the_width_asked_for(show, page_of_one, tmp_p
     bar = page.get_by_label("Progress of the moving picture")
     assert bar.is_hidden()
     page.wait_for_timeout(1000)
+    until(page, f"{VIEWER}.stage.due === undefined")
+    until(page, f"!{VIEWER}.stage.sharpness.inSoftware || {VIEWER}.stage.renderer.getPixelRatio() === 2")
     pixels = page.evaluate(f"{VIEWER}.canvas.width")
     path = saved(page, tmp_path / "bat.gif")
     width, height, frames = told(page, r"Saved bat\.gif: (\d+) x (\d+) pixels, (\d+) frames, [\d.]+ [kM]B\.")

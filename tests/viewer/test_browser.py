@@ -6,6 +6,8 @@ import time
 import numpy as np
 import pytest
 
+import wingbeat as wb
+
 VIEWER = "document.querySelector('.wb-viewer').viewer"
 MIRROR = np.array([1.0, -1.0, 1.0])
 
@@ -113,6 +115,18 @@ def test_two_flights_stand_as_ghost_or_side_by_side(show, page_of_two):
     assert page.locator(".wb-flight-1").count() > 0
 
 
+def test_two_kinds_of_animal_stand_side_by_side_at_first(show, bats, tmp_path):
+    pigeon = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), 10.0), starts=1)
+    path = tmp_path / "two.html"
+    wb.viewer.write_page([("pigeon", pigeon.dataset), ("bat", bats["su-fan"].dataset)], path)
+    page = show(path).page
+    assert page.get_by_label("Two flights").input_value() == "beside"
+    left, right = page.evaluate(f"{VIEWER}.stage.animals.map((animal) => animal.group.position.y)")
+    assert left > 0 > right
+    page.get_by_label("Two flights").select_option("ghost")
+    assert page.evaluate(f"{VIEWER}.stage.animals.map((animal) => animal.group.position.y)") == [0, 0]
+
+
 @pytest.mark.parametrize("theme", ["light", "dark"])
 @pytest.mark.parametrize("width", [390, 1280])
 def test_it_fits_the_window_and_keeps_to_the_theme(show, page_of_two, theme, width):
@@ -123,7 +137,6 @@ def test_it_fits_the_window_and_keeps_to_the_theme(show, page_of_two, theme, wid
 
 
 def test_texts_of_files_stay_texts(show, bats, tmp_path):
-    import wingbeat as wb
 
     name = "</script><img src=x onerror=alert(1)>"
     wb.viewer.write_page([(name, bats["su-fan"].dataset), ("b", bats["su-fan"].dataset)], tmp_path / "page.html")

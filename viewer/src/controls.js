@@ -80,7 +80,7 @@ function looks(viewer) {
     }),
   );
   viewer.wakeToggle = air.at(-1);
-  viewer.pairing = choice(viewer, "Two flights", PAIRS, "ghost", (value) => {
+  viewer.pairing = choice(viewer, "Two flights", PAIRS, viewer.ghost ? "ghost" : "beside", (value) => {
     viewer.ghost = value === "ghost";
     viewer.arrange();
   });

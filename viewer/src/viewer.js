@@ -26,7 +26,8 @@ export class Viewer {
     this.calm = window.matchMedia("(prefers-reduced-motion: reduce)").matches;
     this.look.still = this.calm; // the ground does not pass where less motion is asked for
     this.rate = 0.1;
-    this.ghost = true;
+    // A pale copy in the same place compares two flights of one kind of animal; of two kinds one would hide the other.
+    this.ghost = new Set(scene.flights.map(({ shape }) => shape.kind)).size < 2;
     this.phase = 0;
     this.frame = 0;
     this.root = make("section", { class: "wb-viewer", "aria-label": "Wingbeat viewer", tabindex: "0" });

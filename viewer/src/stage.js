@@ -61,7 +61,8 @@ export class Stage {
     const [first, second] = this.animals;
     const apart = ghost ? 0 : 1.25 * this.span;
     this.offsets = second && new Map([[first, apart], [second, -apart]]);
-    this.spread = second && !ghost ? 1.75 : 1;
+    // How near the camera comes, in spans: in a wide picture, and in a narrow one over its aspect.
+    this.near = second && !ghost ? [1.45, 2.3] : [1, 1.15];
     if (this.ink) this.tint(this.ink);
     this.setCamera(this.view ?? "oblique");
   }
@@ -114,7 +115,8 @@ export class Stage {
     this.view = name;
     this.follows = name === "following";
     const target = this.follows ? this.body : new THREE.Vector3();
-    const away = this.span * (this.spread ?? 1) * Math.max(1, 1.15 / (this.camera.aspect || 1));
+    const [wide, narrow] = this.near;
+    const away = this.span * Math.max(wide, narrow / (this.camera.aspect || 1));
     this.controls.target.copy(target);
     this.camera.position.copy(target).addScaledVector(new THREE.Vector3(...CAMERAS[name]), away);
     this.controls.update();

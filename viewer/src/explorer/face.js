@@ -183,7 +183,7 @@ export class Face {
     this.tellPush();
   }
 
-  // Say in the picture what it does not show: a flight, or the flight of the answer.
+  // Say in the picture that it shows no flight, or one between two answers.
   label({ status }, between = "") {
     if (!this.viewer) return;
     this.viewer.warning.textContent = status === "converged" ? between : UNCERTIFIED;

@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat.errors import FaultList
-from wingbeat.experiment.headings import Sheet, check_unit, parse_numbers, read_sheet, split_unit
 from wingbeat.experiment.wrapping import unwrapped
 from wingbeat.files import write_atomically
 from wingbeat.kinematics import (
@@ -23,6 +22,7 @@ from wingbeat.kinematics import (
     sweep_angle,
     tip_twist,
 )
+from wingbeat.sheets import Sheet, check_unit, parse_numbers, read_sheet, split_unit
 
 # What can be filmed, and its unit.
 FILMED = {

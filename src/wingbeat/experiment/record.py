@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from wingbeat.errors import FaultList, InvalidInputError
-from wingbeat.experiment.headings import Sheet, check_unit, parse_numbers, read_sheet, split_unit
 from wingbeat.nomenclature import plain_unit
+from wingbeat.sheets import Sheet, check_unit, parse_numbers, read_sheet, split_unit
 
 MIN_SAMPLES = 32
 # If the angle spreads more than this within one record, the plate was still turning.

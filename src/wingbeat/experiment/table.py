@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from wingbeat._version import __version__
 from wingbeat.errors import FaultList
-from wingbeat.experiment.headings import Sheet, check_unit, parse_numbers, read_sheet, split_unit
 from wingbeat.experiment.record import refuse_radians
 from wingbeat.files import write_atomically
+from wingbeat.sheets import Sheet, check_unit, parse_numbers, read_sheet, split_unit
 
 QUANTITIES = ("C_L", "C_D", "C_M", "x_cp")
 REQUIRED = ("alpha_deg", "C_L", "C_D")

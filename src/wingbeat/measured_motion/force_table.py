@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat.errors import FaultList
-from wingbeat.experiment.headings import Sheet, parse_numbers
 from wingbeat.measured_motion.strip_table import LISTED, check_columns
+from wingbeat.sheets import Sheet, parse_numbers
 
 Array = NDArray[np.float64]
 

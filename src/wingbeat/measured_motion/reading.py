@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 from wingbeat.errors import FaultList, FileError, InvalidInputError, is_number, suggest
-from wingbeat.experiment.headings import read_sheet
 from wingbeat.files import read_text, toml_tables
 from wingbeat.measured_motion.force_table import read_forces
 from wingbeat.measured_motion.strip_case import WINGS, StripCase
@@ -18,6 +17,7 @@ from wingbeat.measured_motion.strip_checks import (
     check_window,
 )
 from wingbeat.measured_motion.strip_table import read_strips
+from wingbeat.sheets import read_sheet
 
 REQUIRED_KEYS = ("name", *SCALAR_LIMITS, "mirrored", "periodic", "strips")
 KNOWN_KEYS = (*REQUIRED_KEYS, "from", "to", "forces", "mean_force", "wing", "title")

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat.errors import WHOLE, FaultList, suggest
-from wingbeat.experiment.headings import Sheet, parse_numbers
+from wingbeat.sheets import Sheet, parse_numbers
 
 Array = NDArray[np.float64]
 

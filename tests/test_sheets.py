@@ -4,7 +4,7 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.errors import FaultList
-from wingbeat.experiment.headings import check_unit, split_unit
+from wingbeat.sheets import check_unit, split_unit
 
 
 @pytest.mark.parametrize("heading", ["x_cp", "x_cp [-]", "x_cp (-)", "x_cp [1]", "x_cp []"])

@@ -15,9 +15,11 @@ from wingbeat.nomenclature.lookup import (
 )
 from wingbeat.nomenclature.term import Term
 from wingbeat.nomenclature.units import cf, for_people, plain
+from wingbeat.nomenclature.written import PRECISION, written, written_range
 
 __all__ = [
     "NOMENCLATURE",
+    "PRECISION",
     "Term",
     "attributes_of",
     "axis_label",
@@ -28,4 +30,6 @@ __all__ = [
     "plain",
     "plain_unit",
     "readable_limit",
+    "written",
+    "written_range",
 ]

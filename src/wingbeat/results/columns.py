@@ -35,14 +35,15 @@ def leaves(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]
         path = f"{before}{key}"
         if isinstance(value, dict):
             yield from leaves(value, f"{path}.")
-        elif isinstance(value, list) and value and _numeric(value):
+        elif isinstance(value, list) and value and numeric(value):
             yield from leaves({str(i): item for i, item in enumerate(value)}, f"{path}.")
         else:
             yield path, value
 
 
-def _numeric(value: list[Any]) -> bool:
-    return all(_numeric(v) if isinstance(v, list) else isinstance(v, int | float | None) for v in value)
+def numeric(value: list[Any]) -> bool:
+    """Return whether a list holds numbers, missing numbers and lists of them alone."""
+    return all(numeric(v) if isinstance(v, list) else isinstance(v, int | float | None) for v in value)
 
 
 def table_of(records: Iterable[dict[str, Any]]) -> pd.DataFrame:
@@ -73,7 +74,7 @@ def result_unit(dataset: xr.Dataset, results: dict[str, Any], path: str, value: 
     path, value : dotted name and value of one of the results.
     """
     head, last = path.partition(".")[0], path.rpartition(".")[2]
-    if isinstance(value, bool | str | dict | None) or (isinstance(value, list) and not (value and _numeric(value))):
+    if isinstance(value, bool | str | dict | None) or (isinstance(value, list) and not (value and numeric(value))):
         return ""
     if last in dataset.variables and "units" in dataset[last].attrs:
         return dataset[last].attrs["units"]

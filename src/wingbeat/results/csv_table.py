@@ -6,7 +6,6 @@ Header lines begin with ``#`` and can be skipped as comments: ``pandas.read_csv(
 
 from __future__ import annotations
 
-import csv
 import io
 import itertools
 import json
@@ -22,7 +21,8 @@ if TYPE_CHECKING:
     import xarray as xr
 
 # The coordinate along which each kind of result has its rows.
-_ROWS = {"orbit": "phase", "flight": "phase", "curve": "speed", "glide": "angle_of_attack"}
+_ROWS = {"orbit": "phase", "flight": "phase", "torque-driven flight": "time"}
+_ROWS |= {"curve": "speed", "glide": "angle_of_attack"}
 
 
 class _Column(NamedTuple):
@@ -37,7 +37,7 @@ def csv_text(dataset: xr.Dataset, results: dict[str, Any]) -> str:
 
     Parameters
     ----------
-    dataset : that of an orbit, a flight, a curve or a glide polar.
+    dataset : of one of the kinds in `_ROWS`.
     results : the content of its attributes, from `results_of`.
     """
     kind = results["wingbeat_kind"]
@@ -48,13 +48,14 @@ def csv_text(dataset: xr.Dataset, results: dict[str, Any]) -> str:
     out.write(f"one row per {along.replace('_', ' ')}\n")
     out.write("#\n# results: name = value [unit]; values are JSON\n")
     for path, value in _single_values(dataset, along, results):
-        out.write(f"# {path} = {json.dumps(value)}{_bracket(result_unit(dataset, results, path, value))}\n")
+        name = _one_line(path)
+        out.write(f"# {name} = {json.dumps(value)}{_bracket(result_unit(dataset, results, path, value))}\n")
     out.write("#\n# columns: name [unit] meaning\n")
     for column in columns:
-        out.write(f"# {column.name}{_bracket(column.unit)} {column.meaning}".rstrip() + "\n")
-    table = csv.writer(out, lineterminator="\n")
-    table.writerow(column.name for column in columns)
-    table.writerows(zip(*([_cell(v) for v in column.values.tolist()] for column in columns), strict=True))
+        out.write(f"# {column.name}{_bracket(column.unit)} {_one_line(column.meaning)}".rstrip() + "\n")
+    out.write(",".join(column.name for column in columns) + "\n")
+    for row in zip(*([_cell(v) for v in column.values.tolist()] for column in columns), strict=True):
+        out.write(",".join(row) + "\n")
     return out.getvalue()
 
 
@@ -63,7 +64,7 @@ def frame_of(dataset: xr.Dataset) -> pd.DataFrame:
 
     Parameters
     ----------
-    dataset : that of an orbit, a flight, a curve or a glide polar.
+    dataset : of one of the kinds in `_ROWS`.
     """
     import pandas as pd
 
@@ -109,10 +110,19 @@ def _bracket(unit: str) -> str:
     return f" [{unit}]" if unit else ""
 
 
-def _cell(value: Any) -> Any:
-    """Return the text of a cell: a number with all its digits, or a text on one line."""
+def _cell(value: Any) -> str:
+    """Return the text of a cell: a number with all its digits, or a text on one line.
+
+    Texts are always in quotes, for without them readers would take what follows a ``#`` for a comment.
+    """
     if isinstance(value, float):
         if math.isfinite(value):
             return repr(value)
         return "NaN" if math.isnan(value) else "Inf" if value > 0 else "-Inf"
-    return "; ".join(value.splitlines()) if isinstance(value, str) else value
+    if isinstance(value, str):
+        return '"' + _one_line(value).replace('"', '""') + '"'
+    return str(value)
+
+
+def _one_line(text: str) -> str:
+    return "; ".join(text.splitlines())

@@ -1,21 +1,30 @@
-"""A result as a MATLAB file: each series is a variable of its own shape; units, meanings, results are structs."""
+"""A result as a MATLAB file: each series is a variable of its own shape; units, meanings, results are structs.
+
+SciPy writes a variable whose name MATLAB cannot hold without a word, and leaves out a field whose name begins with an
+underscore. Names are therefore checked here: a table with another name becomes a list of names and values.
+"""
 
 from __future__ import annotations
 
 import io
 import re
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from wingbeat.errors import is_number
-from wingbeat.results.columns import result_unit
+from wingbeat.results.columns import numeric, result_unit
 
 if TYPE_CHECKING:
     import xarray as xr
 
-# Longest name that MATLAB accepts (`namelengthmax`).
+# A name that MATLAB accepts, of at most `namelengthmax` characters, and the words of its language (`iskeyword`).
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,62}")
+_KEYWORDS = frozenset(
+    "break case catch classdef continue else elseif end for function global if otherwise parfor persistent return "
+    "spmd switch try while".split()
+)
 
 
 def mat_bytes(dataset: xr.Dataset, results: dict[str, Any]) -> bytes:
@@ -23,7 +32,7 @@ def mat_bytes(dataset: xr.Dataset, results: dict[str, Any]) -> bytes:
 
     Parameters
     ----------
-    dataset : that of an orbit, a flight, a curve or a glide polar.
+    dataset : of any result; the names of its variables are names of MATLAB.
     results : the content of its attributes, from `results_of`.
     """
     from scipy.io import savemat
@@ -58,12 +67,16 @@ def _array(values: np.ndarray) -> np.ndarray:
     return values.astype(float) if values.dtype.kind in "biuf" else values.astype(object)
 
 
+def _is_name(name: str) -> bool:
+    return _NAME.fullmatch(name) is not None and name not in _KEYWORDS
+
+
 def _value(value: Any) -> Any:
     """Return one part of a record in MATLAB's types; a missing value becomes NaN."""
     if value is None:
         return np.nan
     if isinstance(value, dict):
-        if all(_NAME.fullmatch(key) for key in value):
+        if all(map(_is_name, value)):
             return {key: _value(item) for key, item in value.items()}
         # MATLAB does not accept a limit such as "peak_power<=30" as the name of a field.
         return _value([{"name": key, "value": item} for key, item in value.items()])
@@ -73,13 +86,10 @@ def _value(value: Any) -> Any:
 
 
 def _listed(items: list[Any]) -> np.ndarray:
-    """Return a list as a matrix if it holds numbers, else as a cell array."""
-    try:
-        numbers = np.array(items, dtype=float)
-        if not any(isinstance(item, str) for item in items):
-            return numbers
-    except (TypeError, ValueError):
-        pass
+    """Return a list as a matrix if it holds numbers in rows of one length, else as a cell array."""
+    if numeric(items):
+        with suppress(ValueError):  # rows of several lengths
+            return np.array(items, dtype=float)
     cells = np.empty(len(items), dtype=object)
     for i, item in enumerate(items):
         cells[i] = _value(item)

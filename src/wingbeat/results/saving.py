@@ -16,7 +16,7 @@ from wingbeat.results.storage import save_dataset
 if TYPE_CHECKING:
     import xarray as xr
 
-# Attributes of a dataset that are plain text; other texts are JSON.
+# Attributes of a dataset that are plain text even if they read as JSON, such as a species called "12".
 _TEXTS = (
     *("Conventions", "wingbeat_kind", "status", "message", "species", "objective", "trim", "version"),
     *("inputs", "inputs_hash", "statement_of_closure", "statement_of_plausibility"),
@@ -24,7 +24,7 @@ _TEXTS = (
 
 
 def results_of(dataset: xr.Dataset) -> dict[str, Any]:
-    """Return the attributes of an orbit, a flight, a curve or a polar as plain dictionaries and lists.
+    """Return the attributes of a result as plain dictionaries and lists.
 
     All inputs together stay one JSON text, from which the result can be computed again. The shape of the animal is
     left out: only our drawings use it.
@@ -34,8 +34,16 @@ def results_of(dataset: xr.Dataset) -> dict[str, Any]:
         if name == SHAPE:
             continue
         value = value.item() if hasattr(value, "item") else value
-        found[name] = json.loads(value) if isinstance(value, str) and name not in _TEXTS else value
+        found[name] = _decoded(value) if isinstance(value, str) and name not in _TEXTS else value
     return found
+
+
+def _decoded(text: str) -> Any:
+    """Return what a JSON text holds; a text that is no JSON, such as ``prescribed``, is returned unchanged."""
+    try:
+        return json.loads(text)
+    except ValueError:
+        return text
 
 
 def _as_csv(dataset: xr.Dataset) -> bytes:

@@ -30,6 +30,20 @@ _SAME = {
 }
 
 
+# What programs and instruments write: a pattern at the beginning, # lines left out, and what to do with the file.
+_COPY_POLAR = (
+    "write its angle, lift and drag as a CSV table with the columns alpha_deg, C_L, C_D, separated by commas"
+)
+_KNOWN_FILES = (
+    (r"xfoil polar\.", f"a polar from an airfoil site (XFOIL, with lines of text above it); {_COPY_POLAR}"),
+    (r"(xfoil|xflr5) ", f"a polar of XFOIL or XFLR5; {_COPY_POLAR}, and its Re in a column reynolds"),
+    (r"!.*(airfoilinfo|numalf)|aerodyn", f"an airfoil table of AeroDyn; {_COPY_POLAR}"),
+    (r"<(!doctype|html)", "a web page, not a table; download the table itself"),
+)
+# How many characters of a file show what it is.
+_FIRST = 4000
+
+
 class Heading(NamedTuple):
     """A name, and the unit that follows it in brackets; None without one."""
 
@@ -74,26 +88,69 @@ def check_unit(faults: FaultList, where: str, unit: str | None, wanted: str) -> 
     faults.add(where, unit, rule, fix)
 
 
+def same_name(text: str) -> str:
+    """Return a name without its unit, in lower case, of letters and digits only: spellings of one name agree.
+
+    >>> same_name("C_L"), same_name("c l [-]"), same_name("Wing Speed (m/s)")
+    ('cl', 'cl', 'wingspeed')
+    """
+    return re.sub(r"[\W_]", "", split_unit(text).name.lower())
+
+
+def seems_to_be(text: str) -> str | None:
+    r"""Return what a file that is not a CSV table seems to be, and what to do with it; None if nothing shows it.
+
+    >>> seems_to_be("a;b;c\n1,5;2;3\n")
+    'a table with semicolons between its columns and decimal commas; write commas between the columns and ...'
+    """
+    lines = [line for line in text[:_FIRST].splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    head = "\n".join(lines).lstrip()
+    for pattern, words in _KNOWN_FILES:
+        if re.match(pattern, head, re.IGNORECASE | re.DOTALL):
+            return words
+    if not lines or "," in lines[0]:
+        return None
+    for sign, name in ((";", "semicolons"), ("\t", "tabs")):
+        if lines[0].strip().count(sign):
+            decimal = any(re.search(r"\d,\d", line) for line in lines[1:])
+            commas = " and decimal commas" if decimal else ""
+            points = " and points in the numbers" if decimal else ""
+            return f"a table with {name} between its columns{commas}; write commas between the columns{points}"
+    if len(lines) > 1 and all(len(line.split()) > 1 for line in lines[:2]):
+        return "a table with spaces between its columns; write commas between the columns"
+    return None
+
+
 def read_sheet(path: str | Path) -> Sheet:
     """Split a CSV file into its constants (``# name = value``) and its table, without converting numbers.
 
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : it is empty, or a constant appears twice.
+    InvalidInputError : it is empty, it is of another format, or a constant appears twice in any spelling.
     """
     path = Path(path)
     faults = FaultList()
     constants: dict[str, tuple[int, str]] = {}
+    given: dict[str, str] = {}
     table: list[tuple[int, str]] = []
-    for row, line in enumerate(read_text(path, limit=MAX_BYTES).splitlines(), start=1):
+    whole = read_text(path, limit=MAX_BYTES)
+    if words := seems_to_be(whole):
+        faults.add(path.name, whole.lstrip().partition("\n")[0].strip(), f"this seems to be {words}")
+        faults.raise_if_any()
+    for row, line in enumerate(whole.splitlines(), start=1):
         text = line.strip()
         if text.startswith("#"):
             key, equals, value = text.lstrip("# ").partition("=")
             name = key.strip()
-            if equals and name in constants:
-                faults.add(f"{path.name} row {row}", name, "appears twice", "keep one")
-            elif equals:
+            plain = same_name(name)
+            if not equals or not plain or name.startswith("note:"):
+                continue  # a line of text, or of = signs
+            earlier = given.setdefault(plain, name)
+            if name in constants or earlier != name:
+                also = "" if earlier == name else f" (above as {earlier})"
+                faults.add(f"{path.name} row {row}", name, f"appears twice{also}", "keep one")
+            else:
                 constants[name] = (row, value.strip())
         elif text:
             table.append((row, text))
@@ -112,10 +169,10 @@ def parse_numbers(
 
     Parameters
     ----------
-    names : the columns' names in messages.
+    names : the columns' names in messages; the cells of a column with the name "" are not read, and become NaN.
     blank : the columns where a cell may be empty, which gives NaN.
     """
-    if sheet.rows and not blank:
+    if sheet.rows and not blank and all(names):
         try:  # the quick way, for files in which nothing is wrong
             numbers = np.loadtxt([text for _, text in sheet.rows], delimiter=",", ndmin=2, comments=None)
         except ValueError:
@@ -136,7 +193,7 @@ def parse_numbers(
             faults.add(f"{sheet.file} row {row}", text, rule, "write decimal points, not commas")
             continue
         for k, (name, cell) in enumerate(zip(names, cells, strict=True)):
-            if cell or name not in blank:
+            if name and (cell or name not in blank):
                 values[i, k] = _number(faults, f"{sheet.file} row {row}, column {name}", cell)
     return values
 

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from wingbeat.cli.answer import answer
 from wingbeat.cli.options import Whole, check_files, check_outputs, unpacking
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.streams import plain_console
@@ -55,13 +56,13 @@ def compare(
     check_outputs(plot)
     with progress_bar("steps") as progress:
         opinion = compare_with_lattice(orbit, options, progress)
-    if plot:
-        save_figure(second_opinion_page(opinion), plot)
     record = opinion.record()
-    if json:
-        print(json_format.dumps(record, indent=2, allow_nan=False))
-    else:
-        _print(record)
+    with answer() as given:
+        if json:
+            given.show(lambda: print(json_format.dumps(record, indent=2, allow_nan=False)))
+        else:
+            given.show(lambda: _print(record))
+        given.save(plot, lambda path: save_figure(second_opinion_page(opinion), path))
 
 
 def _print(record: dict[str, Any]) -> None:

@@ -8,6 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.curve_report import drawn, print_curve
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
@@ -95,12 +96,11 @@ def curve(
     check_outputs(output, plot)
     with progress_bar(f"{problem.species.name} along speed") as progress:
         found = solve_curve(problem, row, starts, seed, power_limit, progress)
-    if output:
-        found.save(output)
-    if plot:
-        save_figure(drawn(found), plot)
-    if json:
-        print(json_format.dumps(found.record(), indent=2, allow_nan=False))
-    else:
-        print_curve(found)
+    with answer() as given:
+        if json:
+            given.show(lambda: print(json_format.dumps(found.record(), indent=2, allow_nan=False)))
+        else:
+            given.show(lambda: print_curve(found))
+        given.save(output, found.save)
+        given.save(plot, lambda path: save_figure(drawn(found), path))
     return EXIT_NOT_CERTIFIED if len(found.gaps) == len(row) else EXIT_GOOD

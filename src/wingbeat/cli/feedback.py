@@ -10,6 +10,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import Whole, check_files, check_outputs, named_numbers, unpacking
 from wingbeat.cli.printing import print_report
@@ -118,17 +119,17 @@ def feedback(
             surveyed = survey_gusts(
                 orbit, {FREE: None, HELD: held}, survey, beats=beats, late=late, noise=errors, seed=seed
             )
-    if plot:
-        delayed = f", feedback {beats_of(delay + late)} late" if delay + late else ""
-        title = f"{heading(str(orbit.inputs['species']['name']))} at {orbit.inputs['speed']:g} m/s{delayed}"
-        save_figure(gust_page(flights, surveyed, title), plot)
-    if json:
-        record = held.record() | {"late": late, "beats": beats}
-        record["flights"] = {name: one.record() for name, one in flights.items()}
-        record["survey"] = None if surveyed is None else surveyed.record()
-        print(json_format.dumps(record, indent=2, allow_nan=False))
-    else:
-        _print(held, flights, late, surveyed)
+    delayed = f", feedback {beats_of(delay + late)} late" if delay + late else ""
+    title = f"{heading(str(orbit.inputs['species']['name']))} at {orbit.inputs['speed']:g} m/s{delayed}"
+    with answer() as told:
+        if json:
+            record = held.record() | {"late": late, "beats": beats}
+            record["flights"] = {name: one.record() for name, one in flights.items()}
+            record["survey"] = None if surveyed is None else surveyed.record()
+            told.show(lambda: print(json_format.dumps(record, indent=2, allow_nan=False)))
+        else:
+            told.show(lambda: _print(held, flights, late, surveyed))
+        told.save(plot, lambda path: save_figure(gust_page(flights, surveyed, title), path))
     return EXIT_GOOD if flights[HELD].survived else EXIT_NOT_CERTIFIED
 
 

@@ -11,6 +11,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from wingbeat.aero.coefficient_model import check_aspect_ratio
+from wingbeat.cli.answer import answer
 from wingbeat.cli.options import check_files, check_outputs
 from wingbeat.errors import FaultList
 from wingbeat.experiment import WingFit, fit_wing, load_measurements
@@ -58,19 +59,15 @@ def fit(
         table = table.between(alpha_min, alpha_max)
     called = name or (output.stem if output is not None else coefficients.stem)
     found = fit_wing(table, form, called, citation or f"fitted to {coefficients.name}", aspect_ratio)
-    if output is not None:
-        found.save(output)
-    if plot is not None:
-        save_figure(fit_page(found), plot)
-    if json:
-        print(json_format.dumps(_summary(found), indent=2, allow_nan=False))
-    else:
-        _print_table(found)
-    for note in found.notes:
-        print(f"warning: {note}", file=sys.stderr)
-    for path in (output, plot):
-        if path is not None:
-            print(f"wrote {path}", file=sys.stderr)
+    with answer() as given:
+        if json:
+            given.show(lambda: print(json_format.dumps(_summary(found), indent=2, allow_nan=False)))
+        else:
+            given.show(lambda: _print_table(found))
+        for note in found.notes:
+            print(f"warning: {note}", file=sys.stderr)
+        given.save(output, found.save, named=True)
+        given.save(plot, lambda path: save_figure(fit_page(found), path), named=True)
 
 
 def _summary(found: WingFit) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from typing import Annotated
 import numpy as np
 from cyclopts import Parameter
 
+from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
@@ -77,14 +78,13 @@ def glide(
     loads = whole.gliding if model.aero is None else whole.aero
     check_outputs(output, plot)
     polar = glide_polar(animal, loads, np.radians(angles), math.radians(flap_deg), trim)
-    if output:
-        polar.save(output)
-    if plot:
-        save_figure(glide_page(polar.dataset), plot)
-    if json:
-        print(json_format.dumps(polar.record(), indent=2, allow_nan=False))
-    else:
-        _print(polar)
+    with answer() as given:
+        if json:
+            given.show(lambda: print(json_format.dumps(polar.record(), indent=2, allow_nan=False)))
+        else:
+            given.show(lambda: _print(polar))
+        given.save(output, polar.save)
+        given.save(plot, lambda path: save_figure(glide_page(polar.dataset), path))
     return EXIT_GOOD if any(math.isfinite(one.speed) for one in polar.glides) else EXIT_NOT_CERTIFIED
 
 

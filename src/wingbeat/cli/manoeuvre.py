@@ -8,6 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import Climb, Seed, Settings, Whole, check_files, check_outputs, unpacking
@@ -87,12 +88,13 @@ def manoeuvre(
         flights["with feedback"] = plan.fly(wind)
         if gust is not None:
             flights["without feedback"] = plan.fly(wind, feedback=False)
-        if plot:
-            save_figure(manoeuvre_page(plan, flights), plot)
-    if json:
-        print(json_format.dumps(plan.record(), indent=2, allow_nan=False))
-    else:
-        _print(plan, flights)
+    with answer() as given:
+        if json:
+            given.show(lambda: print(json_format.dumps(plan.record(), indent=2, allow_nan=False)))
+        else:
+            given.show(lambda: _print(plan, flights))
+        if flights:
+            given.save(plot, lambda path: save_figure(manoeuvre_page(plan, flights), path))
     return EXIT_GOOD if plan.status is Status.CONVERGED else EXIT_NOT_CERTIFIED
 
 

@@ -10,6 +10,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 from rich.console import Console
 
+from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.filmed import (
     DRAWS,
@@ -43,7 +44,6 @@ from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.report import print_orbit
 from wingbeat.errors import FaultList
 from wingbeat.experiment import FilmedBeat, fit_film, read_film
-from wingbeat.orbits.many.uncertainty import ErrorBar
 from wingbeat.orbits.problem.filmed import filmed_problem
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
@@ -146,6 +146,7 @@ def orbit(
     if from_ is None and speed is None:
         faults.add("--speed", None, "is missing", "give the mean forward speed in m/s, 0 for hover")
     faults.raise_if_any()
+    check_outputs(output, plot, tornado)
     beat = None
     if from_ is not None:
         saved = load_orbit(from_)
@@ -169,34 +170,32 @@ def orbit(
         else:
             beat = fit_film(read_film(kinematics))
             problem = filmed_problem(beat, animal, speed, aero=whole.aero, **asked)
-    check_outputs(output, plot, tornado)
+    fit = model.fit()
     found = _solve(problem, starts, seed)
-    if output:
-        found.save(output)
-    if plot:
-        from wingbeat.plots import save_figure, wingbeat_page
-
-        save_figure(wingbeat_page(found.dataset), plot)
-    record = found.record()
-    certified = found.status is Status.CONVERGED
-    spread = _spread(found, beat) if beat is not None and certified else None
-    if beat is not None and json:
-        record["kinematics"] = film_record(beat) | (spread_record(spread) if spread else {})
-    influence, bars = None, []
-    if certified and (sensitivities or tornado):
-        influence, bars = _influence(found, model, tornado)
-    if influence and sensitivities:
-        record |= {"sensitivities": influence.table(), "rankings": [bar.ranked() for bar in bars]}
+    record, certified = found.record(), found.status is Status.CONVERGED
     if power:
         record["power_account"] = power_account(found.dataset)
-    if json:
-        print(json_format.dumps(record, indent=2, allow_nan=False))
-    else:
-        print_orbit(record, Console())
-        if influence and sensitivities:
-            print_report([Line(""), *influence_report(influence, bars)], Console())
-        for line in [*(film_lines(beat) if beat else []), *(spread_lines(spread, found) if spread else [])]:
-            print(line)
+    with answer() as given:
+        if not json:  # before sensitivities and error bars, which may take minutes
+            given.show(lambda: print_orbit(record, Console()))
+        influence = differentiate(found) if certified and (sensitivities or tornado) else None
+        bars = [] if influence is None else [influence.error_bar(name, fit) for name in influence.values]
+        spread = _spread(found, beat) if beat is not None and certified else None
+        if not json:
+            if influence and sensitivities:
+                given.show(lambda: print_report([Line(""), *influence_report(influence, bars)], Console()))
+            for line in [*(film_lines(beat) if beat else []), *(spread_lines(spread, found) if spread else [])]:
+                given.show(lambda line=line: print(line))
+        else:
+            if influence and sensitivities:
+                record |= {"sensitivities": influence.table(), "rankings": [bar.ranked() for bar in bars]}
+            if beat is not None:
+                record["kinematics"] = film_record(beat) | (spread_record(spread) if spread else {})
+            given.show(lambda: print(json_format.dumps(record, indent=2, allow_nan=False)))
+        given.save(output, found.save)
+        given.save(plot, lambda path: _draw(found, path))
+        if influence:
+            given.save(tornado, lambda path: _draw_influence(influence, path))
     return EXIT_GOOD if certified else EXIT_NOT_CERTIFIED
 
 
@@ -213,15 +212,18 @@ def _amplitude_bounds(animal: Species, most_deg: float | None) -> dict[str, tupl
     return {"flap_amplitude": (least, math.radians(most_deg))}
 
 
-def _influence(found: Orbit, model: ModelOptions, tornado: Path | None) -> tuple[Sensitivities, list[ErrorBar]]:
-    """Compute the sensitivities of an orbit, and draw the effects of its uncertain parameters."""
-    influence = differentiate(found)
-    if tornado is not None:
-        from wingbeat.plots import save_figure, tornado_page
+def _draw(found: Orbit, path: Path) -> None:
+    """Draw the page of an orbit."""
+    from wingbeat.plots import save_figure, wingbeat_page
 
-        save_figure(tornado_page(influence), tornado)
-    fit = model.fit()
-    return influence, [influence.error_bar(name, fit) for name in influence.values]
+    save_figure(wingbeat_page(found.dataset), path)
+
+
+def _draw_influence(influence: Sensitivities, path: Path) -> None:
+    """Draw the effects of an orbit's uncertain parameters."""
+    from wingbeat.plots import save_figure, tornado_page
+
+    save_figure(tornado_page(influence), path)
 
 
 def _spread(found: Orbit, beat: FilmedBeat) -> Spread:

@@ -8,6 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
@@ -89,10 +90,11 @@ def pareto(
         )
     record = front.record()
     certified = [point for point in record["points"] if point["objective_value"] is not None]
-    if plot and certified:
-        save_figure(pareto_page(record), plot)
-    if json:
-        print(json_format.dumps(record, indent=2, allow_nan=False))
-    else:
-        print_report(pareto_report(record), plain_console())
+    with answer() as given:
+        if json:
+            given.show(lambda: print(json_format.dumps(record, indent=2, allow_nan=False)))
+        else:
+            given.show(lambda: print_report(pareto_report(record), plain_console()))
+        if certified:
+            given.save(plot, lambda path: save_figure(pareto_page(record), path))
     return EXIT_GOOD if certified else EXIT_NOT_CERTIFIED

@@ -14,6 +14,8 @@ from cyclopts import Parameter
 from numpy.typing import NDArray
 
 from wingbeat.aero import CoefficientModel, load_coefficients, thin_aerofoil_lift, thin_aerofoil_moment
+from wingbeat.cli.answer import answer
+from wingbeat.cli.options import check_outputs
 from wingbeat.cli.ranges import parse_range
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.plots import check_figure_name, save_figure
@@ -59,18 +61,22 @@ def polar(
     coefficients = _collected(faults, lambda: load_coefficients(model, extension, blend_width_deg))
     faults.raise_if_any()
 
+    check_outputs(output)
     columns = polar_columns(coefficients, angles, about)
-    if output is not None:
-        save_figure(_figure(coefficients, angles, about), output)
-        print(f"wrote {output}", file=sys.stderr)
-    if json:
-        print(json_format.dumps(columns))
-    elif csv:
-        writer = csv_format.writer(sys.stdout, lineterminator="\n")
-        writer.writerow(columns)
-        writer.writerows(zip(*columns.values(), strict=True))
-    elif output is None:
-        _print_table(coefficients, columns, about)
+    with answer() as given:
+        if json:
+            given.show(lambda: print(json_format.dumps(columns)))
+        elif csv:
+            given.show(lambda: _print_csv(columns))
+        elif output is None:
+            given.show(lambda: _print_table(coefficients, columns, about))
+        given.save(output, lambda path: save_figure(_figure(coefficients, angles, about), path), named=True)
+
+
+def _print_csv(columns: Columns) -> None:
+    writer = csv_format.writer(sys.stdout, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows(zip(*columns.values(), strict=True))
 
 
 def _collected(faults: FaultList, door: Callable[[], Any]) -> Any:

@@ -13,6 +13,7 @@ from cyclopts import Parameter
 from rich.console import Console
 from rich.table import Table
 
+from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.carried import carried, report_carried
 from wingbeat.cli.filmed import DRAWS, Kinematics, film_lines, film_record, plus_minus
@@ -121,12 +122,11 @@ def simulate(
                 faults.raise_if_any()
             check_outputs(output, plot_kinematics)
             flown, errors = carried(beat, animal, whole.aero, given, beats, samples)
-            if output:
-                flown.save(output)
-            if plot_kinematics:
-                save_figure(film_page(beat), plot_kinematics)
-            report_carried(flown, errors, beat, json)
-            _warn(flown.model, wingbeat, reach)
+            with answer() as told:
+                told.show(lambda: report_carried(flown, errors, beat, json))
+                _warn(flown.model, wingbeat, reach)
+                told.save(output, flown.save)
+                told.save(plot_kinematics, lambda path: save_figure(film_page(beat), path))
             return EXIT_GOOD
         start = State(u=10.0)._replace(**disturbed)
         velocity = float(start.u), float(start.w)
@@ -134,22 +134,23 @@ def simulate(
     check_outputs(output, plot_kinematics)
     wind = wind_of(gust, turbulence, wind_seed, math.hypot(start.u, start.w))
     flight = fly(flown_by, wingbeat, start, beats, samples, wind=wind, species=animal)
-    if output:
-        flight.save(output)
-    if plot_kinematics and beat:
-        save_figure(film_page(beat), plot_kinematics)
     rows = beat_rows(flight, samples)
     if beat is not None:
         for row, error in zip(rows, _errors(flight, beat, beats, samples, wind), strict=True):
             row["mean_power_se"] = error
-    if json:
-        film = {} if beat is None else {"kinematics": film_record(beat)}
-        print(json_format.dumps({"completed": flight.completed, "beats": rows} | film, indent=2, allow_nan=False))
-    else:
-        _print(rows, flight.completed)
-        for line in film_lines(beat) if beat else []:
-            print(line)
-    _warn(flown_by, wingbeat, reach)
+    with answer() as told:
+        if json:
+            record = {"completed": flight.completed, "beats": rows}
+            record |= {} if beat is None else {"kinematics": film_record(beat)}
+            told.show(lambda: print(json_format.dumps(record, indent=2, allow_nan=False)))
+        else:
+            told.show(lambda: _print(rows, flight.completed))
+            for line in film_lines(beat) if beat else []:
+                told.show(lambda line=line: print(line))
+        _warn(flown_by, wingbeat, reach)
+        told.save(output, flight.save)
+        if beat is not None:
+            told.save(plot_kinematics, lambda path: save_figure(film_page(beat), path))
     return EXIT_GOOD if flight.completed else EXIT_NOT_CERTIFIED
 
 

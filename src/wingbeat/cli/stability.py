@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
@@ -134,23 +135,26 @@ def stability(
         first = model.problem(source, speeds[0], set_, **asked)
         orbits = _solve([first, *(first.at_speed(one) for one in speeds[1:])], starts, seed)
     answers = [_answer(orbit, inputs, height, jumps) for orbit in orbits]
-    found = [answer for answer in answers if "modes" in answer]
+    found = [one for one in answers if "modes" in one]
     certified = [orbit for orbit in orbits if orbit.status is Status.CONVERGED]
     causes = [stability_sensitivities(orbit) if sensitivities else None for orbit in certified]
     for record, cause in zip(found, causes, strict=True):
         if cause is not None:
             record["sensitivities"] = cause.record()
-    if mode is not None and output is not None and certified:
-        linearise(certified[0], inputs, smooth=not jumps).mode_flight(mode).save(output)
-    if plot and found:
-        save_figure(stability_page(found), plot)
-    if json:
-        print(json_format.dumps(answers if len(answers) > 1 else answers[0], indent=2, allow_nan=False))
-    else:
-        _print(found, causes)
-    for answer in answers:
-        if "modes" not in answer:
-            print(f"{answer['speed']:g} m/s: {answer['status']}: {answer['message']}", file=sys.stderr)
+    for one in answers:
+        if "modes" not in one:
+            print(f"{one['speed']:g} m/s: {one['status']}: {one['message']}", file=sys.stderr)
+    with answer() as given:
+        if json:
+            told = answers if len(answers) > 1 else answers[0]
+            given.show(lambda: print(json_format.dumps(told, indent=2, allow_nan=False)))
+        else:
+            given.show(lambda: _print(found, causes))
+        if mode is not None and certified:
+            flown = linearise(certified[0], inputs, smooth=not jumps)
+            given.save(output, lambda path: flown.mode_flight(mode).save(path))
+        if found:
+            given.save(plot, lambda path: save_figure(stability_page(found), path))
     return EXIT_GOOD if found else EXIT_NOT_CERTIFIED
 
 

@@ -9,6 +9,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
@@ -79,12 +80,12 @@ def terms(
     with progress_bar(f"{problem.species.name} at each share of the terms") as progress:
         found = trace_terms(problem, row, starts, seed, progress)
     record = found.record()
-    if plot:
-        save_figure(terms_page(record), plot)
-    if json:
-        print(json_format.dumps(record, indent=2, allow_nan=False))
-    else:
-        _print(record)
+    with answer() as given:
+        if json:
+            given.show(lambda: print(json_format.dumps(record, indent=2, allow_nan=False)))
+        else:
+            given.show(lambda: _print(record))
+        given.save(plot, lambda path: save_figure(terms_page(record), path))
     return EXIT_GOOD if found_any(found) else EXIT_NOT_CERTIFIED
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import json as json_format
-import sys
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
 from wingbeat.aero import EXTENSIONS
+from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD
 from wingbeat.cli.options import Whole, check_files, check_outputs
 from wingbeat.cli.printing import print_report
@@ -17,7 +17,7 @@ from wingbeat.cli.streams import plain_console
 from wingbeat.cli.whole_flights import is_whole_flights, validate_flights
 from wingbeat.errors import FaultList
 from wingbeat.files import write_atomically
-from wingbeat.measured_motion import read_strip_case, shipped_cases
+from wingbeat.measured_motion import Validation, read_strip_case, shipped_cases
 from wingbeat.measured_motion import validate as validated
 from wingbeat.measured_motion.page import validation_text
 from wingbeat.measured_motion.report import validation_report
@@ -116,26 +116,29 @@ def validate(
     check_outputs(output, plot, *pictures)
     factor = 1.2 if induced_factor is None else induced_factor
     found = [validated(one, aero, unsteady, inflow, factor, extension) for one in cases]
-    if plot is not None:
-        save_figure(validation_page(found[0]), plot)
-    for picture, one in zip(pictures, found, strict=False):
-        save_figure(validation_page(one), picture)
-    if output is not None:
-        write_atomically(output, validation_text(found, [picture.name for picture in pictures]))
+    with answer() as given:
+        given.show(lambda: _print(found, case is None, json))
+        given.save(plot, lambda path: save_figure(validation_page(found[0]), path), named=True)
+        if output is not None:
+            page = validation_text(found, [picture.name for picture in pictures])
+            given.save(output, lambda path: write_atomically(path, page), named=True)
+        for picture, one in zip(pictures, found, strict=False):
+            given.save(picture, lambda path, one=one: save_figure(validation_page(one), path), named=True)
+    return EXIT_GOOD
+
+
+def _print(found: list[Validation], every: bool, json: bool) -> None:
+    """Print the comparisons; after those of every case of the package, the animals with measured flights."""
     if json:
         said = [one.to_dict() for one in found]
-        listed = {"cases": said, "whole_flights": measured_animals()}
-        print(json_format.dumps(said[0] if case is not None else listed, indent=2, allow_nan=False))
-    else:
-        for one in found:
-            print_report(validation_report(one), plain_console())
-        if case is None:
-            animals = ", ".join(measured_animals())
-            plain_console().print(f"For `wingbeat validate ANIMAL`, animals with measured whole flights: {animals}")
-    for path in (plot, output, *pictures):
-        if path is not None:
-            print(f"wrote {path}", file=sys.stderr)
-    return EXIT_GOOD
+        listed = {"cases": said, "whole_flights": measured_animals()} if every else said[0]
+        print(json_format.dumps(listed, indent=2, allow_nan=False))
+        return
+    for one in found:
+        print_report(validation_report(one), plain_console())
+    if every:
+        animals = ", ".join(measured_animals())
+        plain_console().print(f"For `wingbeat validate ANIMAL`, animals with measured whole flights: {animals}")
 
 
 def _slug(name: str) -> str:

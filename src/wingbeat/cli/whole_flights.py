@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json as json_format
-import sys
 from pathlib import Path
 from typing import Any
 
+from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import check_outputs
 from wingbeat.cli.printing import print_report
@@ -48,19 +48,17 @@ def validate_flights(
     processes = max(1, min(core_count(), draws // _WORTH_A_PROCESS))
     with progress_bar("flights") as progress:
         found = predict_flights(flights, model, draws, seed, processes, progress)
-    for path in (plot, picture):
-        if path is not None:
-            save_figure(flights_page(found), path)
-    if output is not None and picture is not None:
-        name = load_species(flights.species).common_name
-        write_atomically(output, flight_text(found, picture.name, name or flights.species))
-    if json:
-        print(json_format.dumps(plain_flights(found), indent=2, allow_nan=False))
-    else:
-        print_report(prediction_report(found), plain_console())
-    for path in (plot, output, picture):
-        if path is not None:
-            print(f"wrote {path}", file=sys.stderr)
+    with answer() as given:
+        if json:
+            given.show(lambda: print(json_format.dumps(plain_flights(found), indent=2, allow_nan=False)))
+        else:
+            given.show(lambda: print_report(prediction_report(found), plain_console()))
+        given.save(plot, lambda path: save_figure(flights_page(found), path), named=True)
+        if output is not None and picture is not None:
+            name = load_species(flights.species).common_name
+            text = flight_text(found, picture.name, name or flights.species)
+            given.save(output, lambda path: write_atomically(path, text), named=True)
+            given.save(picture, lambda path: save_figure(flights_page(found), path), named=True)
     return EXIT_GOOD if any(one.values for one in found.flown) else EXIT_NOT_CERTIFIED
 
 

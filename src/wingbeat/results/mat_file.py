@@ -1,7 +1,7 @@
 """A result as a MATLAB file: each series is a variable of its own shape; units, meanings, results are structs.
 
-SciPy writes names that MATLAB cannot read, and leaves out a field whose name begins with an underscore. So names are
-checked here: a table with such a name becomes a list of names and values.
+SciPy writes names that MATLAB cannot read, and leaves out a field whose name begins with an underscore. So names
+are checked here: a table with such a name becomes a list of names and values.
 """
 
 from __future__ import annotations
@@ -22,8 +22,10 @@ if TYPE_CHECKING:
 # A name that MATLAB accepts, of at most `namelengthmax` characters, and the words of its language (`iskeyword`).
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,62}")
 _KEYWORDS = frozenset(
-    ("break", "case", "catch", "classdef", "continue", "else", "elseif", "end", "for", "function", "global", "if")
-    + ("otherwise", "parfor", "persistent", "return", "spmd", "switch", "try", "while")
+    (
+        *("break", "case", "catch", "classdef", "continue", "else", "elseif", "end", "for", "function", "global"),
+        *("if", "otherwise", "parfor", "persistent", "return", "spmd", "switch", "try", "while"),
+    )
 )
 
 

@@ -52,5 +52,5 @@ def test_a_table_that_only_mentions_a_program_is_read(tmp_path):
 @pytest.mark.parametrize("second", ["speed = 5", "Speed [m/s] = 5", "SPEED(m/s) = 4"])
 def test_a_constant_given_twice_in_any_spelling_is_refused(tmp_path, second):
     (tmp_path / "twice.csv").write_text(f"# speed = 4\n# {second}\na,b\n1,2\n")
-    with pytest.raises(wb.InvalidInputError, match="row 2 = .*: appears twice"):
+    with pytest.raises(wb.InvalidInputError, match=r"row 2 = .*: appears twice"):
         read_sheet(tmp_path / "twice.csv")

@@ -11,6 +11,9 @@ from wingbeat.errors import FaultList
 REQUIRED = ("alpha_deg", "c_l", "c_d")
 OPTIONAL = ("x_cp",)
 MIN_ROWS = 4
+# What a wing can have. Sections with slotted flaps reach a lift coefficient of about 4.5, and a plate across the
+# flow has a drag coefficient of about 2. The centre of pressure is in chords from the leading edge.
+MAX_LIFT, MAX_DRAG, CENTRE_RANGE = 5.0, 5.0, (-1.0, 2.0)
 
 Where = Callable[[int, str], str]
 
@@ -31,6 +34,42 @@ def numbers(faults: FaultList, cells: Sequence[Any], where: Callable[[int], str]
                 number = math.nan
         values.append(number)
     return values
+
+
+def check_possible(faults: FaultList, quantity: str, values: Sequence[float], where: Callable[[int], str]) -> None:
+    """Note one fault, at the worst row, if a column holds coefficients that no wing has.
+
+    Parameters
+    ----------
+    faults : collects the fault.
+    quantity : "c_l", "c_d" or "x_cp", in either case; other quantities have no limits.
+    values : the column; values that are not finite are left to other checks.
+    where : names a row of it.
+    """
+    name = quantity.lower()
+    limits = {"c_l": (-MAX_LIFT, MAX_LIFT), "c_d": (0.0, MAX_DRAG), "x_cp": CENTRE_RANGE}
+    if name not in limits:
+        return
+    low, high = limits[name]
+    given = [(value, i) for i, value in enumerate(values) if math.isfinite(value)]
+    bad = [(v, i) for v, i in given if not low <= v <= high or (name == "c_d" and v == 0)]
+    if not bad:
+        return
+    worst, row = max(bad, key=lambda pair: max(low - pair[0], pair[0] - high))
+    usual = sorted(abs(value) for value, _ in given)[len(given) // 2]
+    if name == "x_cp":
+        rule = f"must lie between {low:g} and {high:g} chords from the leading edge"
+        fix = "where the force is nearly zero it has no centre: give a value from a neighbouring row"
+        fix = "the column looks like per cent of the chord: divide it by 100" if usual > high else fix
+    elif name == "c_d" and worst <= 0:
+        rule = "must be > 0: every wing has drag, and drag is measured against the motion"
+        reversed_ = all(value <= 0 for value, _ in given)
+        fix = "reverse its sign" if reversed_ and worst < 0 else "check the zero of the balance, or drop the row"
+    else:
+        rule = f"must lie between {low:g} and {high:g}: no wing has more"
+        counts = name == "c_d" and usual > 2 * high
+        fix = "the column looks like drag counts: divide it by 10000" if counts else "give it without a unit"
+    faults.add(where(row), worst, rule + (f" ({len(bad)} of {len(values)} rows)" if len(bad) > 1 else ""), fix)
 
 
 def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Where) -> None:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import os
 import sqlite3
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from wingbeat.errors import FileError
+from wingbeat.errors import FileError, WingbeatError, first_line
 from wingbeat.studies.pages import whole_answers
 
 # A mark in the file's head, by which the program `file` and we recognise a store: "wbst".
@@ -26,6 +28,10 @@ CREATE TABLE points (key TEXT PRIMARY KEY, status TEXT NOT NULL, base TEXT NOT N
     run_worker TEXT NOT NULL, run_attempt INTEGER NOT NULL, run_number INTEGER NOT NULL, digest BLOB NOT NULL);
 CREATE INDEX points_status ON points (key, status, run_number);
 """
+
+
+# Databases that this process has open, by device and inode, with the number of connections.
+_OPEN: Counter[tuple[int, int]] = Counter()
 
 
 class DamagedStoreError(FileError):
@@ -56,12 +62,44 @@ def connect_reader(path: Path) -> sqlite3.Connection:
 
 
 @contextmanager
-def closing(connection: sqlite3.Connection) -> Iterator[sqlite3.Connection]:
-    """Close a connection at the end of a block, whatever happens in it."""
+def closing(connection: sqlite3.Connection, path: Path) -> Iterator[sqlite3.Connection]:
+    """Close the connection to a database at the end of a block, whatever happens in it."""
+    identity = identity_of(path) or (0, 0)
+    _OPEN[identity] += 1
     try:
         yield connection
     finally:
         connection.close()
+        _OPEN[identity] -= 1
+
+
+def identity_of(path: Path) -> tuple[int, int] | None:
+    """Return device and inode of a file, which its names share; None if there is no file."""
+    try:
+        found = os.stat(path)
+    except OSError:
+        return None
+    return found.st_dev, found.st_ino
+
+
+def unused_name(path: Path, word: str) -> Path:
+    """Return an unused name beside a store, which ends in a word, so that files put aside earlier are kept."""
+    number = 1
+    while True:
+        aside = path.with_name(f"{path.name}.{word}" + (f"-{number}" if number > 1 else ""))
+        if not any(os.path.lexists(f"{aside}{end}") for end in ("", "-wal")):
+            return aside
+        number += 1
+
+
+def is_open_here(path: Path) -> bool:
+    """Return whether this process has a database open, so that it must not read the file itself.
+
+    If a process closes any handle of a file, POSIX drops all locks of the process on this file, those of SQLite
+    too. Another process then takes the log for one that nobody uses and deletes it, with the results in it
+    (https://www.sqlite.org/howtocorrupt.html, section 2.2).
+    """
+    return _OPEN[identity_of(path) or (0, 0)] > 0
 
 
 def refusal(path: Path, reason: str) -> DamagedStoreError:
@@ -78,6 +116,23 @@ def refusal(path: Path, reason: str) -> DamagedStoreError:
         f"the store {str(path)!r} is damaged ({reason}); nothing was deleted; run `wingbeat study salvage`, which "
         f"keeps the {count} intact results in a new store, or restore a copy"
     )
+
+
+@contextmanager
+def in_use(path: Path) -> Iterator[None]:
+    """Turn an error in the use of a store's content into a `FileError`: its digests match, but no study wrote it.
+
+    Raises
+    ------
+    FileError : in place of any error that is neither wingbeat's nor SQLite's.
+    """
+    try:
+        yield
+    except (WingbeatError, sqlite3.Error):
+        raise
+    except Exception as error:  # whatever can be wrong with what somebody wrote into a file
+        told, fix = first_line(error)[:200], "move it away, and run the study again"
+        raise FileError(f"the store {str(path)!r} holds what no study writes ({told}); {fix}") from None
 
 
 @contextmanager

@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from wingbeat.studies.engine import Ended, Engine
-from wingbeat.studies.store import Store, Waiting
-from wingbeat.studies.units import CERTIFIED, FAILED, Outcome, Unit, failed
+from wingbeat.studies.store import Store
+from wingbeat.studies.units import CERTIFIED, FAILED, Outcome, Unit, Waiting, failed
 
 # Seconds of work in a batch: much longer than handing it out takes, but short for a waiting user.
 _BATCH_SECONDS = 1.5

@@ -1,8 +1,14 @@
-"""Objectives of a study: names that wingbeat knows, or a function in a Python file, ``mine.py:mean_lift``."""
+"""Objectives of a study: names that wingbeat knows, or a function in a Python file, ``mine.py:mean_lift``.
+
+The code that runs is always what `as_inputs` has just read from the user's file. A store holds only its digest, and
+nothing that a store holds is run.
+"""
 
 from __future__ import annotations
 
 import functools
+import hashlib
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +20,7 @@ _MARK = ".py:"
 
 
 def as_inputs(text: str, folder: Path) -> dict[str, str]:
-    """Return inputs that restore an objective on any machine; a function's file is included as text.
+    """Return inputs from which a worker makes an objective; a function's file is included as text.
 
     Raises
     ------
@@ -26,6 +32,36 @@ def as_inputs(text: str, folder: Path) -> dict[str, str]:
     found = {"name": name, "file": Path(file).name, "code": read_text(folder / file)}
     from_inputs(found)
     return found
+
+
+def described(inputs: Mapping[str, str]) -> dict[str, str]:
+    """Return what a store may hold of the inputs of an objective: the digest of the code instead of the code.
+
+    >>> described({"name": "lift", "file": "mine.py", "code": "def lift(beat): ..."})["digest"][:8]
+    '8e1f8275'
+    """
+    kept = {key: value for key, value in inputs.items() if key != "code"}
+    return kept | ({"digest": hashlib.sha256(inputs["code"].encode()).hexdigest()} if "code" in inputs else {})
+
+
+def changed_code(ours: Iterable[Mapping[str, str]], kept: Iterable[Mapping[str, Any]]) -> str:
+    """Return in words which functions of a study's files differ from those that a store's points were made with.
+
+    Parameters
+    ----------
+    ours : inputs of the study's objectives, in the form of `as_inputs`.
+    kept : inputs of the bases in the store, in the form of `Recipe.described`.
+    """
+    theirs = [described(inputs["objective"]) for inputs in kept]
+    changed = {
+        f"{one['file']}:{one['name']}"
+        for one in map(described, ours)
+        if "digest" in one
+        and one not in theirs
+        and any((one["file"], one["name"]) == (other.get("file"), other.get("name")) for other in theirs)
+    }
+    rule = "differs from the one that they were made with"
+    return "".join(f": the objective {what} {rule}" for what in sorted(changed))
 
 
 def named(text: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import json
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,11 +18,12 @@ from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, pa
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.aero_record import aero_from
+from wingbeat.results.orbit import Orbit
 from wingbeat.results.provenance import inputs_of, species_from
 from wingbeat.species import Species
 from wingbeat.species.settings import NO_SUCH_PATH, settable
 from wingbeat.species_schema import KEYS, Key, shown, spoken
-from wingbeat.studies.objective import from_inputs
+from wingbeat.studies.objective import described, from_inputs
 
 # Every point has values of these, whatever is varied; the limit of the payload is that of `Species.with_payload`.
 MOTION = {"speed": SPEED_LIMITS, "climb": CLIMB_LIMITS, "payload": {"at_least": 0.0, "unit": plain_unit("payload")}}
@@ -153,7 +155,10 @@ class Recipe:
         return [*MOTION, *own, *_CHOICES, *(p for p in found if p not in _CHOICES), *ends]
 
     def inputs(self) -> dict[str, Any]:
-        """Return everything as a dictionary fit for JSON, from which `recipe_from` makes the same recipe."""
+        """Return everything as a dictionary fit for JSON, from which a worker makes the same recipe.
+
+        It holds the code of a user's objective: `recipe_from` must never get what was read from a store.
+        """
         told = inputs_of(OrbitProblem(self.species, 10.0, aero=self.aero, minimise="mean_power"), 1, 0)
         kept = {name: told[name] for name in ("species", "vehicle", "stock_wingbeat", "aero", "air")}
         return kept | {
@@ -163,6 +168,20 @@ class Recipe:
             "subject_to": list(self.subject_to),
             "search": self.search,
         }
+
+    def described(self) -> dict[str, Any]:
+        """Return what a store holds of the inputs: everything but the code of a user's objective."""
+        return self.inputs() | {"objective": described(self.objective)}
+
+    def orbit(self, changes: str, record: str) -> Orbit:
+        """Return the orbit of a point that a store holds.
+
+        Parameters
+        ----------
+        changes, record : JSON texts of the store.
+        """
+        problem = self.problem(json.loads(changes))
+        return Orbit.of_record(json.loads(record), problem, starts_of(self, problem), int(self.search["seed"]))
 
 
 def _listed(bounds: dict[str, tuple[float, float]] | str) -> dict[str, list[float]] | str:

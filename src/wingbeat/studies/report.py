@@ -62,4 +62,5 @@ def _in_words(row: dict[str, Any]) -> str:
         for name, value in row.items()
         if name not in ("status", "reason")
     )
-    return ": ".join(part for part in (row["status"], where, row["reason"]) if part)
+    text = ": ".join(part for part in (row["status"], where, row["reason"]) if part)
+    return "".join(sign if sign.isprintable() else repr(sign)[1:-1] for sign in text)

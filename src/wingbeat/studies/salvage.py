@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from wingbeat.errors import FileError, system_reason
-from wingbeat.studies.database import DamagedStoreError
+from wingbeat.studies.database import DamagedStoreError, unused_name
 from wingbeat.studies.pages import whole_answers
 from wingbeat.studies.plan import Plan
 from wingbeat.studies.store import Store
@@ -52,7 +52,7 @@ def salvage(path: Path, plan: Plan) -> Salvaged:
         rows = whole_answers(path)
         if not rows:
             raise
-    fresh, aside = path.with_name(path.name + ".new"), _free(path)
+    fresh, aside = path.with_name(path.name + ".new"), unused_name(path, "damaged")
     try:
         _remove(fresh)
         with Store.open(fresh) as store:
@@ -79,13 +79,3 @@ def _remove(path: Path) -> None:
     for end in (*_ENDS, "-shm"):
         with suppress(FileNotFoundError):
             os.unlink(f"{path}{end}")
-
-
-def _free(path: Path) -> Path:
-    """Return an unused name for the damaged store, so that stores put aside earlier are kept."""
-    number = 1
-    while True:
-        aside = path.with_name(f"{path.name}.damaged" + (f"-{number}" if number > 1 else ""))
-        if not any(os.path.exists(f"{aside}{end}") for end in _ENDS):
-            return aside
-        number += 1

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.errors import FileError, system_reason
-from wingbeat.studies.database import APPLICATION, FORM, TABLES, refusal
+from wingbeat.studies.database import APPLICATION, FORM, TABLES, is_open_here, refusal
 from wingbeat.studies.digests import Fingerprint, about_digest, row_digest, table_digest
 from wingbeat.studies.lock import is_locked
 from wingbeat.studies.pages import PAGE, log_fault, whole_answers
@@ -47,6 +47,8 @@ def check_files(path: Path, mine: bool) -> None:
     fault = log_fault(path)
     if fault is not None and not mine:  # perhaps a driver was just writing: look again if no driver is running
         fault = None if is_locked(path) else log_fault(path)
+    if fault is None and is_open_here(path):  # it was checked when it was opened
+        return
     try:
         with open(path, "rb") as file:
             head = file.read(100)

@@ -13,23 +13,29 @@ from typing import Any, NamedTuple
 
 from wingbeat._version import NUMERICAL_VERSION, __version__
 from wingbeat.errors import FileError
-from wingbeat.studies.database import APPLICATION, FORM, TABLES, closing, connect, connect_reader, in_words
+from wingbeat.studies.database import (
+    APPLICATION,
+    FORM,
+    TABLES,
+    closing,
+    connect,
+    connect_reader,
+    in_use,
+    in_words,
+    refusal,
+)
 from wingbeat.studies.digests import POINT_COLUMNS, Fingerprint, about_digest, row_digest
+from wingbeat.studies.lock import Lock
 from wingbeat.studies.pages import PAGE
 from wingbeat.studies.plan import Plan
+from wingbeat.studies.recipe import Recipe
 from wingbeat.studies.soundness import PLAN_TABLES, check_contents, check_files, digest_of, read_about
-from wingbeat.studies.units import FAILED, Outcome, Task, Unit
+from wingbeat.studies.units import FAILED, Outcome, Task, Unit, Waiting
+from wingbeat.studies.watch import Watch
 
 _FAILED = "(" + ", ".join(f"'{status}'" for status in FAILED) + ")"
 _INSERT = f"INSERT OR REPLACE INTO points VALUES ({', '.join('?' * len(POINT_COLUMNS))})"
 _CHUNK = 500
-
-
-class Waiting(NamedTuple):
-    """A unit that waits to be solved, and which of its points are wanted."""
-
-    unit: Unit
-    wanted: tuple[str, ...]
 
 
 class Row(NamedTuple):
@@ -50,17 +56,27 @@ class Row(NamedTuple):
 
 
 class Store:
-    """A store, open for one driver, or for reading; use `Store.open` and `Store.read`."""
+    """A store, open for one driver, or for reading; use `Store.open` and `Store.read`.
 
-    def __init__(self, path: Path, connection: sqlite3.Connection) -> None:
+    Parameters
+    ----------
+    path : of the file itself, not of a symbolic link to it, because its log is beside it.
+    connection : to it.
+    lock : the store's lock, if this process is to check that it still has it.
+    """
+
+    def __init__(self, path: Path, connection: sqlite3.Connection, lock: Lock | None = None) -> None:
         self.path = path
         self._connection = connection
         self._about = read_about(connection)
-        self._last = (-1, "")
+        self._recipes: dict[str, Recipe] = {}
+        self._last = ("", "")
+        self._watch = Watch(path, connection, lock)
+        self._run: str | None = None
 
     @classmethod
     @contextmanager
-    def open(cls, path: Path) -> Iterator[Store]:
+    def open(cls, path: Path, lock: Lock | None = None) -> Iterator[Store]:
         """Open a store for its only writer; create the store if there is none.
 
         Raises
@@ -68,7 +84,7 @@ class Store:
         FileError : the store cannot be written, is damaged, is not a store, or is of another numerical version.
         """
         begun = cls.is_begun(path, mine=True)
-        with in_words(path), closing(connect(path, "mode=rwc")) as connection:
+        with in_words(path), closing(connect(path, "mode=rwc"), path) as connection:
             if begun:
                 check_contents(connection, path)
             else:
@@ -77,7 +93,7 @@ class Store:
             connection.execute("PRAGMA synchronous = FULL")
             if not begun:
                 connection.executescript(f"BEGIN; PRAGMA application_id = {APPLICATION}; {TABLES}")
-            store = cls(path, connection)
+            store = cls(path, connection, lock)
             if not begun:
                 store._note(form=FORM, numerical_version=NUMERICAL_VERSION, made_by=__version__, runs=0)
                 connection.execute("COMMIT")
@@ -107,7 +123,7 @@ class Store:
         # If a driver was killed before it had made its tables, the file has only the page of the head.
         if path.stat().st_size > PAGE:
             return True
-        with in_words(path), closing(connect_reader(path)) as connection:
+        with in_words(path), closing(connect_reader(path), path) as connection:
             return connection.execute("SELECT name FROM sqlite_master LIMIT 1").fetchone() is not None
 
     @classmethod
@@ -122,9 +138,10 @@ class Store:
         """
         if not cls.is_begun(path):
             raise FileError(f"there is no store {str(path)!r} yet; run the study first")
-        with in_words(path), closing(connect_reader(path)) as connection:
+        with in_words(path), closing(connect_reader(path), path) as connection:
             check_contents(connection, path)
-            yield cls(path, connection)
+            with in_use(path):
+                yield cls(path, connection)
 
     def _note(self, **about: Any) -> None:
         """Write the store's information about itself, with its digest, inside the caller's transaction."""
@@ -136,11 +153,15 @@ class Store:
 
     @contextmanager
     def _writing(self) -> Iterator[None]:
-        """Make a block one transaction: either all its changes are kept, or none."""
+        """Make a block one transaction: either all its changes are kept, or none.
+
+        It begins with what the store now says about itself. If two drivers write by some fault, both results stay.
+        """
         before = self._about
         try:
             with in_words(self.path), self._connection:
                 self._connection.execute("BEGIN IMMEDIATE")
+                self._about = read_about(self._connection)
                 yield
         except BaseException:
             self._about = before
@@ -148,9 +169,10 @@ class Store:
 
     def begin_run(self) -> int:
         """Increase the count of runs, and return the new run's number."""
-        run = int(self._about["runs"]) + 1
         with self._writing():
+            run = int(self._about["runs"]) + 1
             self._note(runs=run)
+        self._run = str(run)
         return run
 
     @property
@@ -160,14 +182,15 @@ class Store:
 
     def set_plan(self, plan: Plan) -> None:
         """Store the points of a plan in place of the previous plan's points; results are kept."""
+        self._recipes = {base.hash: base.recipe for base in plan.bases}
         if self.digest == plan.digest:
             return
         connection = self._connection
         with self._writing():
             for table in ("plan", "plan_bases"):
                 connection.execute(f"DELETE FROM {table}")
-            inputs = ((base.hash, json.dumps(base.recipe.inputs())) for base in plan.bases)
-            connection.executemany("INSERT OR IGNORE INTO bases VALUES (?, ?)", inputs)
+            inputs = ((base.hash, json.dumps(base.recipe.described())) for base in plan.bases)
+            connection.executemany("INSERT OR REPLACE INTO bases VALUES (?, ?)", inputs)
             told = ((i, base.hash, json.dumps(base.told)) for i, base in enumerate(plan.bases))
             connection.executemany("INSERT INTO plan_bases VALUES (?, ?, ?)", told)
             points = (
@@ -185,7 +208,8 @@ class Store:
 
         Raises
         ------
-        FileError : the disk is full or gone.
+        FileError : the disk is full or gone; or others have deleted or replaced the store, or run the study, too.
+            The outcomes are then saved first if they can be, and the message says where.
         """
         question = (
             "SELECT b.hash, p.changes FROM plan p JOIN plan_bases b USING (base) LEFT JOIN points q USING (key) "
@@ -198,6 +222,10 @@ class Store:
                     told = (*asked, o.record, o.certificate, o.text, float(o.seconds), time.time())
                     rows.append((o.key, o.status, *told, worker, attempt, run))
             self._keep((*row, row_digest(row)) for row in rows)
+        self._watch.check()
+        if self._run not in (None, self._about["runs"]):
+            again = "all results so far are in the store; let the other end, and run the study again"
+            raise FileError(f"another process has begun to run the study of {str(self.path)!r}; {again}")
 
     def restore(self, rows: Iterable[tuple[Any, ...]]) -> None:
         """Write rows of the table ``points`` that were read from another store's pages."""
@@ -216,7 +244,9 @@ class Store:
         self._note(points=held)
 
     def waiting(self, retry_before: int = 0) -> Iterator[Waiting]:
-        """Yield the units that contain points without a result, in the order of the plan.
+        """Yield the units that contain points without a result, in the order of the plan that was set.
+
+        Their recipes are the plan's and never the store's, because a recipe may hold a user's code.
 
         Parameters
         ----------
@@ -236,8 +266,9 @@ class Store:
             tail = "" if chained else "LIMIT ?"
             with in_words(self.path):
                 rows = self._connection.execute(
-                    f"SELECT p.unit, p.key, p.changes, p.base, {missing} FROM plan p "
-                    f"LEFT JOIN points q USING (key) WHERE {condition} ORDER BY p.ordinal {tail}",
+                    f"SELECT p.unit, p.key, p.changes, b.hash, {missing} FROM plan p "
+                    f"JOIN plan_bases b USING (base) LEFT JOIN points q USING (key) "
+                    f"WHERE {condition} ORDER BY p.ordinal {tail}",
                     (last, 20 if chained else _CHUNK),
                 ).fetchall()
             if not rows:
@@ -246,16 +277,17 @@ class Store:
                 found = list(group)
                 wanted = [i for i, row in enumerate(found) if row[4]]
                 # In a chain, the points after the last wanted one are not needed.
-                tasks = tuple(Task(row[1], json.loads(row[2])) for row in found[: wanted[-1] + 1])
+                with in_use(self.path):
+                    tasks = tuple(Task(row[1], dict(json.loads(row[2]))) for row in found[: wanted[-1] + 1])
                 yield Waiting(Unit(self._inputs(found[0][3]), tasks), tuple(found[i][1] for i in wanted))
                 last = number
 
-    def _inputs(self, base: int) -> str:
+    def _inputs(self, base: str) -> str:
         """Return the inputs of a base as JSON; the last text is cached, because the next units often share it."""
+        if base not in self._recipes:
+            raise refusal(self.path, "its points are not those of the study")
         if base != self._last[0]:
-            question = "SELECT inputs FROM plan_bases JOIN bases USING (hash) WHERE base = ?"
-            with in_words(self.path):
-                self._last = base, self._connection.execute(question, (base,)).fetchone()[0]
+            self._last = base, json.dumps(self._recipes[base].inputs())
         return self._last[1]
 
     def counts(self) -> dict[str, int]:
@@ -276,10 +308,8 @@ class Store:
     def seconds(self) -> float | None:
         """Return the mean time of a point in this store [s], None if there is none."""
         with in_words(self.path):
-            question = (
-                "SELECT AVG(run_seconds) FROM (SELECT run_seconds FROM points WHERE run_seconds > 0 LIMIT 1000)"
-            )
-            return self._connection.execute(question).fetchone()[0]
+            some = "SELECT run_seconds FROM points WHERE run_seconds > 0 LIMIT 1000"
+            return self._connection.execute(f"SELECT AVG(run_seconds) FROM ({some})").fetchone()[0]
 
     def spent(self) -> float:
         """Return the computing time of the results of the plan's points, on one core [s]."""

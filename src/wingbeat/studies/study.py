@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
@@ -19,10 +18,10 @@ from wingbeat.species_schema import shown
 from wingbeat.studies.driver import Progress, Stop, Tally, drive, listening
 from wingbeat.studies.engine import Engine, LocalProcesses
 from wingbeat.studies.form import check_form, read_form
-from wingbeat.studies.lock import only_one
-from wingbeat.studies.objective import named
+from wingbeat.studies.lock import only_one, real_path
+from wingbeat.studies.objective import changed_code, named
 from wingbeat.studies.plan import Plan, make_plan
-from wingbeat.studies.recipe import MOTION, Recipe, recipe_from, starts_of
+from wingbeat.studies.recipe import MOTION
 from wingbeat.studies.report import ReportedStudy
 from wingbeat.studies.salvage import Salvaged, salvage
 from wingbeat.studies.store import Store
@@ -58,6 +57,7 @@ class Study(ReportedStudy):
     def __init__(self, plan: Plan, store: Path) -> None:
         self.plan = plan
         self.store = store
+        self._file = real_path(store.absolute())  # where the path leads, even if the working folder changes
 
     def __repr__(self) -> str:
         return f"<Study of {len(self)} points, store {str(self.store)!r}>"
@@ -74,8 +74,8 @@ class Study(ReportedStudy):
         waiting : number of points; by default those without a result, or all if the study changed since it ran.
         """
         each = None
-        if Store.is_begun(self.store):
-            with Store.read(self.store) as store:
+        if Store.is_begun(self._file):
+            with Store.read(self._file) as store:
                 each = store.seconds()
                 if waiting is None and store.digest == self.plan.digest:
                     waiting = store.counts().get("waiting", 0)
@@ -129,7 +129,7 @@ class Study(ReportedStudy):
         ------
         FileError : the store cannot be written, is damaged, in use, or of another numerical version.
         """
-        with only_one(self.store), Store.open(self.store) as store:
+        with only_one(self._file) as lock, Store.open(self._file, lock) as store:
             store.set_plan(self.plan)
         return self.status()
 
@@ -142,8 +142,8 @@ class Study(ReportedStudy):
         ------
         FileError : there is no store, it has no intact result, it is in use or cannot be written.
         """
-        with only_one(self.store):
-            return salvage(self.store, self.plan)
+        with only_one(self._file):
+            return salvage(self._file, self.plan)
 
     def run_on(
         self, engine: Engine, stop: Stop, retry_failed: bool = False, progress: Progress | None = None
@@ -157,7 +157,7 @@ class Study(ReportedStudy):
         retry_failed : try points again that failed before.
         progress : called with a tally whenever it changes.
         """
-        with closing(engine), only_one(self.store), Store.open(self.store) as store:
+        with closing(engine), only_one(self._file) as lock, Store.open(self._file, lock) as store:
             store.set_plan(self.plan)
             return drive(store, engine, stop, progress, retry_failed)
 
@@ -168,9 +168,9 @@ class Study(ReportedStudy):
         ------
         FileError : the store cannot be read.
         """
-        if not Store.is_begun(self.store):
+        if not Store.is_begun(self._file):
             return Summary(len(self), {"waiting": len(self)})
-        with Store.read(self.store) as store:
+        with Store.read(self._file) as store:
             counts = store.counts()
             changed = store.digest != self.plan.digest
             total = sum(counts.values())
@@ -184,7 +184,7 @@ class Study(ReportedStudy):
         ----------
         most : largest number of points to return.
         """
-        with Store.read(self.store) as store:
+        with Store.read(self._file) as store:
             bases = store.bases()
             return [
                 {**bases[row.base][0], **row.told, "status": row.status, "reason": row.error}
@@ -211,19 +211,21 @@ class Study(ReportedStudy):
         FileError : there is no store, it cannot be read, or holds the points of another study.
         """
         with self._answers() as store:
-            bases = [(told, recipe_from(inputs)) for told, inputs in store.bases()]
+            # The recipes are the plan's: one that was read from the store could hold code.
+            bases = [(told, base.recipe) for (told, _), base in zip(store.bases(), self.plan.bases, strict=True)]
             for row in store.rows():
                 told, recipe = bases[row.base]
-                yield {**told, **row.told}, None if row.record is None else _orbit(recipe, row.changes, row.record)
+                yield {**told, **row.told}, None if row.record is None else recipe.orbit(row.changes, row.record)
 
     @contextmanager
     def _answers(self) -> Iterator[Store]:
         """Open the store for reading; refuse it if it holds the points of another study."""
-        with Store.read(self.store) as store:
+        with Store.read(self._file) as store:
             if store.digest != self.plan.digest:
+                what = changed_code((b.recipe.objective for b in self.plan.bases), (i for _, i in store.bases()))
                 raise FileError(
                     f"the store {str(self.store)!r} holds the points of another study, or of this one before it "
-                    "was changed; run the study first; results that still apply are kept"
+                    f"was changed{what}; run the study first; results that still apply are kept"
                 )
             yield store
 
@@ -273,11 +275,6 @@ def _unit(name: str) -> str:
     """Return the unit of a quantity as axes of figures say it."""
     unit = plain_unit(name)
     return "-" if unit == "1" else unit
-
-
-def _orbit(recipe: Recipe, changes: str, record: str) -> Orbit:
-    problem = recipe.problem(json.loads(changes))
-    return Orbit.of_record(json.loads(record), problem, starts_of(recipe, problem), int(recipe.search["seed"]))
 
 
 def engine_for(processes: Any, timeout: Any, dask: Any, told: Callable[[str], None]) -> Engine:

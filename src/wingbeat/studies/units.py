@@ -35,6 +35,13 @@ class Unit(NamedTuple):
     skip: tuple[str, ...] = ()
 
 
+class Waiting(NamedTuple):
+    """A unit that waits to be solved, and which of its points are wanted."""
+
+    unit: Unit
+    wanted: tuple[str, ...]
+
+
 class Outcome(NamedTuple):
     """How one point ended.
 

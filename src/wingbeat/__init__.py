@@ -84,7 +84,6 @@ if TYPE_CHECKING:
     from wingbeat.results.power import power_account as power_account
     from wingbeat.results.sensitivities import Sensitivities as Sensitivities
     from wingbeat.results.sensitivities import sensitivities as sensitivities
-    from wingbeat.results.sensitivities import uncertainty_by_samples as uncertainty_by_samples
     from wingbeat.results.solving import solve_orbit as solve_orbit
     from wingbeat.results.solving import solve_orbits as solve_orbits
     from wingbeat.results.spread import Spread as Spread
@@ -92,6 +91,7 @@ if TYPE_CHECKING:
     from wingbeat.results.stable_share import StableShare as StableShare
     from wingbeat.results.terms import TermTrace as TermTrace
     from wingbeat.results.terms import trace_terms as trace_terms
+    from wingbeat.results.uncertainty import uncertainty_by_samples as uncertainty_by_samples
     from wingbeat.species import Species as Species
     from wingbeat.species import bat as bat
     from wingbeat.species import bird as bird
@@ -244,7 +244,7 @@ _HOME = {
     "stability_sensitivities": "stability.causes",
     "survey_gusts": "stability.gust_survey",
     "trace_terms": "results.terms",
-    "uncertainty_by_samples": "results.sensitivities",
+    "uncertainty_by_samples": "results.uncertainty",
     "validate": "measured_motion.comparison",
 }
 _MODULES = {

@@ -227,7 +227,7 @@ def test_the_page_shows_frames_spline_and_band():
 
 @pytest.mark.parametrize(
     ("value", "error", "text"),
-    [(25.1234, 0.812, "25.12 +- 0.81"), (183.4, 12.0, "183 +- 12"), (3.0, None, "3 +- ?")],
+    [(25.1234, 0.812, "25.1 +- 0.8"), (183.4, 12.0, "183 +- 12"), (3.0, None, "3 +- ?")],
 )
 def test_a_value_is_shown_to_its_error(value, error, text):
     assert plus_minus(value, error) == text

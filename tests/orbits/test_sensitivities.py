@@ -24,7 +24,8 @@ from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.sensitivity import OptimumSlopes
 from wingbeat.orbits.solve import correct_guess, find_orbit
-from wingbeat.results.sensitivities import Comparison, _compared, _of_fit
+from wingbeat.results.sensitivities import _of_fit
+from wingbeat.results.uncertainty import Comparison, _compared
 
 POWER = QUANTITIES["mean_positive_power"]
 SHARE = 0.005
@@ -155,6 +156,14 @@ def test_a_limit_that_binds_has_a_price():
     anew = (found[1].objective - found[0].objective) / (limits[1] - limits[0])
     assert optimum.by(limit).objective == pytest.approx(anew, rel=0.02)
     assert anew < 0
+    # What the limit set is no prediction: it has no error bar, neither to first order nor from draws.
+    slopes = wb.sensitivities(wb.Orbit.of(found[0], 2))
+    assert slopes.limited == {"mean_positive_power"} == found[0].limited
+    assert slopes.error_bar("mean_positive_power").set_by_limit
+    assert not slopes.error_bar("frequency").set_by_limit
+    compared = wb.uncertainty_by_samples(slopes, samples=10, share=0.02)
+    assert compared["frequency"].limited.share == 0.0
+    assert compared["mean_positive_power"].limited.in_words("W") == "set by the limit 46 W in 100 % of the samples"
 
 
 def test_turning_the_stroke_plane_or_thinning_the_honey_changes_nothing(pigeon):
@@ -289,12 +298,13 @@ def test_the_command_uncertainty_prints_both_ways(capsys, monkeypatch):
 
 def test_a_quantity_that_a_limit_holds_has_no_deviation(capsys):
     """Within plausible ranges each draw may have the largest frequency that is plausible."""
-    bar = ErrorBar("frequency", "Hz", 6.8, 0.0, 0.0, {})
+    bar = ErrorBar("frequency", "Hz", 6.8, 3e-13, 0.0, {"body.mass": 3e-13}, set_by_limit=True)
     drawn = wb.Samples(
         ("body.mass",),
         np.array([[-0.02], [0.0], [0.02]]),
         6.8 * (1 + np.array([[0.0], [5e-7], [-4e-7]])),
         np.ones(3, dtype=bool),
+        np.ones((3, 1), dtype=bool),
     )
     slope = types.SimpleNamespace(quantities={"frequency": 0.0})
     found = _compared(bar, drawn, 0, {"body.mass": slope})
@@ -305,7 +315,19 @@ def test_a_quantity_that_a_limit_holds_has_no_deviation(capsys):
         1.0,
     )
     _print(found, Console())
-    assert "6.8 +- 0 Hz" in capsys.readouterr().out
+    printed = capsys.readouterr().out
+    first, second = (" ".join(line.split()) for line in printed.splitlines())
+    assert first == "frequency, of the orbit 6.8 Hz; set by the limit, so it is no prediction and has no error bar"
+    assert second == "frequency, 3 of 3 certified set by the limit 6.8 Hz in 100 % of the samples"
+    assert bar.ranking == bar.ranked()["ranking"] == {}
+    varied = drawn._replace(quantities=np.array([[6.8], [6.8], [7.3]]))
+    for at, told in (
+        ([1, 1, 0], " set by the limit 6.8 Hz in 67 % of the samples, 7.3 Hz in the others\n"),
+        ([1, 0, 0], " 6.97 +- 0.29 Hz, set by the limit 6.8 Hz in 33 % of the samples\n"),
+    ):
+        some = varied._replace(at_limit=np.array(at, dtype=bool)[:, None])
+        _print(_compared(bar, some, 0, {"body.mass": slope}), Console())
+        assert told in capsys.readouterr().out
 
 
 def test_a_first_order_that_draws_do_not_bear_out_is_shown_as_a_ranking(capsys):
@@ -323,5 +345,5 @@ def test_a_first_order_that_draws_do_not_bear_out_is_shown_as_a_ranking(capsys):
     assert "deviation" not in plain["first_order"]
     right = wrong._replace(explained=0.97)
     _print(right, Console())
-    assert "6.99 +- 17 Hz" in capsys.readouterr().out
+    assert "7 +- 17 Hz" in capsys.readouterr().out
     assert _plain(right)["first_order"]["deviation"] == 17.0

@@ -148,7 +148,11 @@ def _ranking(one: dict[str, Any]) -> str:
     """Return what a quantity depends on most; a linear change over whole ranges gives no valid error bar."""
     unit = "" if one["unit"] == "1" else f" {one['unit']}"
     parts = ", ".join(f"{name} ({share:.0%})" for name, share in list(one["ranking"].items())[:3])
-    due = f"largest shares of the variance, to first order: {parts}" if parts else "no plausible ranges are known"
+    due = "no plausible range moves it"
+    if parts:
+        due = f"largest shares of the variance, to first order: {parts}"
+    elif one["set_by_limit"]:
+        due = "set by the limit, so it is no prediction and has no error bar"
     return f"{str(one['quantity']).replace('_', ' ')} {number(one['value'])}{unit}; {due}"
 
 

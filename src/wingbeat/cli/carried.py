@@ -100,10 +100,10 @@ def report_carried(flight: CarriedFlight, errors: Mapping[str, float | None], be
     print("the body moves as filmed; its motion is not integrated")
     for name, (label, series) in _NAMES.items():
         (factor, unit), error = for_people(NOMENCLATURE[series].unit), errors[name]
-        print(f"{label}: {plus_minus(factor * told[name], None if error is None else factor * error)} {unit}")
+        print(f"{label}: {plus_minus(factor * told[name], None if error is None else factor * error, unit)}")
     for name, (label, unit) in _MISSING.items():
-        mean = plus_minus(told[f"{name}_mean"], errors[f"{name}_mean"])
-        print(f"{label}: mean {mean} {unit}, rms {told[f'{name}_rms']:.3g}")
+        mean = plus_minus(told[f"{name}_mean"], errors[f"{name}_mean"], unit)
+        print(f"{label}: mean {mean}, rms {told[f'{name}_rms']:.3g}")
     short = told["missing_force_z_mean"]
     held = f"{1.0 - short:.0%} of the weight" if abs(short) > 0.005 else "the weight"
     print(f"on average the model's wings and body hold up {held}")

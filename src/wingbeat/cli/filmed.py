@@ -10,7 +10,7 @@ from cyclopts import Parameter
 
 from wingbeat.experiment import FilmedBeat
 from wingbeat.experiment.film import WHOLE
-from wingbeat.nomenclature import NOMENCLATURE, for_people, plain_unit
+from wingbeat.nomenclature import NOMENCLATURE, for_people, plain_unit, written
 from wingbeat.results.rows import power_label
 
 if TYPE_CHECKING:
@@ -52,36 +52,40 @@ def film_lines(beat: FilmedBeat) -> list[str]:
 def spread_record(spread: Spread) -> dict[str, Any]:
     """Return the standard errors of an orbit, fit for JSON."""
     errors = {name: spread.standard_error(name) for name in spread.values}
-    return {"draws": spread.asked, "draws_certified": spread.certified, "standard_errors": errors}
+    held = {name: spread.limited(name).share for name in spread.values}
+    told = {"draws": spread.asked, "draws_certified": spread.certified, "standard_errors": errors}
+    return told | {"set_by_limit": {name: share for name, share in held.items() if share}}
 
 
 def spread_lines(spread: Spread, orbit: Orbit) -> list[str]:
     """Return lines with the powers and trims of an orbit and their standard errors."""
     record, lines = orbit.record(), []
     for name in _POWERS:
-        shown, unit = plus_minus(record[name], spread.standard_error(name)), plain_unit(name)
-        lines.append(f"{power_label(name)}: {shown} {unit}")
+        lines.append(f"{power_label(name)}: {_shown(spread, name, record[name], plain_unit(name))}")
     for name in orbit.problem.free:
-        error = spread.standard_error(f"wingbeat.{name}") if f"wingbeat.{name}" in spread.values else None
         value = record["wingbeat"].get(name)
         if value is None:
             continue  # a harmonic, which stands in a list
         factor, unit = for_people(NOMENCLATURE[name].unit)
-        shown = plus_minus(factor * value, None if error is None else factor * error)
-        lines.append(f"trimmed {name.replace('_', ' ')}: {shown} {unit}".rstrip())
+        lines.append(f"trimmed {name.replace('_', ' ')}: {_shown(spread, f'wingbeat.{name}', value, unit, factor)}")
     edge = "; the other draws have none: the wingbeat is close to the limit of flight, and errors may be larger"
     ending = "" if spread.certified == spread.asked else edge
     flown = f"{spread.certified} of {spread.asked} random draws of the film have an orbit"
     return [*lines, f"one standard error; {flown}{ending}"]
 
 
-def plus_minus(value: float, error: float | None) -> str:
-    """Return a value and its error, to the error's second digit.
+def _shown(spread: Spread, name: str, value: float, unit: str, factor: float = 1.0) -> str:
+    """Return a number of the orbit with its standard error, or with the limit that set it in the draws."""
+    error = spread.standard_error(name) if name in spread.values else None
+    if error is None:
+        return plus_minus(factor * value, None, unit)
+    return spread.limited(name).shown(value, error, unit, factor)
 
-    >>> plus_minus(25.1234, 0.812)
-    '25.12 +- 0.81'
+
+def plus_minus(value: float, error: float | None, unit: str = "") -> str:
+    """Return a value and its error, which may not be known, to the digits that the error decides.
+
+    >>> plus_minus(25.1234, 0.812), plus_minus(25.1234, None, "W")
+    ('25.1 +- 0.8', '25.12 +- ? W')
     """
-    if error is None or not error > 0:
-        return f"{value:.4g} +- ?"
-    digits = max(1 - math.floor(math.log10(error)), 0)
-    return f"{value:.{digits}f} +- {error:.{digits}f}"
+    return written(value, math.nan if error is None else error, unit)

@@ -14,14 +14,16 @@ from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import SPECIES, Climb, Settings, Whole, WithinPlausible
 from wingbeat.cli.progress import progress_bar
 from wingbeat.errors import InvalidInputError
+from wingbeat.nomenclature import written
 from wingbeat.orbits.many.uncertainty import ErrorBar
 from wingbeat.orbits.problem.path_functions import check_quantities
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity, named_objective
 from wingbeat.orbits.status import Status
 from wingbeat.results.influence_report import in_words, ranked_in_words
-from wingbeat.results.sensitivities import QUANTITIES, Comparison, sensitivities, uncertainty_by_samples
+from wingbeat.results.sensitivities import QUANTITIES, sensitivities
 from wingbeat.results.solving import solve_orbit
+from wingbeat.results.uncertainty import Comparison, uncertainty_by_samples
 from wingbeat.workers.affinity import core_count
 
 _DEFAULT = (*QUANTITIES, "spectral_radius")
@@ -119,29 +121,29 @@ def _plain(one: Comparison) -> dict[str, Any]:
     bar = one.first_order
     told = bar._asdict() if one.first_order_holds else bar.ranked()
     plain = one._asdict() | {"first_order": told, "first_order_holds": one.first_order_holds}
+    plain |= {"limited": one.limited._asdict()}
     return plain | {"stable": None if one.stable is None else one.stable.record()}
 
 
 def _print(one: Comparison, console: Console) -> None:
     bar = one.first_order
-    unit = "" if bar.unit == "1" else f" {bar.unit}"
     name = bar.quantity.replace("_", " ")
-    if one.first_order_holds:
-        line = ((f"{name}, first order", in_words(bar).removeprefix(f"{name} ")),)
-        line += (("  mean over the ranges", f"{bar.value + bar.shift:.4g}{unit}"),)
+    shown = one.limited.shown(one.mean, one.deviation, bar.unit)
+    rows = [(f"{name}, {one.certified} of {one.drawn} certified", shown)]
+    if one.first_order_holds and bar.ranking:
+        rows[:0] = [
+            (f"{name}, first order", in_words(bar).removeprefix(f"{name} ")),
+            ("  mean over the ranges", written(bar.value + bar.shift, bar.deviation, bar.unit)),
+        ]
     else:
-        ranking = ranked_in_words(bar).removeprefix(f"{name} ")
-        line = ((f"{name}, first order (ranking only)", ranking),)
-    rows = (
-        *line,
-        (
-            f"{name}, {one.certified} of {one.drawn} certified",
-            f"{one.mean:.4g} +- {one.deviation:.2g}{unit}",
-        ),
-        ("  standard error of that deviation", f"{one.standard_error:.2g}{unit}"),
-        ("  variance that first order explains", f"{max(one.explained, 0.0):.1%}"),
-    )
+        label = "first order (ranking only)" if bar.ranking else "of the orbit"
+        rows.insert(0, (f"{name}, {label}", ranked_in_words(bar).removeprefix(f"{name} ")))
+    if one.deviation and not one.limited.most:
+        rows += [
+            ("  standard error of that deviation", written(one.standard_error, unit=bar.unit, digits=2)),
+            ("  variance that first order explains", f"{max(one.explained, 0.0):.1%}"),
+        ]
     if one.stable is not None:
-        rows += (("the verdict `stable`", str(one.stable)),)
+        rows.append(("the verdict `stable`", str(one.stable)))
     for label, value in rows:
         console.print(f"{label:48s}{value}", markup=False, highlight=False, soft_wrap=True)

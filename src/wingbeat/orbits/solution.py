@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -94,6 +95,11 @@ class Solution:
         scale, apart = self.problem.unknowns().scale, self.options.search.same_optimum
         near = [o.starts for o in self.optima if np.abs((o.unknowns - self.unknowns) / scale).max() <= apart]
         return max(sum(near), 1)
+
+    @property
+    def limited(self) -> frozenset[str]:
+        """Names of the parameters and quantities that a bound or a limit of their own has set."""
+        return frozenset(re.split("[<>]=", name)[0] for name in self.active_bounds)
 
     @property
     def unknowns(self) -> np.ndarray:

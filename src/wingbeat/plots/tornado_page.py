@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from typing import TYPE_CHECKING, Any
 
-from wingbeat.nomenclature import label_of
+from wingbeat.nomenclature import label_of, written
 from wingbeat.results.sensitivities import Sensitivities
 from wingbeat.style import (
     BLUE,
@@ -31,7 +32,8 @@ def tornado_page(found: Sensitivities) -> Figure:
     """Rank parameters by the first-order effect of their plausible ranges on each quantity, the largest on top.
 
     Parameters without a range are left out. Each quantity has a panel; the line in the middle is the solved orbit.
-    Bars are shares of the largest, because a linear approximation over whole ranges gives no valid error bar.
+    Bars are shares of the largest, because a linear approximation over whole ranges gives no valid error bar. A
+    quantity that a limit has set has no bars.
 
     Parameters
     ----------
@@ -62,6 +64,11 @@ def tornado_page(found: Sensitivities) -> Figure:
 def _draw(panel: Any, found: Sensitivities, name: str) -> None:
     ranked = [s for s in found.ranked(name) if s.parameter.plausible is not None][:_MOST]
     largest = max((abs(end) for slope in ranked for end in found.swing(slope, name)), default=0.0) or 1.0
+    label = f"change of {in_words(name)} / largest [-]"
+    if name in found.limited:
+        # Its changes are rounding; as shares of the largest they would look like an answer.
+        largest = math.inf
+        label = f"{in_words(name)}: {written(found.values[name], unit=found.units[name])}, set by the limit"
     for row, slope in enumerate(ranked):
         low, high = found.swing(slope, name)
         for change, color, end in ((low, BLUE, "low end of the range"), (high, VERMILION, "high end")):
@@ -75,4 +82,4 @@ def _draw(panel: Any, found: Sensitivities, name: str) -> None:
     panel.tick_params(axis="y", length=0)
     panel.invert_yaxis()
     panel.margins(y=0.01)
-    panel.set_xlabel(f"change of {in_words(name)} / largest [-]")
+    panel.set_xlabel(label)

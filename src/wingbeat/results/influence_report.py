@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from wingbeat.nomenclature import written
 from wingbeat.orbits.many.uncertainty import ErrorBar
 from wingbeat.orbits.sensitivity import Sensitivity
 from wingbeat.reports import Line, Report, Row, Table
@@ -53,18 +54,25 @@ def _cells(slope: Sensitivity, found: Sensitivities) -> tuple[str, ...]:
 
 def ranked_in_words(bar: ErrorBar) -> str:
     """Return what a quantity depends on most, without an error bar."""
-    unit = "" if bar.unit == "1" else f" {bar.unit}"
     parts = ", ".join(f"{name} ({share:.0%})" for name, share in list(bar.ranking.items())[:_NAMED])
-    due = f"largest shares of the variance: {parts}" if parts else "no plausible ranges are known"
-    return f"{bar.quantity.replace('_', ' ')} {bar.value:.4g}{unit}; {due}"
+    due = f"largest shares of the variance: {parts}" if parts else _nothing_moves(bar)
+    return f"{bar.quantity.replace('_', ' ')} {written(bar.value, unit=bar.unit)}; {due}"
+
+
+def _nothing_moves(bar: ErrorBar) -> str:
+    """Say why no spread moves a quantity."""
+    if bar.set_by_limit:
+        return "set by the limit, so it is no prediction and has no error bar"
+    return "no plausible range moves it" if bar.due_to else "no plausible ranges are known"
 
 
 def in_words(bar: ErrorBar) -> str:
     """Return an error bar as a line: value, standard deviation, and its main causes."""
+    if not bar.ranking:
+        return ranked_in_words(bar)
     parts = ", ".join(f"{name} {deviation:.2g}" for name, deviation in list(bar.due_to.items())[:_NAMED])
-    unit = "" if bar.unit == "1" else f" {bar.unit}"
-    due = f"; largest contributions: {parts}" if parts else ": no plausible ranges are known"
-    return f"{bar.quantity.replace('_', ' ')} {bar.value:.4g} +- {bar.deviation:.2g}{unit}{due}"
+    shown = written(bar.value, bar.deviation, bar.unit)
+    return f"{bar.quantity.replace('_', ' ')} {shown}; largest contributions: {parts}"
 
 
 def price_in_words(price: Sensitivity, found: Sensitivities) -> str:

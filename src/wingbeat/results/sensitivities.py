@@ -1,9 +1,9 @@
-"""What an orbit depends on most, what its bounds cost, and how uncertain its numbers are."""
+"""What an orbit depends on most, and what its bounds cost."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -12,9 +12,7 @@ from wingbeat.errors import Fault, FaultList, InvalidInputError
 from wingbeat.orbits.many.uncertainty import (
     ErrorBar,
     ParameterSpread,
-    Samples,
     first_order,
-    sample_orbits,
     uniform_spread,
 )
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
@@ -22,13 +20,11 @@ from wingbeat.orbits.problem.parameters import CURVES, Parameter, parameters_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity, named_quantity
 from wingbeat.orbits.sensitivity import OptimumSlopes, Sensitivity
-from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.status import Status
 from wingbeat.reports import Report, Reported, drawn
 from wingbeat.results.columns import table_of
 from wingbeat.results.influence_report import influence_report
 from wingbeat.results.orbit import Orbit
-from wingbeat.results.stable_share import StableShare, stable_share
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -136,6 +132,12 @@ class Sensitivities(Reported):
         """Return the ranked sensitivities, then the prices, as plain dictionaries fit for JSON."""
         return [_plain(slope) for slope in [*self.ranked(next(iter(self.values))), *self.prices]]
 
+    @property
+    def limited(self) -> frozenset[str]:
+        """Names of the quantities and parameters that an active bound or limit of their own has set."""
+        names = (price.parameter.path.partition(".")[2] for price in self.prices)
+        return frozenset(name.removesuffix(".lower").removesuffix(".upper") for name in names)
+
     def spreads(self, fit: Fitted | None = None, share: float = 1.0) -> list[ParameterSpread]:
         """Return the uncertainty of the inputs: uniform over their plausible ranges, and a fit's covariance.
 
@@ -169,7 +171,8 @@ class Sensitivities(Reported):
         """
         self._check(quantity)
         spreads = self.spreads(fit, share)
-        return first_order(self.slopes, spreads, quantity, self.units[quantity], self.values[quantity])
+        numbers = self.units[quantity], self.values[quantity], quantity in self.limited
+        return first_order(self.slopes, spreads, quantity, *numbers)
 
     def _check(self, quantity: str) -> None:
         faults = FaultList()
@@ -245,103 +248,3 @@ def _of_fit(
         members = tuple(by_path[path] for path in paths)
         found.append(ParameterSpread(f"aero.{name}", members, share**2 * np.asarray(curve.covariance)))
     return found
-
-
-# Share of the draws' variance that the first-order estimate must predict. At a tenth and at three tenths of every
-# range it predicts 97 to 99.9 %, and its standard deviation agrees with that of the draws. Over the bat's whole
-# ranges it predicts 6 %, and the two deviations disagree (docs/guide/sensitivities.md).
-_BORNE_OUT = 0.9
-# Share of a quantity's size below which its draws are the same: certified orbits agree to 1e-6.
-_SAME = 1e-6
-
-
-class Comparison(NamedTuple):
-    """A quantity's first-order uncertainty, compared with its uncertainty from random samples.
-
-    Attributes
-    ----------
-    first_order : the first-order estimate.
-    mean, deviation : mean and standard deviation of the samples.
-    standard_error : standard error of `deviation`.
-    explained : share of the samples' variance that the first-order estimate of each draw explains.
-    certified, drawn : number of certified draws, and number of all draws.
-    stable : of the quantity ``spectral_radius``, how many of the orbits are stable; otherwise None.
-    """
-
-    first_order: ErrorBar
-    mean: float
-    deviation: float
-    standard_error: float
-    explained: float
-    certified: int
-    drawn: int
-    stable: StableShare | None = None
-
-    @property
-    def first_order_holds(self) -> bool:
-        """Whether the samples confirm the first-order estimate; if not, use it only to rank the inputs."""
-        return self.explained >= _BORNE_OUT
-
-
-def uncertainty_by_samples(
-    found: Sensitivities,
-    quantities: Sequence[str] = QUANTITIES,
-    samples: int = 2000,
-    seed: int = 0,
-    fit: Fitted | None = None,
-    share: float = 1.0,
-    processes: int = 1,
-    progress: Progress | None = None,
-    options: SolverOptions = DEFAULTS,
-) -> dict[str, Comparison]:
-    """Solve the orbit for randomly drawn parameters, and compare the uncertainty with its first-order estimate.
-
-    Parameters
-    ----------
-    found : the sensitivities of the orbit.
-    quantities : names of quantities that were differentiated; with ``spectral_radius`` among them, stable
-        orbits are counted.
-    samples : number of random samples.
-    seed : of the samples.
-    fit, share : as in `Sensitivities.spreads`.
-    processes, progress, options : as in `solve_orbits`.
-
-    Raises
-    ------
-    InvalidInputError : samples not a whole number from 10 to 100000; inputs that `Sensitivities.error_bar` refuses.
-
-    >>> import wingbeat as wb
-    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
-    >>> found = wb.sensitivities(orbit)
-    >>> checked = wb.uncertainty_by_samples(found, ["frequency"], samples=10, share=0.1)["frequency"]
-    >>> checked.drawn, checked.first_order_holds
-    (10, True)
-    """
-    faults = FaultList()
-    faults.whole("samples", samples, 10, 100_000)
-    faults.raise_if_any()
-    bars = [found.error_bar(name, fit, share) for name in quantities]
-    spreads = found.spreads(fit, share)
-    read = [named_quantity(name) for name in quantities]
-    drawn = sample_orbits(
-        found.problem, found.unknowns, found.slopes, spreads, read, samples, seed, processes, progress, options
-    )
-    slopes = {s.parameter.path: s for s in found.slopes}
-    return {bar.quantity: _compared(bar, drawn, i, slopes) for i, bar in enumerate(bars)}
-
-
-def _compared(bar: ErrorBar, drawn: Samples, column: int, slopes: dict[str, Sensitivity]) -> Comparison:
-    values = drawn.quantities[drawn.certified, column]
-    predicted = drawn.deviations[drawn.certified] @ [slopes[path].quantities[bar.quantity] for path in drawn.paths]
-    deviation, error, explained = 0.0, 0.0, 1.0
-    # All draws agree to their last digits if a bound or limit holds the quantity.
-    if np.ptp(values) > _SAME * np.abs(values).max():
-        centred = values - values.mean()
-        deviation = float(values.std(ddof=1))
-        # The error of a deviation from n draws, by their fourth moment.
-        kurtosis = float(np.mean(centred**4)) / deviation**4
-        error = deviation * np.sqrt(max(kurtosis - 1.0, 0.0) / (4 * len(values)))
-        explained = 1.0 - float(np.var(values - bar.value - predicted) / np.var(values))
-    count = len(drawn.certified)
-    stable = stable_share(values, count) if bar.quantity == "spectral_radius" else None
-    return Comparison(bar, float(values.mean()), deviation, float(error), explained, len(values), count, stable)

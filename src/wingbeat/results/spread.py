@@ -11,6 +11,7 @@ import numpy as np
 from wingbeat.kinematics import Wingbeat, parameter
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import search_near
+from wingbeat.results.limit_share import LimitShare, limit_share
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.record import POWERS, power_summary
 
@@ -23,6 +24,8 @@ class Spread(NamedTuple):
     values : by the name of a number in the record, its values in the certified draws, shape (certified,) each.
     estimates : the same numbers for the orbit itself.
     asked : number of draws, certified or not.
+    at_limit : whether a bound or limit of a number's own has set it, shape (certified,), for numbers of `values`;
+        None if not known.
 
     >>> import dataclasses, wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -35,11 +38,23 @@ class Spread(NamedTuple):
     values: dict[str, np.ndarray]
     estimates: dict[str, float | None]
     asked: int
+    at_limit: dict[str, np.ndarray] | None = None
 
     @property
     def certified(self) -> int:
         """Number of draws that were certified."""
         return len(next(iter(self.values.values())))
+
+    def limited(self, name: str) -> LimitShare:
+        """Return how many of the certified draws have a number at a bound or limit of its own.
+
+        Parameters
+        ----------
+        name : of a number in the record.
+        """
+        values = self.values[name]
+        held = (self.at_limit or {}).get(name)
+        return limit_share(values, np.zeros(len(values), dtype=bool) if held is None else held)
 
     def standard_error(self, name: str) -> float | None:
         """Return the root mean square distance of the draws from the orbit; None if fewer than three are certified.
@@ -79,18 +94,20 @@ def orbit_spread(
     (3, 3.4)
     """
     problem = orbit.problem
-    rows = []
+    found = []
     for i, wingbeat in enumerate(wingbeats, start=1):
         there = dataclasses.replace(problem, species=problem.species.with_record(wingbeat))
-        found = search_near(there, orbit.unknowns)
-        if found is not None:
-            rows.append(_row(found))
+        solution = search_near(there, orbit.unknowns)
+        if solution is not None:
+            found.append((_row(solution), solution.limited))
         if progress is not None:
             progress(i, len(wingbeats))
     record, trimmed = orbit.record(), dict(zip(problem.free, orbit.unknowns[4:], strict=True))
     estimates = {name: record[name] for name in POWERS} | {f"wingbeat.{n}": v for n, v in trimmed.items()}
-    columns = {name: np.array([row[name] for row in rows], dtype=float) for name in estimates}
-    return Spread(columns, estimates, len(wingbeats))
+    columns = {name: np.array([row[name] for row, _ in found], dtype=float) for name in estimates}
+    own = {name: name.removeprefix("wingbeat.") for name in estimates}
+    at_limit = {n: np.array([own[n] in limited for _, limited in found], dtype=bool) for n in estimates}
+    return Spread(columns, estimates, len(wingbeats), at_limit)
 
 
 def _row(solution: Solution) -> dict[str, float | None]:

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from wingbeat.nomenclature import PRECISION
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.parameters import Parameter
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -67,6 +68,7 @@ class ErrorBar(NamedTuple):
     deviation : standard deviation; its square is the sum of the squares of `due_to` [`unit`].
     shift : mean minus `value`; not 0 where a parameter's value is not in the middle of its range [`unit`].
     due_to : standard deviation due to each spread, by its name, the largest first [`unit`].
+    set_by_limit : whether a bound or limit of the quantity's own has set it, so that no error bar belongs to it.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -81,20 +83,28 @@ class ErrorBar(NamedTuple):
     deviation: float
     shift: float
     due_to: dict[str, float]
+    set_by_limit: bool = False
 
     @property
     def ranking(self) -> dict[str, float]:
-        """Share of the variance to first order that is due to each spread, largest first."""
+        """Share of the variance to first order that is due to each spread, largest first; empty if nothing is."""
         whole = self.deviation**2
-        return {name: part**2 / whole for name, part in self.due_to.items()} if whole > 0 else {}
+        varies = not self.set_by_limit and self.deviation > PRECISION * abs(self.value)
+        return {name: part**2 / whole for name, part in self.due_to.items()} if varies else {}
 
     def ranked(self) -> dict[str, Any]:
         """Return the quantity and its ranking, without an error bar, as plain values for JSON."""
-        return {"quantity": self.quantity, "unit": self.unit, "value": self.value, "ranking": self.ranking}
+        plain = {name: getattr(self, name) for name in ("quantity", "unit", "value", "set_by_limit")}
+        return plain | {"ranking": self.ranking}
 
 
 def first_order(
-    slopes: Sequence[Sensitivity], spreads: Sequence[ParameterSpread], quantity: str, unit: str, value: float
+    slopes: Sequence[Sensitivity],
+    spreads: Sequence[ParameterSpread],
+    quantity: str,
+    unit: str,
+    value: float,
+    set_by_limit: bool = False,
 ) -> ErrorBar:
     """Propagate spreads to a quantity by its derivatives.
 
@@ -103,7 +113,7 @@ def first_order(
     slopes : derivatives by every parameter of the spreads.
     spreads : of parameters.
     quantity : name of one of the differentiated quantities.
-    unit, value : of the quantity.
+    unit, value, set_by_limit : of the quantity.
     """
     by_path = {s.parameter.path: s.quantities[quantity] for s in slopes}
     due_to, shift = {}, 0.0
@@ -112,7 +122,7 @@ def first_order(
         due_to[spread.name] = math.sqrt(slope @ spread.covariance @ slope)
         shift += float(slope @ spread.mean)
     ranked = dict(sorted(due_to.items(), key=lambda item: -item[1]))
-    return ErrorBar(quantity, unit, value, math.hypot(*ranked.values()), shift, ranked)
+    return ErrorBar(quantity, unit, value, math.hypot(*ranked.values()), shift, ranked, set_by_limit)
 
 
 class Samples(NamedTuple):
@@ -125,6 +135,7 @@ class Samples(NamedTuple):
     quantities : values in the order requested and in the quantities' units, shape (n, Q); not-a-number for draws
         without an orbit.
     certified : whether a draw has a certified orbit, shape (n,).
+    at_limit : whether a bound or limit of a quantity's own has set it, shape (n, Q); None if not known.
 
     >>> import numpy as np, wingbeat as wb
     >>> deviations, frequencies = np.array([[-0.02], [0.0], [0.02]]), np.array([[9.3], [9.5], [np.nan]])
@@ -137,6 +148,7 @@ class Samples(NamedTuple):
     deviations: np.ndarray
     quantities: np.ndarray
     certified: np.ndarray
+    at_limit: np.ndarray | None = None
 
 
 def sample_orbits(
@@ -177,9 +189,10 @@ def sample_orbits(
     predicted = unknowns + deviations @ np.array([by_path[p.path] for p in parameters])
     drawn = [(_moved(problem, parameters, row), guess) for row, guess in zip(deviations, predicted, strict=True)]
     work = functools.partial(_read_off, quantities=tuple(quantities), seed=seed, options=options, starts=starts)
-    values = np.array(list(in_processes(work, drawn, processes, progress)))
+    found = in_processes(work, drawn, processes, progress)
+    values, at_limit = (np.array(each) for each in zip(*found, strict=True))
     certified = np.asarray(np.isfinite(values).all(axis=1))
-    return Samples(tuple(p.path for p in parameters), deviations, values, certified)
+    return Samples(tuple(p.path for p in parameters), deviations, values, certified, at_limit)
 
 
 def _moved(problem: OrbitProblem, parameters: Sequence[Parameter], deviations: np.ndarray) -> OrbitProblem:
@@ -194,12 +207,13 @@ def _read_off(
     seed: int,
     options: SolverOptions,
     starts: int,
-) -> list[float]:
-    """Return quantities of the orbit of one draw, not-a-number if there is none."""
+) -> tuple[list[float], list[bool]]:
+    """Return quantities of the orbit of one draw, not-a-number if there is none, and whether limits set them."""
     problem, guess = drawn
     found = correct_guess(problem, guess, options=options) or search_near(problem, guess, options=options)
     if found is None and starts:
         found = find_orbit(problem, starts, seed, threads=1, most_starts=starts, options=options)
     if found is None or found.status is not Status.CONVERGED:
-        return [math.nan] * len(quantities)
-    return [found.value_of(quantity) for quantity in quantities]
+        return [math.nan] * len(quantities), [False] * len(quantities)
+    limited = found.limited
+    return [found.value_of(q) for q in quantities], [q.name in limited for q in quantities]

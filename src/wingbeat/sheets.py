@@ -10,13 +10,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat.errors import FaultList
+from wingbeat.errors import FaultList, FileError
 from wingbeat.files import read_text
 
 # A record of 30 s at 10 kHz has some 20 MB.
 MAX_BYTES = 1 << 26
 # A list of forty bad cells helps as much as a longer one.
 MAX_CELL_FAULTS = 40
+# A file needs some twenty constants. More lines than these are not ours, and would fill the memory.
+MAX_CONSTANTS = 1000
+# What programs write where there is no value, in lower case: pandas, NumPy, MATLAB, R, LabVIEW, spreadsheets.
+NO_VALUE = frozenset(
+    {"", "nan", "-nan", "na", "n/a", "#n/a", "null", "none", "<na>", "1.#qnan", "-1.#ind", "nan(ind)"}
+)
 _SAME = {
     "n·m": "n m",
     "n*m": "n m",
@@ -34,12 +40,37 @@ _SAME = {
 _COPY_POLAR = (
     "write its angle, lift and drag as a CSV table with the columns alpha_deg, C_L, C_D, separated by commas"
 )
+_COPY_LOADS = (
+    "write a CSV table with the columns time, normal_force, tangential_force, moment (about mid-chord) and "
+    "alpha_deg, and above it the lines '# speed = ..' and so on, see wingbeat reduce --help"
+)
+_COPY_POINTS = (
+    "wingbeat reads angles, not points: compute the flap angle of each frame and write a CSV table with the "
+    "columns time, flap_deg"
+)
 _KNOWN_FILES = (
+    (r"labview measurement", f"a measurement file of LabVIEW (.lvm); {_COPY_LOADS}"),
+    (r"ati (daq|industrial|net f/t)|.{0,400}?^calibration,ft\d", f"a log of an ATI force sensor; {_COPY_LOADS}"),
+    (
+        r"([^\n]*,)?\s*fx\b[^\n]*\bfy\b[^\n]*\bfz\b",
+        f"a log of a force sensor with the axes Fx, Fy, Fz; {_COPY_LOADS}",
+    ),
+    (r"scorer,|[^\n]*\nbodyparts,", f"points tracked by DeepLabCut; {_COPY_POINTS}"),
+    (r"\w*pt1_x,", f"points tracked by DLTdv; {_COPY_POINTS}"),
+    (r"[^\n]*_ncams,", f"points tracked by Anipose; {_COPY_POINTS}"),
+    (r"[^\n]*(frame_idx|track,)[^\n]*\.score", f"points tracked by SLEAP; {_COPY_POINTS}"),
+    (r"pathfiletype", f"marker points of OpenSim or a motion-capture system (.trc); {_COPY_POINTS}"),
     (r"xfoil polar\.", f"a polar from an airfoil site (XFOIL, with lines of text above it); {_COPY_POLAR}"),
     (r"(xfoil|xflr5) ", f"a polar of XFOIL or XFLR5; {_COPY_POLAR}, and its Re in a column reynolds"),
     (r"!.*(airfoilinfo|numalf)|aerodyn", f"an airfoil table of AeroDyn; {_COPY_POLAR}"),
     (r"<(!doctype|html)", "a web page, not a table; download the table itself"),
 )
+# Files that hold no text.
+_BINARY = {
+    **dict.fromkeys((".xlsx", ".xls", ".ods"), "a spreadsheet; save its table as CSV"),
+    **dict.fromkeys((".mat", ".h5", ".hdf5"), "a file of MATLAB or HDF5; write its table as CSV (writetable)"),
+    **{".tdms": f"a file of LabVIEW; {_COPY_LOADS}", ".c3d": f"marker points (C3D); {_COPY_POINTS}"},
+}
 # How many characters of a file show what it is.
 _FIRST = 4000
 
@@ -106,7 +137,7 @@ def seems_to_be(text: str) -> str | None:
     lines = [line for line in text[:_FIRST].splitlines() if line.strip() and not line.lstrip().startswith("#")]
     head = "\n".join(lines).lstrip()
     for pattern, words in _KNOWN_FILES:
-        if re.match(pattern, head, re.IGNORECASE | re.DOTALL):
+        if re.match(pattern, head, re.IGNORECASE | re.DOTALL | re.MULTILINE):
             return words
     if not lines or "," in lines[0]:
         return None
@@ -134,8 +165,14 @@ def read_sheet(path: str | Path) -> Sheet:
     constants: dict[str, tuple[int, str]] = {}
     given: dict[str, str] = {}
     table: list[tuple[int, str]] = []
-    whole = read_text(path, limit=MAX_BYTES)
-    if words := seems_to_be(whole):
+    try:
+        whole = read_text(path, limit=MAX_BYTES)
+        words = seems_to_be(whole)
+    except FileError:
+        words, whole = _BINARY.get(path.suffix.lower()), path.suffix
+        if words is None or not path.is_file():
+            raise
+    if words:
         faults.add(path.name, whole.lstrip().partition("\n")[0].strip(), f"this seems to be {words}")
         faults.raise_if_any()
     for row, line in enumerate(whole.splitlines(), start=1):
@@ -150,14 +187,21 @@ def read_sheet(path: str | Path) -> Sheet:
             if name in constants or earlier != name:
                 also = "" if earlier == name else f" (above as {earlier})"
                 faults.add(f"{path.name} row {row}", name, f"appears twice{also}", "keep one")
+            elif len(constants) == MAX_CONSTANTS:
+                rule = f"is one of more than {MAX_CONSTANTS} lines '# name = value'"
+                faults.add(f"{path.name} row {row}", name, rule, "is it the right file?")
+                break
             else:
                 constants[name] = (row, value.strip())
         elif text:
             table.append((row, text))
-    if not table:
+    if not table and not faults.faults:
         faults.add(f"{path.name} row 1", "", "the file holds no table", "the first row names the columns")
-        faults.raise_if_any()
+    faults.raise_if_any()
     header = _cells(table[0][1])
+    if all(_is_number(cell) for cell in header):
+        rule = "holds numbers, but the first row of the table must name the columns"
+        faults.add(f"{path.name} row {table[0][0]}", table[0][1], rule, "write the names without # in front")
     faults.raise_if_any()
     return Sheet(path.name, constants, table[0][0], header, table[1:])
 
@@ -170,7 +214,7 @@ def parse_numbers(
     Parameters
     ----------
     names : the columns' names in messages; the cells of a column with the name "" are not read, and become NaN.
-    blank : the columns where a cell may be empty, which gives NaN.
+    blank : the columns where a cell may be empty or one of `NO_VALUE`, such as NA, which gives NaN.
     """
     if sheet.rows and not blank and all(names):
         try:  # the quick way, for files in which nothing is wrong
@@ -180,6 +224,13 @@ def parse_numbers(
         if numbers.shape == (len(sheet.rows), len(names)) and np.isfinite(numbers).all():
             return numbers
     values = np.full((len(sheet.rows), len(names)), np.nan)
+    widths = {len(_cells(text)) for _, text in sheet.rows[:MAX_CELL_FAULTS]}
+    if len(sheet.rows) > 1 and len(widths) == 1 and (width := widths.pop()) != len(names):
+        rule = f"and all others have {width} cells, but the header names {len(names)} columns"
+        row, text = sheet.rows[0]
+        decimal = "write decimal points, not commas" if width == 2 * len(names) else "name every column"
+        faults.add(f"{sheet.file} row {row}", text, rule, decimal)
+        return values
     enough = len(faults.faults) + MAX_CELL_FAULTS
     for i, (row, text) in enumerate(sheet.rows):
         if len(faults.faults) > enough:
@@ -193,7 +244,7 @@ def parse_numbers(
             faults.add(f"{sheet.file} row {row}", text, rule, "write decimal points, not commas")
             continue
         for k, (name, cell) in enumerate(zip(names, cells, strict=True)):
-            if name and (cell or name not in blank):
+            if name and (name not in blank or cell.lower() not in NO_VALUE):
                 values[i, k] = _number(faults, f"{sheet.file} row {row}, column {name}", cell)
     return values
 
@@ -205,12 +256,25 @@ def _cells(text: str) -> list[str]:
         return [text]
 
 
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
 def _number(faults: FaultList, where: str, cell: str) -> float:
     try:
         number = float(cell)
     except ValueError:
-        rule = "is not a number" if cell else "is empty"
-        faults.add(where, cell, rule, "write one number with a decimal point, or drop the row")
+        number = None
+    if cell.lower() in NO_VALUE:
+        rule = "has no value" if cell else "is empty"
+        faults.add(where, cell, f"{rule}, but this column needs one in each row", "give the value or drop the row")
+        return np.nan
+    if number is None:
+        faults.add(where, cell, "is not a number", "write one number with a decimal point, or drop the row")
         return np.nan
     if not np.isfinite(number):
         faults.add(where, number, "must be finite", "drop the row or give a value")

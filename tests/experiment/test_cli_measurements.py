@@ -121,7 +121,7 @@ BAD_RUNS = {
         GOOD.replace("1.03,0.2", "1.03,x"),
         ["run.csv row 10, column tangential_force = 'x': is not a number"],
     ),
-    "nan": (GOOD.replace("1.03,0.2", "nan,0.2", 1), ["run.csv row 10, column normal_force = nan: must be finite"]),
+    "nan": (GOOD.replace("1.03,0.2", "nan,0.2", 1), ["run.csv row 10, column normal_force = 'nan': has no value"]),
     "blank": (GOOD.replace("1.03,0.2", ",0.2", 1), ["run.csv row 10, column normal_force = '': is empty"]),
     "unsorted": (
         GOOD.replace("\n0.2,", "\n0.05,", 1),

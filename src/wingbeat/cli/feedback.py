@@ -23,9 +23,11 @@ from wingbeat.reports import Line
 from wingbeat.results.orbit import load_orbit
 from wingbeat.stability.feedback import Feedback
 from wingbeat.stability.feedback import feedback as compute
+from wingbeat.stability.feedback_checks import check_delay, check_late, check_noise
 from wingbeat.stability.feedback_report import STATE_UNITS, beats_of, feedback_report, survey_report
 from wingbeat.stability.gust_flight import GustFlight, fly_gust
 from wingbeat.stability.gust_survey import MOST_FLIGHTS, GustSurvey, survey_gusts
+from wingbeat.stability.inputs import check_inputs
 from wingbeat.style import heading
 from wingbeat.winds import Wind
 
@@ -102,6 +104,11 @@ def feedback(
     faults.whole("--beats", beats, 1, 10_000)
     faults.whole("--survey", survey, 0, MOST_FLIGHTS)
     errors = named_numbers(faults, "--noise", noise, tuple(STATE_UNITS), "body_pitch=0.01")
+    check_noise(faults, errors, tuple(STATE_UNITS), seed)
+    check_delay(faults, delay)
+    check_late(faults, late)
+    if inputs is not None:
+        check_inputs(faults, inputs)
     faults.raise_if_any()
     check_outputs(plot)
     orbit = load_orbit(source)

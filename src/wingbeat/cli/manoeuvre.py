@@ -23,7 +23,7 @@ from wingbeat.plots import manoeuvre_page, save_figure
 from wingbeat.results.flight import Flight
 from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.solving import solve_orbit
-from wingbeat.stability.manoeuvre import Manoeuvre
+from wingbeat.stability.manoeuvre import Manoeuvre, check_manoeuvre
 from wingbeat.stability.manoeuvre import manoeuvre as find
 from wingbeat.stability.manoeuvre_report import manoeuvre_report
 
@@ -64,8 +64,10 @@ def manoeuvre(
     """
     faults = FaultList()
     check_files(faults, None, plot=plot)
+    check_manoeuvre(faults, to, beats, delay)
     faults.raise_if_any()
     check_outputs(plot)
+    wind = wind_of(gust, None, 0, 0.0)  # a gust does not depend on the airspeed
     if species.endswith(".nc"):
         if (speed, model, climb, starts, seed, set_) != (None, DEFAULT_MODEL, 0.0, None, 0, None):
             fix = "give only --to, --beats, --delay, --gust, --json and --plot with it"
@@ -80,7 +82,6 @@ def manoeuvre(
             faults.raise_if_any()
         problem = model.problem(species, float(speed or 0.0), set_, climb=climb)
         orbit = _solved(problem, starts, seed)
-    wind = wind_of(gust, None, 0, float(orbit.inputs["speed"]))
     with progress_bar(f"{orbit.inputs['species']['name']}, beats") as progress:
         plan = find(orbit, to, beats=beats, delay=delay, progress=progress)
     flights: dict[str, Flight] = {}

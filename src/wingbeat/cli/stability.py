@@ -39,10 +39,12 @@ from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.solving import solve_orbit, solve_orbits
 from wingbeat.stability.causes import StabilitySensitivities, stability_sensitivities
 from wingbeat.stability.causes_report import causes_report
-from wingbeat.stability.inputs import check_inputs
+from wingbeat.stability.inputs import check_inputs, compensation
 from wingbeat.stability.linear_flight import linearise
 from wingbeat.stability.linear_report import linear_report
 
+# Of the state (body pitch, u, w, pitch rate); a pair of complex modes counts once.
+_LAST_MODE = 3
 _OF_A_FILE = ("source", "inputs", "height", "jumps", "sensitivities", "mode", "output", "json", "plot")
 
 
@@ -116,6 +118,8 @@ def stability(
         faults.add("--speed", None, "is missing", "give the mean forward speed in m/s, 0 for hover")
     if inputs is not None:
         check_inputs(faults, inputs)
+    if mode is not None:
+        faults.whole("--mode", mode, 0, _LAST_MODE, "0 is the fastest growing mode")
     faults.raise_if_any()
     check_outputs(plot, output)
     if saved:
@@ -133,6 +137,11 @@ def stability(
         }
         speeds = parse_range(speed, "--speed").tolist()
         first = model.problem(source, speeds[0], set_, **asked)
+        if inputs is not None:
+            check_inputs(faults, inputs, first.vehicle)
+            faults.raise_if_any()
+            if not jumps:  # refused here, as `linearise` would do after the solve
+                compensation(first.species.wingbeat, inputs)
         orbits = _solve([first, *(first.at_speed(one) for one in speeds[1:])], starts, seed)
     answers = [_answer(orbit, inputs, height, jumps) for orbit in orbits]
     found = [one for one in answers if "modes" in one]

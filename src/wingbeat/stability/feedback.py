@@ -15,7 +15,7 @@ from wingbeat.kinematics import Wingbeat, parameter
 from wingbeat.reports import Report, Reported
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.command_limits import command_limits
-from wingbeat.stability.feedback_checks import MOST_DELAY, check_late, noise_of, weights_of
+from wingbeat.stability.feedback_checks import check_delay, check_late, noise_of, weights_of
 from wingbeat.stability.feedback_controller import FeedbackController
 from wingbeat.stability.feedback_options import DEFAULTS, FeedbackOptions
 from wingbeat.stability.feedback_report import feedback_report
@@ -102,7 +102,9 @@ class Feedback(Reported):
         ------
         InvalidInputError : not a whole number from 0 to 4.
         """
-        check_late(late)
+        faults = FaultList()
+        check_late(faults, late)
+        faults.raise_if_any()
         held = closed_loop(*_deviation_map(self.flight), self.gains, self.delay, late)
         found = np.linalg.eigvals(held)
         return found[np.argsort(-np.abs(found), kind="stable")]
@@ -147,7 +149,9 @@ class Feedback(Reported):
         >>> bool(abs(flown.states[-1, 2] - start.body_pitch) < 0.02)
         True
         """
-        check_late(late)
+        faults = FaultList()
+        check_late(faults, late)
+        faults.raise_if_any()
         return FeedbackController(self, late, noise_of(noise, self.flight.state, seed), seed)
 
     def _report(self) -> Report:
@@ -234,8 +238,7 @@ def feedback(
     ((5, 10), True)
     """
     faults = FaultList()
-    fix = "commands act in the same beat (0), in the next (1) and so on"
-    faults.whole("delay", delay, 0, MOST_DELAY, fix)
+    check_delay(faults, delay)
     faults.raise_if_any()
     flight = linearise(orbit, inputs, height=True, options=options.linear)
     names = flight.inputs

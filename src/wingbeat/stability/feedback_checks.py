@@ -27,11 +27,22 @@ def noise_of(noise: Mapping[str, float] | None, state: tuple[str, ...], seed: in
     InvalidInputError : unknown names, numbers that are negative or not finite, a seed that is no whole number.
     """
     faults = FaultList()
+    check_noise(faults, noise, state, seed)
+    faults.raise_if_any()
+    return np.array([(noise or {}).get(name, 0.0) for name in state])
+
+
+def check_noise(faults: FaultList, noise: Mapping[str, float] | None, state: tuple[str, ...], seed: int) -> None:
+    """Note noise of unknown names, standard deviations that are negative or not finite, and a seed out of range."""
     faults.whole("seed", seed, 0, 2**31)
     for name, value in _named(faults, "noise", noise, state).items():
         faults.number(f"noise.{name}", value, at_least=0.0, fix="give a standard deviation")
-    faults.raise_if_any()
-    return np.array([(noise or {}).get(name, 0.0) for name in state])
+
+
+def check_delay(faults: FaultList, delay: int) -> None:
+    """Note a delay of feedback that is no whole number from 0 to `MOST_DELAY`."""
+    fix = "commands act in the same beat (0), in the next (1) and so on"
+    faults.whole("delay", delay, 0, MOST_DELAY, fix)
 
 
 def weights_of(faults: FaultList, weights: Mapping[str, float] | None, known: tuple[str, ...]) -> np.ndarray:
@@ -63,17 +74,6 @@ def _named(faults: FaultList, where: str, given: Any, known: tuple[str, ...]) ->
     return {name: value for name, value in given.items() if name in known}
 
 
-def check_late(late: int) -> None:
-    """Refuse a lateness that is no whole number from 0 to `MOST_DELAY`.
-
-    Parameters
-    ----------
-    late : number of beats.
-
-    Raises
-    ------
-    InvalidInputError : another number.
-    """
-    faults = FaultList()
+def check_late(faults: FaultList, late: int) -> None:
+    """Note a lateness that is no whole number from 0 to `MOST_DELAY`."""
     faults.whole("late", late, 0, MOST_DELAY)
-    faults.raise_if_any()

@@ -19,7 +19,7 @@ from wingbeat.results.orbit import Orbit
 from wingbeat.results.record import finite_or_none
 from wingbeat.stability.beat_map import BeatMap
 from wingbeat.stability.command_limits import ALLOWED
-from wingbeat.stability.feedback_checks import MOST_DELAY
+from wingbeat.stability.feedback_checks import check_delay
 from wingbeat.stability.manoeuvre_controller import ManoeuvreController
 from wingbeat.stability.manoeuvre_options import DEFAULTS, ManoeuvreOptions
 from wingbeat.stability.manoeuvre_report import ReportedManoeuvre
@@ -215,7 +215,11 @@ def manoeuvre(
     >>> faster.status.value, bool(faster.largest_jump < 1e-9)
     ('converged', True)
     """
-    _check(orbit, speeds, beats, delay)
+    faults = FaultList()
+    check_manoeuvre(faults, speeds, beats, delay)
+    if orbit.status is not Status.CONVERGED:
+        faults.add("orbit", orbit.status.value, "is not certified", "solve it again with more starts")
+    faults.raise_if_any()
     beat_map = BeatMap(orbit, inputs, options.blocks)
     here = steady_start(beat_map, options)
     ends, free, legs, chains = [], [], [], []
@@ -241,8 +245,8 @@ def manoeuvre(
     return _joined(beat_map, tuple(ends), tuple(free), tuple(legs), chains, failure, delay, options)
 
 
-def _check(orbit: Orbit, speeds: Any, beats: int | None, delay: int) -> None:
-    faults = FaultList()
+def check_manoeuvre(faults: FaultList, speeds: Any, beats: int | None, delay: int) -> None:
+    """Note speeds that are missing or out of range, a number of beats or a delay that no manoeuvre can have."""
     if not isinstance(speeds, list | tuple | np.ndarray) or len(speeds) == 0:
         faults.add("speeds", speeds, "must be a list of speeds", "for example [16.0, 6.0]")
     else:
@@ -250,10 +254,7 @@ def _check(orbit: Orbit, speeds: Any, beats: int | None, delay: int) -> None:
             faults.number(f"speeds[{i}]", speed, **SPEED_LIMITS)
     if beats is not None:
         faults.whole("beats", beats, 2, _MOST_BEATS, "beats to each speed")
-    faults.whole("delay", delay, 0, MOST_DELAY, "commands act in the same beat (0), in the next (1) and so on")
-    if orbit.status is not Status.CONVERGED:
-        faults.add("orbit", orbit.status.value, "is not certified", "solve it again with more starts")
-    faults.raise_if_any()
+    check_delay(faults, delay)
 
 
 def _leg(

@@ -19,7 +19,7 @@ from wingbeat.orbits.status import Status
 from wingbeat.results.flight import simulate
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.feedback import Feedback
-from wingbeat.stability.feedback_checks import MOST_DELAY, noise_of
+from wingbeat.stability.feedback_checks import check_late, noise_of
 from wingbeat.stability.held_beats import Course, Hold, fly_held_beats
 from wingbeat.stability.held_segments import SegmentHold, fly_held_segments
 from wingbeat.stability.inputs import Compensation
@@ -104,7 +104,7 @@ def simulate_many(
     """
     faults = FaultList()
     faults.whole("beats", beats, 1, 10_000)
-    faults.whole("late", late, 0, MOST_DELAY)
+    check_late(faults, late)
     if orbit.status is not Status.CONVERGED:
         faults.add("orbit", orbit.status.value, "is not certified", "fly a certified orbit")
     if not isinstance(winds, Sequence) or not winds:

@@ -50,6 +50,14 @@ BEAT = (
     Term("peak_flap_torque", "N m", "largest absolute value of the flap torque, both wings"),
     Term("peak_pitch_torque", "N m", "largest absolute value of the wing pitch torque, both wings"),
     Term(
+        "mean_body_pitch",
+        "rad",
+        "mean body pitch over the wingbeat, nose up positive",
+        "",
+        "mean of the body pitch over a wingbeat",
+        "mean body pitch",
+    ),
+    Term(
         "body_pitch_range",
         "rad",
         "largest minus smallest body pitch",

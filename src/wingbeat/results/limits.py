@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import Any, NamedTuple
 
@@ -24,6 +25,9 @@ _CALLED = {
     "w": "initial speed upward",
 }
 
+# A limit that stands for an end of a plausible range is 0.02 % inside it.
+_INSIDE = 5e-4  # relative
+
 
 class SetBy(NamedTuple):
     """What set a number: the value of its own limit, None if it follows from others; and the names of the limits.
@@ -41,7 +45,7 @@ class SetBy(NamedTuple):
         >>> SetBy(None, ("flap_amplitude",)).words
         'follows from the limit of flap amplitude'
         """
-        if self.limit is not None:
+        if self.limit is not None:  # its own
             return "set by the limit"
         return f"follows from the limit{'s' if len(self.by) > 1 else ''} of {' and '.join(map(called, self.by))}"
 
@@ -66,11 +70,12 @@ def set_by_limit(record: dict[str, Any]) -> dict[str, SetBy]:
     if record.get("status", "converged") != "converged":
         return {}
     reached = {**(record.get("initial_state") or {}), **(record.get("wingbeat") or {})}
+    ends = {one["name"]: (one["low"], one["high"]) for one in record.get("plausibility") or ()}
     found: dict[str, SetBy] = {}
     for text in record.get("active_bounds") or ():
         name, *limit = re.split("[<>]=", text)
         value = float(limit[0]) if limit else None if name in PATH_NAMES else reached.get(name)
-        found[name] = SetBy(value, (name,))
+        found[name] = SetBy(next((end for end in ends.get(name, ()) if _close(value, end)), value), (name,))
     if "flap" in found:
         found.setdefault("flap_amplitude", SetBy(None, ("flap",)))
     if record.get("objective") == "frequency" and "flap_amplitude" in found:
@@ -82,6 +87,10 @@ def set_by_limit(record: dict[str, Any]) -> dict[str, SetBy]:
             by = dict.fromkeys(name for one in sorted(related - missing) for name in found[one].by)
             found[follows] = SetBy(None, tuple(by))
     return found
+
+
+def _close(value: float | None, end: float | None) -> bool:
+    return value is not None and end is not None and math.isclose(value, end, rel_tol=_INSIDE)
 
 
 def called(name: str) -> str:

@@ -7,11 +7,11 @@ from typing import Any
 from wingbeat.reports import Block, Line, Notes, Report, Tone, grouped
 from wingbeat.results.plausibility import statements
 from wingbeat.results.power_rows import power_groups
-from wingbeat.results.rows import orbit_groups
+from wingbeat.results.rows import limits_in_words, orbit_groups
 
 
 def orbit_report(record: dict[str, Any]) -> Report:
-    """Return certificate, plausibility, every group of numbers, and warnings of an orbit record.
+    """Return certificate, plausibility, what limits have set, every group of numbers, and warnings of an orbit.
 
     Parameters
     ----------
@@ -25,6 +25,8 @@ def orbit_report(record: dict[str, Any]) -> Report:
             status_line("certified", said.closes, "good" if said.good else "title"),
             status_line("plausible", said.plausible, "good" if said.good else "doubtful"),
         ]
+        if limits := limits_in_words(record):
+            lines.append(status_line("set by limits, not predicted", limits, "doubtful"))
     else:
         status = f"not certified, {record.get('status')}"
         lines = [status_line(status, str(record.get("message", "")), "bad")]

@@ -6,16 +6,19 @@ import math
 from typing import Any, NamedTuple
 
 from wingbeat.orbits.flight.beat import Beat
+from wingbeat.orbits.problem.plausible import judged_names
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import QUANTITIES
-from wingbeat.species.plausibility import JUDGED
 
 # The reader's name of each judged number.
-_NAMES = {
+JUDGED_NAMES = {
     "positive_power_per_mass": "power per mass",
+    "peak_activation": "peak activation",
     "frequency": "frequency",
     "flap_amplitude": "flap amplitude",
+    "tail_tilt": "tail tilt",
     "peak_force_over_weight": "peak force over weight",
+    "mean_body_pitch": "mean body pitch",
     "body_pitch_range": "range of body pitch",
     "strouhal": "Strouhal number",
     "reynolds": "Reynolds number",
@@ -37,7 +40,8 @@ def plausibility(problem: OrbitProblem, beat: Beat, record: dict[str, Any]) -> l
     """Return name, value, unit, low, high, within and source of each judged number; SI and radians.
 
     An unknown end of a range is None. `within` is false if the value is beyond a known end, None if the number has
-    no value (such as the Strouhal number in hover), and true otherwise.
+    no value (such as the Strouhal number in hover) or nothing is known of its range, and true otherwise. Activation
+    is judged where there is muscle, the tail's tilt where a tail tilts.
 
     Parameters
     ----------
@@ -45,19 +49,19 @@ def plausibility(problem: OrbitProblem, beat: Beat, record: dict[str, Any]) -> l
     record : the judged numbers of the orbit record.
     """
     values = {
+        **record,
+        **record["wingbeat"],
         "positive_power_per_mass": record["mean_positive_power"] / problem.vehicle.mass,
-        "peak_force_over_weight": float(QUANTITIES["peak_force_over_weight"].of(beat).max()),
-        **{name: record["wingbeat"][name] for name in ("frequency", "flap_amplitude")},
-        **{name: record[name] for name in ("body_pitch_range", "strouhal", "reynolds")},
+        **{name: float(QUANTITIES[name].of(beat).max()) for name in ("peak_force_over_weight", "mean_body_pitch")},
     }
-    return [_judged(problem, name, values[name]) for name in JUDGED]
+    return [_judged(problem, name, values[name]) for name in judged_names(problem.species, problem.free)]
 
 
 def _judged(problem: OrbitProblem, name: str, value: float | None) -> dict[str, Any]:
     known = problem.species.plausible_range(name, problem.speed)
     low, high = known.low, known.high
     within = None
-    if value is not None and math.isfinite(value):
+    if value is not None and math.isfinite(value) and (low, high) != (None, None):
         within = (low is None or value >= low) and (high is None or value <= high)
     return {
         "name": name,
@@ -73,7 +77,7 @@ def _judged(problem: OrbitProblem, name: str, value: float | None) -> dict[str, 
 def is_judgement(value: Any) -> bool:
     """Return whether a value read from a file has the form of the record's ``plausibility``."""
     whole = isinstance(value, list) and all(isinstance(one, dict) and one.keys() == _KEYS for one in value)
-    return whole and all(one["name"] in _NAMES and isinstance(one["source"], str) for one in value)
+    return whole and all(one["name"] in JUDGED_NAMES and isinstance(one["source"], str) for one in value)
 
 
 def statements(record: dict[str, Any]) -> Statements:
@@ -87,13 +91,18 @@ def statements(record: dict[str, Any]) -> Statements:
         closes = "does not close: the flight diverged" if worst is None else f"does not close: residual {worst:.2g}"
     judged = record.get("plausibility") or []
     outside = [one for one in judged if one["within"] is False]
-    unknown = [_NAMES[one["name"]] for one in judged if one["low"] is None and one["high"] is None]
-    if not judged or len(unknown) == len(judged):
-        return Statements(closes, "plausible: unknown: no range is known", False)
     if outside:
         return Statements(closes, f"plausible: no: {'; '.join(map(_how, outside))}", False)
-    left_out = f"; no range is known for {' and '.join(unknown)}" if unknown else ""
-    return Statements(closes, f"plausible: yes{left_out}", certified)
+    known, unknown = [], []
+    for one in judged:
+        (unknown if one["low"] is None and one["high"] is None else known).append(one)
+    names = [JUDGED_NAMES[one["name"]] for one in unknown]
+    listed = " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
+    left_out = f"no range is known for {listed}" if names else ""
+    # If more numbers are open than judged, there is no ground for a yes.
+    if len(unknown) > sum(one["within"] is not None for one in known) or not known:
+        return Statements(closes, f"plausible: not known: {left_out or 'no range is known'}", False)
+    return Statements(closes, f"plausible: yes{left_out and f'; {left_out}'}", certified)
 
 
 def _how(one: dict[str, Any]) -> str:
@@ -107,5 +116,5 @@ def _how(one: dict[str, Any]) -> str:
     unit = "" if unit == "1" else f" {unit}"
     # Enough digits to tell the value from the end of the range.
     digits = next(n for n in range(3, 17) if n == 16 or f"{value * factor:.{n}g}" != f"{end * factor:.{n}g}")
-    name, side = _NAMES[one["name"]], "above" if above else "below"
+    name, side = JUDGED_NAMES[one["name"]], "above" if above else "below"
     return f"{name} {value * factor:.{digits}g} {side} {end * factor:.{digits}g}{unit}"

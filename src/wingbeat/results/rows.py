@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping
 from typing import Any
 
 from wingbeat.datasets import STATE_NAMES
-from wingbeat.nomenclature import NOMENCLATURE, cf, for_people, plain_unit, readable_limit
+from wingbeat.nomenclature import NOMENCLATURE, cf, find, for_people, plain_unit, readable_limit
 from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
 from wingbeat.orbits.problem.report import loads_in_words, model_rows, place_in_words
+from wingbeat.results.limits import SetBy, called, set_by_limit
 
 Rows = list[tuple[str, str]]
-# Limits of plausible ranges are 0.02 % inside them.
-_AT_END = 5e-4  # relative
+Limited = Mapping[str, SetBy]  # numbers that a limit has set, by name
+_NONE: Limited = {}
 
 # Values that switch off a law that the paper does not have; a row with such a value is left out.
 _OFF: dict[str, Any] = {
@@ -28,40 +30,61 @@ _OFF: dict[str, Any] = {
 def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
     """Return the groups of numbers in an orbit record, by title; an empty group has no rows."""
     place = place_in_words(record.get("species"), record.get("speed"), record.get("climb"))
+    limited = set_by_limit(record)
     return {
         "flight": [
             ("species, mean speed", place),
             *(model_rows(record["model"]) if "model" in record else []),
             ("air loads", loads_in_words(record.get("aero", {}))),
-            *flight_rows(record),
+            *flight_rows(record, limited),
         ],
         "unbalanced at the closest wingbeat": deficit_rows(record.get("failed_balance") or []),
         "smallest single changes that give an orbit": change_rows(record.get("relaxations") or []),
-        "wingbeat": wingbeat_rows(record.get("wingbeat", {})),
-        "plausible ranges": plausible_rows(record.get("plausibility") or []),
+        "wingbeat": wingbeat_rows(record.get("wingbeat", {}), limited),
+        "plausible ranges": plausible_rows(record.get("plausibility") or [], limited),
         "state at the top of the stroke": state_rows(record.get("initial_state", {})),
-        "power, both wings": power_rows(record),
+        "power, both wings": power_rows(record, limited),
         "certificate": certificate_rows(record),
         "stability": stability_rows(record),
     }
 
 
-def flight_rows(record: dict[str, Any]) -> Rows:
+def limits_in_words(record: dict[str, Any]) -> str:
+    """Return the numbers of an orbit that limits have set, each with its value, and what follows from them.
+
+    Of what follows, only parameters of the wingbeat and the minimised quantity are named. The text is empty if the
+    orbit is at no limit.
+    """
+    limited, beat = set_by_limit(record), record.get("wingbeat") or {}
+    own, follows = [], []
+    for name, what in limited.items():
+        term = find(name)
+        factor, unit = for_people(term.unit) if term is not None else (1.0, "")
+        if name in what.by:
+            shown = "" if what.limit is None else f" {_number(what.limit, unit, factor)}"
+            own.append(f"{called(name)}{shown}")
+        elif name in beat or name == record.get("objective"):
+            follows.append(f"{called(name)} {_number(beat.get(name, record.get('objective_value')), unit, factor)}")
+    then = f", and with {'it' if len(own) == 1 else 'them'} {' and '.join(follows)}" if follows else ""
+    return f"{', '.join(own)}{then}"
+
+
+def flight_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
     """Return the numbers of the flight as a whole."""
     names = ("strouhal", "reduced_frequency", "reynolds")
-    rows = [(_label(name), _of(record, name)) for name in names if name in record]
+    rows = [(_label(name), _of(record, name, limited)) for name in names if name in record]
     for name in ("alpha_quarter_span", "alpha_three_quarter_span"):
         if name in record:
             factor, unit = for_people(NOMENCLATURE[name].unit)
             low, high = (_number(v, unit, factor) for v in record[name])
             rows.append((_label(name), f"{low.removesuffix(f' {unit}')} to {high}"))
     if "body_pitch_range" in record:
-        rows.append((_label("body_pitch_range"), _of(record, "body_pitch_range")))
+        rows.append((_label("body_pitch_range"), _of(record, "body_pitch_range", limited)))
     return rows
 
 
-def plausible_rows(judged: list[dict[str, Any]]) -> Rows:
-    """Return each judged number with its plausible range, and whether it is within the range."""
+def plausible_rows(judged: list[dict[str, Any]], limited: Limited = _NONE) -> Rows:
+    """Return each judged number with its plausible range, whether it is outside, and whether a limit has set it."""
     rows = []
     for one in judged:
         factor, unit = for_people(cf(str(one["unit"])))
@@ -71,19 +94,11 @@ def plausible_rows(judged: list[dict[str, Any]]) -> Rows:
             known = f"{low.removesuffix(f' {unit}')} to {high}"
         elif low or high:
             known = f"at least {low}" if low else f"at most {high}"
-        value = _number(one["value"], unit, factor)
-        rows.append((one["name"].replace("_", " "), f"{value} ({known}{_place(one)})"))
+        outside = ", outside" if one["within"] is False else ""
+        by = limited[one["name"]].by if one["name"] in limited else ()
+        why = ", set by the limit" if one["name"] in by else ", follows from a limit" if by else ""
+        rows.append((called(one["name"]), f"{_number(one['value'], unit, factor)} ({known}{outside}{why})"))
     return rows
-
-
-def _place(one: dict[str, Any]) -> str:
-    """Say if a judged number is outside its range, or held at an end of it, as `--within-plausible` may hold it."""
-    if one["within"] is False:
-        return ", outside"
-    for end, side in (("low", "lower"), ("high", "upper")):
-        if one["within"] and one[end] is not None and math.isclose(one["value"], one[end], rel_tol=_AT_END):
-            return f", at the {side} end"
-    return ""
 
 
 def deficit_rows(deficits: list[dict[str, Any]]) -> Rows:
@@ -101,10 +116,10 @@ def change_rows(changes: list[dict[str, Any]]) -> Rows:
     return [("or" if i else "either", change["text"]) for i, change in enumerate(changes)]
 
 
-def wingbeat_rows(beat: dict[str, Any]) -> Rows:
+def wingbeat_rows(beat: dict[str, Any], limited: Limited = _NONE) -> Rows:
     """Return the numbers of a wingbeat, except those of motions that are off."""
     shown = [name for name in beat if name not in _OFF or beat[name] != _OFF[name]]
-    rows = [(name.replace("_", " "), _of(beat, name)) for name in shown]
+    rows = [(name.replace("_", " "), _of(beat, name, limited)) for name in shown]
     return [(f"wing {label}" if label.startswith("pitch") else label, value) for label, value in rows]
 
 
@@ -123,7 +138,7 @@ def power_label(name: str) -> str:
     return _label(name).replace(" power,", "s,")
 
 
-def power_rows(record: dict[str, Any]) -> Rows:
+def power_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
     """Return means and peaks of power, also per mass if the record holds the mass."""
     hinges = ("mean_power", "mean_positive_power", "peak_power")
     vehicle = record.get("vehicle")
@@ -133,9 +148,9 @@ def power_rows(record: dict[str, Any]) -> Rows:
         if name in record:
             unit = plain_unit("positive_power_per_mass")
             each = f" ({_number(record[name], unit, 1 / mass)})" if mass and record[name] is not None else ""
-            rows.append((power_label(name), _of(record, name) + each))
+            rows.append((power_label(name), f"{_of(record, name)}{each}{_why(name, limited)}"))
     others = ("cost_of_transport", *OF_MUSCLE, *OF_MOTOR)
-    return rows + [(_label(name), _of(record, name)) for name in others if name in record]
+    return rows + [(_label(name), _of(record, name, limited)) for name in others if name in record]
 
 
 def certificate_rows(record: dict[str, Any]) -> Rows:
@@ -186,10 +201,14 @@ def _label(name: str) -> str:
     return NOMENCLATURE[name].short_label
 
 
-def _of(numbers: dict[str, Any], name: str) -> str:
-    """Return one number of a record in a readable unit."""
+def _of(numbers: dict[str, Any], name: str, limited: Limited = _NONE) -> str:
+    """Return one number of a record in a readable unit, and whether a limit has set it."""
     factor, unit = for_people(NOMENCLATURE[name].unit)
-    return _number(numbers.get(name), unit, factor)
+    return f"{_number(numbers.get(name), unit, factor)}{_why(name, limited)}"
+
+
+def _why(name: str, limited: Limited) -> str:
+    return f" ({limited[name].words})" if name in limited else ""
 
 
 def _number(value: Any, unit: str, factor: float) -> str:

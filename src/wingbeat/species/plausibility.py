@@ -3,20 +3,27 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from wingbeat.species import scaling
 from wingbeat.species_schema import PLAUSIBLE, Number, Range
 
-# What is judged of every orbit, in the order of a record.
+# What is judged of an orbit, in the order of a record: activation where there is muscle, the tail's tilt where a
+# tail tilts.
 JUDGED = (
     "positive_power_per_mass",
+    "peak_activation",
     "frequency",
     "flap_amplitude",
+    "tail_tilt",
     "peak_force_over_weight",
+    "mean_body_pitch",
     "body_pitch_range",
     "strouhal",
     "reynolds",
 )
+# No number of an animal: the share of the muscle's fibres that a wingbeat uses.
+ACTIVATION = Range(None, 1.0, "1", "by definition: above 1, the wingbeat needs more fibres than the muscle has")
 UNKNOWN = "nothing is known: the species file gives no range"
 _NO_LAW = "nothing is known: no law of robots was found"
 
@@ -50,6 +57,13 @@ _BODY_PITCH = Range(
     "guess: no measurement found; a body that turns by 20 degrees turns a sixth of its lift into thrust and drag "
     "by turns",
 )
+# Mean body pitch in cruise [rad].
+_MEAN_BODY_PITCH = math.radians(-10.0), math.radians(40.0)
+_MEAN_BODY_PITCH_SOURCE = (
+    "guess: no measured range was found; the body angle of pigeons falls with speed (A: Tobalske and Dial 1996, "
+    "J Exp Biol 199:263, abstract), so that the body is nearly level in fast cruise and steeper in slow cruise; 10 "
+    "degrees nose down are left for the rest"
+)
 # Strouhal numbers of cruising animals.
 _STROUHAL = 0.2, 0.4
 _STROUHAL_SOURCE = (
@@ -68,6 +82,12 @@ def _plausible(
     return {
         "positive_power_per_mass": Range(None, _MUSCLE * share, "W/kg", f"{_MUSCLE_SOURCE}; {share_source}"),
         "peak_force_over_weight": _FORCE,
+        "mean_body_pitch": Range(
+            *_MEAN_BODY_PITCH,
+            "rad",
+            f"{_MEAN_BODY_PITCH_SOURCE}; cruise is 0.6 to 1.6 times {law}: slower flight is steeper",
+            (slowest, fastest),
+        ),
         "body_pitch_range": _BODY_PITCH,
         "strouhal": Range(
             *_STROUHAL,
@@ -100,7 +120,25 @@ def plausible_of_bats(mass: float, chord: float, viscosity: float) -> dict[str, 
 
 def plausible_of_robots(mass: float, chord: float, viscosity: float) -> dict[str, Range]:
     """Return ranges that are open at both ends: no law of robots was found, because motors differ too much."""
-    return {key.name: Range(None, None, key.unit, _NO_LAW) for key in PLAUSIBLE}
+    return {key.name: Range(None, None, key.unit, _NO_LAW) for key in PLAUSIBLE if key.name != "peak_activation"}
+
+
+def range_of_tilt(numbers: Mapping[str, Number]) -> Range:
+    """Return the plausible range of the tail's tilt: its own, or what the range of the incidence allows.
+
+    Parameters
+    ----------
+    numbers : of a species, by their paths.
+    """
+    own, incidence = numbers.get("wingbeat.tail_tilt"), numbers.get("vehicle.tail.incidence")
+    if own is not None and own.range is not None:
+        return range_of(own)
+    if incidence is None or incidence.range is None:
+        return Range(None, None, "rad", UNKNOWN)
+    level = incidence.value
+    assert not isinstance(level, tuple)
+    low, high = (end - level for end in incidence.range)
+    return Range(low, high, "rad", f"range of the tail's incidence; {incidence.source}")
 
 
 def range_of(number: Number) -> Range:

@@ -25,7 +25,7 @@ from wingbeat.species.building import (
     words,
 )
 from wingbeat.species.muscle_laws import muscle_numbers
-from wingbeat.species.plausibility import UNKNOWN, range_of
+from wingbeat.species.plausibility import ACTIVATION, UNKNOWN, range_of, range_of_tilt
 from wingbeat.species.report import species_report
 from wingbeat.species.settings import plain, settable
 from wingbeat.species.shape import Shape
@@ -108,9 +108,11 @@ class Species(Reported):
         >>> load_species("bat").plausible_range("strouhal", 2.0)[:2]
         (None, None)
         """
+        if name == "tail_tilt":
+            return range_of_tilt(self.numbers)
         if f"wingbeat.{name}" in self.numbers:
             return range_of(self.numbers[f"wingbeat.{name}"])
-        known = self.plausible.get(name)
+        known = self.plausible.get(name, ACTIVATION if name == "peak_activation" else None)
         if known is None:
             return Range(None, None, plain_unit(name), UNKNOWN)
         if known.speeds is None or known.speeds[0] <= speed <= known.speeds[1]:

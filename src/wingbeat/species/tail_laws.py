@@ -101,7 +101,7 @@ def tail_numbers(mass: float) -> dict[str, Number]:
     >>> {path.rpartition(".")[2]: float(f"{number.value:.3g}") for path, number in tail_numbers(0.316).items()}
     {'area': 0.00646, 'arm': 0.164, 'lift_slope': 3.63, 'drag_coefficient': 0.02, 'incidence': 0.0}
     """
-    level = "guess: along the body axis; tail_tilt turns it"
+    level = "guess: along the body axis; tail_tilt turns it; no measured range of a tail's tilt was found"
     return {
         "vehicle.tail.area": TAIL_AREA.number(mass),
         "vehicle.tail.arm": TAIL_ARM.number(mass),

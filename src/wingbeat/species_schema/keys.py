@@ -117,5 +117,8 @@ LOOKS = (
 # their numbers, under wingbeat.
 PLAUSIBLE = tuple(
     _key(f"plausible.{name}", False)
-    for name in ("positive_power_per_mass", "peak_force_over_weight", "body_pitch_range", "strouhal", "reynolds")
+    for name in (
+        *("positive_power_per_mass", "peak_activation", "peak_force_over_weight", "mean_body_pitch"),
+        *("body_pitch_range", "strouhal", "reynolds"),
+    )
 )

@@ -21,6 +21,19 @@ _ROUNDING = 1e-9
 _INSET = 2e-4
 
 
+def judged_names(species: Species, free: Sequence[str]) -> list[str]:
+    """Return what is judged of an orbit: activation where there is muscle, the tail's tilt where a tail tilts.
+
+    Parameters
+    ----------
+    species : what flies.
+    free : names of the free parameters.
+    """
+    tilts = species.vehicle.tail is not None and ("tail_tilt" in free or species.wingbeat.tail_tilt != 0)
+    absent = {"peak_activation": species.vehicle.muscle is None, "tail_tilt": not tilts}
+    return [name for name in JUDGED if not absent.get(name)]
+
+
 def drawn_in(
     species: Species, free: Sequence[str], bounds: Mapping[str, tuple[float, float]], faults: FaultList
 ) -> dict[str, tuple[float, float]]:
@@ -36,14 +49,14 @@ def drawn_in(
     """
     drawn = {}
     for name in free:
-        number = species.numbers.get(f"wingbeat.{name}")
-        if number is None or number.range is None or name not in bounds:
+        known = species.plausible_range(name, 0.0)
+        if known.low is None or known.high is None or name not in bounds:
             continue
-        pair = max(bounds[name][0], number.range[0]), min(bounds[name][1], number.range[1])
+        pair = max(bounds[name][0], known.low), min(bounds[name][1], known.high)
         if pair[0] < pair[1]:
             drawn[name] = pair
         else:
-            rule = f"does not overlap with the plausible range ({_words(species.plausible_range(name, 0.0))})"
+            rule = f"does not overlap with the plausible range ({_words(known)})"
             faults.add(f"bounds.{name}", bounds[name], rule, f"widen the bounds, or {_WAY_OUT}")
     for name in JUDGED:
         if name in FREE_NAMES and name not in free:
@@ -61,7 +74,7 @@ def plausible_limits(species: Species, speed: float, air: Air, faults: FaultList
     not plausible.
     """
     limits = []
-    for name in JUDGED:
+    for name in judged_names(species, ()):
         known = species.plausible_range(name, speed)
         if name in FREE_NAMES or (name == "strouhal" and speed == 0):
             continue
@@ -74,7 +87,7 @@ def plausible_limits(species: Species, speed: float, air: Air, faults: FaultList
         for end, at_most in ((known.low, False), (known.high, True)):
             if end is not None:
                 # The record samples a certified beat at other phases than the solver.
-                inset = _INSET * abs(end)
+                inset = _INSET * (abs(end) or QUANTITIES[name].scale)
                 limits.append(Constraint(QUANTITIES[name], end - inset if at_most else end + inset, at_most))
     return tuple(limits)
 

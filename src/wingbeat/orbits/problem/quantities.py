@@ -161,6 +161,10 @@ def _pitch_spread(beat: Beat) -> Any:
     return spread(beat.body_pitch)
 
 
+def _mean_pitch(beat: Beat) -> Any:
+    return beat.mean(beat.body_pitch)
+
+
 def _roughness(beat: Beat) -> Any:
     return jnp.sqrt(beat.mean(beat.u_rate**2 + beat.w_rate**2))
 
@@ -191,6 +195,7 @@ QUANTITIES: dict[str, Quantity] = {
         _known("strouhal", _strouhal, 0.1, "limit frequency and flap_amplitude"),
         _known("peak_flap_torque", _Size("flap_torque"), 0.1),
         _known("peak_pitch_torque", _Size("pitch_torque"), 0.01),
+        _known("mean_body_pitch", _mean_pitch, 0.1),
         _known("body_pitch_range", _pitch_spread, 0.1),
         _known("roughness", _roughness, 5.0),
         *(

@@ -150,13 +150,10 @@ def test_bad_runs_are_refused_by_row_and_column(case, here, capsys):
 BAD_TABLES = {
     "empty": ("", ["the file holds no table"]),
     "header": ("alpha_deg,C_L,C_D\n", ["has no row of numbers"]),
-    "columns": (TABLE.replace("C_D", "cd"), ["column 3 = 'cd': is not a known column", "column C_D"]),
-    "radians": (
-        TABLE.replace("alpha_deg", "alpha"),
-        ["column 1 = 'alpha'", "radians times 57.29578 are alpha_deg"],
-    ),
+    "columns": (TABLE.replace("C_D", "drag"), ["column C_D = 'alpha_deg,C_L,drag': the column is missing"]),
+    "radians": (TABLE.replace("alpha_deg", "alpha_rad"), ["column 1 = 'alpha_rad': is in radians; multiply by"]),
     "magnitude": (
-        "alpha_deg,C_L,C_D\n" + "".join(f"{a / 10},{a},{a}\n" for a in range(20)),
+        "alpha_deg,C_L,C_D\n" + "".join(f"{a / 10},{a / 10},{a / 10}\n" for a in range(20)),
         ["column alpha_deg = 1.9: is the largest of 20 angles, which looks like a sweep in radians"],
     ),
     "unit": (
@@ -165,15 +162,15 @@ BAD_TABLES = {
     ),
     "cells": (TABLE.replace("30,0.3", "30,nan").replace("0.4,", "x,"), ["row 5, column C_L", "row 6, column C_L"]),
     "ragged": (TABLE + "100,1\n", ["row 12", "has 2 cells, but the header names 3 columns"]),
-    "few": ("alpha_deg,C_L,C_D\n0,0,0\n10,1,1\n20,2,2\n", ["'3 points': are too few for the 5 parameters"]),
+    "few": ("alpha_deg,C_L,C_D\n0,0,0.1\n10,1,1\n20,2,2\n", ["'3 points': are too few for the 5 parameters"]),
     "turn": (TABLE.replace("90,0.9", "290,0.9"), ["row 11, column alpha_deg = 290.0: must lie between"]),
     "still": (
         TABLE.replace("C_D\n", "C_D,reynolds\n").replace("\n0,0.0,0.1\n", "\n0,0,0.1,0\n"),
-        ["row 2, column reynolds = 0.0: must be > 0", "has 3 cells, but the header names 4 columns"],
+        ["row 2, column reynolds = 0.0: must be >= 1; was the stream at rest?", "has 3 cells, but the header names 4 columns"],
     ),
     "error": (
-        "alpha_deg,C_L,C_D,C_L_se\n" + "".join(f"{a},{a},{a},-1\n" for a in range(0, 90, 10)),
-        ["row 2, column C_L_se = -1.0: must be >= 0; an error has no sign"],
+        "alpha_deg,C_L,C_D,C_L_se\n" + "".join(f"{a},{a / 90},{0.1 + a / 90},-1\n" for a in range(0, 90, 10)),
+        ["row 2, column C_L_se = -1.0: must be >= 0 (9 of 9 rows); an error has no sign"],
     ),
 }
 

@@ -9,20 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._version import __version__
+from wingbeat.aero.polar_sheet import QUANTITIES, read_polar, reynolds_groups
 from wingbeat.errors import FaultList
-from wingbeat.experiment.record import refuse_radians
 from wingbeat.files import write_atomically
-from wingbeat.sheets import Sheet, check_unit, parse_numbers, read_sheet, split_unit
 
-QUANTITIES = ("C_L", "C_D", "C_M", "x_cp")
-REQUIRED = ("alpha_deg", "C_L", "C_D")
-_KNOWN = (
-    *("alpha_deg", "reynolds"),
-    *(f"{name}{kind}" for name in QUANTITIES for kind in ("", "_sd", "_se")),
-    "runs",
-)
-# An empty cell says that the quantity is undefined there: no centre of pressure without a force.
-_MAY_BE_EMPTY = frozenset(("C_M", "C_M_sd", "C_M_se", "x_cp", "x_cp_sd", "x_cp_se"))
+# NaN says that the quantity is undefined or not known there: no centre of pressure without a force.
+_MAY_BE_EMPTY = frozenset(("C_M", "C_M_sd", "C_M_se", "x_cp", "x_cp_sd", "x_cp_se", "reynolds"))
 
 Columns = dict[str, NDArray[np.float64]]
 
@@ -84,31 +76,49 @@ class CoefficientTable:
             columns["runs"] = self.runs.astype(np.float64)
         return columns
 
-    def between(self, lowest_deg: float, highest_deg: float) -> CoefficientTable:
-        """Return the rows between two angles.
+    def between(
+        self,
+        lowest_deg: float = -180.0,
+        highest_deg: float = 180.0,
+        *,
+        reynolds: tuple[float, float] | None = None,
+    ) -> CoefficientTable:
+        """Return the rows between two angles and, if given, between two Reynolds numbers.
 
         Parameters
         ----------
         lowest_deg, highest_deg : angles of attack [deg], both included.
+        reynolds : lowest and highest chord Reynolds number, both included, or None for all rows.
 
         Raises
         ------
-        InvalidInputError : no row is between the angles.
+        InvalidInputError : no row is there, or the table has no Reynolds numbers to choose by.
         """
+        faults = FaultList()
         keep = (self.alpha_deg >= lowest_deg) & (self.alpha_deg <= highest_deg)
         if not keep.any():
-            faults = FaultList()
             rule = f"holds no row: the angles run from {self.alpha_deg.min():g} to {self.alpha_deg.max():g}"
             faults.add("alpha range", f"{lowest_deg:g} to {highest_deg:g}", rule, "widen it")
-            faults.raise_if_any()
+        if reynolds is not None:
+            asked = f"{reynolds[0]:g} to {reynolds[1]:g}"
+            if self.reynolds is None:
+                faults.add(
+                    "reynolds range", asked, "the table has no column reynolds", "add it, or leave the range out"
+                )
+            else:
+                keep = keep & (self.reynolds >= reynolds[0]) & (self.reynolds <= reynolds[1])
+                if not (faults.faults or keep.any()):
+                    held = " and ".join(f"{low:.0f} to {high:.0f}" for low, high in reynolds_groups(self.reynolds))
+                    faults.add("reynolds range", asked, f"holds no row: the table has Re {held}", "widen it")
+        faults.raise_if_any()
 
         def kept(group: Columns) -> Columns:
             return {name: column[keep] for name, column in group.items()}
 
-        reynolds = None if self.reynolds is None else self.reynolds[keep]
+        stream = None if self.reynolds is None else self.reynolds[keep]
         runs = None if self.runs is None else self.runs[keep]
         mean, sd, se = kept(self.mean), kept(self.sd), kept(self.se)
-        return CoefficientTable(self.alpha_deg[keep], mean, sd, se, reynolds, runs, self.notes)
+        return CoefficientTable(self.alpha_deg[keep], mean, sd, se, stream, runs, self.notes)
 
     def save(self, path: str | Path) -> None:
         """Write the table as CSV, with notes as # lines above it; cells of undefined quantities are empty.
@@ -134,7 +144,8 @@ def load_measurements(path: str | Path) -> CoefficientTable:
     """Read a table of measured coefficients from CSV.
 
     The columns alpha_deg, C_L and C_D are required. reynolds, C_M, x_cp, runs and errors (C_L_sd, C_L_se, ...) are
-    read if present. Other columns are refused, because a misspelt error column would otherwise be ignored.
+    read if present. Columns may have any order and spelling (alpha, c_l, CL, Cd, Re). Others are ignored; the
+    table's notes name them.
 
     Parameters
     ----------
@@ -143,59 +154,32 @@ def load_measurements(path: str | Path) -> CoefficientTable:
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : missing or unknown columns, cells that are not numbers, angles in radians, and what
-        `CoefficientTable` refuses, each fault with its row and column.
+    InvalidInputError : missing columns, cells that are not numbers, angles in radians, coefficients and Reynolds
+        numbers that no wing has, each fault with its row and column.
     """
-    sheet, faults = read_sheet(path), FaultList()
-    names = _names(faults, sheet)
+    faults = FaultList()
+    polar = read_polar(path, faults)
+    if not polar.sheet.rows:
+        where = f"{polar.sheet.file} row {polar.sheet.header_row}"
+        faults.add(where, "", "has no row of numbers", "add the measurements")
     faults.raise_if_any()
-    numbers = parse_numbers(faults, sheet, names, blank=_MAY_BE_EMPTY)
-    _check_rows(faults, sheet, dict(zip(names, numbers.T, strict=True)))
-    faults.raise_if_any()
-    columns = {name: numbers[:, k].copy() for k, name in enumerate(names)}
-    where = f"{sheet.file}, column alpha_deg"
-    refuse_radians(where, columns["alpha_deg"])
+    columns, notes = dict(polar.columns), list(polar.notes)
+    for name, column in polar.columns.items():
+        empty = int(np.isnan(column).sum())
+        if not empty or name in QUANTITIES or name == "reynolds":
+            continue
+        if name == "runs" or empty == len(column):
+            del columns[name]
+            notes.append(f"{name} is empty in {empty} of {len(column)} rows, so this column is not used")
+        else:
+            columns[name] = np.where(np.isnan(column), np.nanmedian(column), column)
+            notes.append(f"{name} is empty in {empty} of {len(column)} rows, which get the median of the others")
+    if "reynolds" in columns and np.isnan(columns["reynolds"]).all():
+        del columns["reynolds"]
 
     def group(kind: str) -> Columns:
         return {name: columns[name + kind] for name in QUANTITIES if name + kind in columns}
 
     runs = columns["runs"].astype(np.intp) if "runs" in columns else None
-    return CoefficientTable(
-        columns["alpha_deg"], group(""), group("_sd"), group("_se"), columns.get("reynolds"), runs
-    )
-
-
-def _names(faults: FaultList, sheet: Sheet) -> list[str]:
-    names: list[str] = []
-    for k, cell in enumerate(sheet.header):
-        name, unit = split_unit(cell)
-        where = f"{sheet.file} row {sheet.header_row}, column {k + 1}"
-        if name not in _KNOWN:
-            fix = "radians times 57.29578 are alpha_deg" if "alpha" in name else f"known are {', '.join(_KNOWN)}"
-            faults.add(where, cell, "is not a known column", fix)
-        elif name in names:
-            faults.add(where, cell, "appears twice", "keep one")
-        check_unit(faults, where, unit, "deg" if name == "alpha_deg" else "")
-        names.append(name)
-    for name in REQUIRED:
-        if name not in names:
-            where = f"{sheet.file} row {sheet.header_row}, column {name}"
-            faults.add(where, ",".join(sheet.header), "the column is missing", f"needed are {', '.join(REQUIRED)}")
-    if not sheet.rows:
-        faults.add(f"{sheet.file} row {sheet.header_row}", "", "has no row of numbers", "add the measurements")
-    return names
-
-
-def _check_rows(faults: FaultList, sheet: Sheet, columns: Columns) -> None:
-    """Note errors below 0, impossible Reynolds numbers, and angles beyond half a turn."""
-    for name, column in columns.items():
-        bad = np.zeros(len(column), dtype=bool)
-        rule = fix = ""
-        if name.endswith(("_sd", "_se")):
-            bad, rule, fix = column < 0, "must be >= 0", "an error has no sign"
-        elif name in ("reynolds", "runs"):
-            bad, rule, fix = column <= 0, "must be > 0", "was the stream at rest?"
-        elif name == "alpha_deg":
-            bad, rule, fix = np.abs(column) > 180, "must lie between -180 and 180 degrees", "wrap the angle"
-        for i in np.flatnonzero(bad):
-            faults.add(f"{sheet.file} row {sheet.rows[i][0]}, column {name}", float(column[i]), rule, fix)
+    measured = columns["alpha_deg"], group(""), group("_sd"), group("_se")
+    return CoefficientTable(*measured, columns.get("reynolds"), runs, tuple(notes))

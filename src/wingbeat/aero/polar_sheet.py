@@ -1,0 +1,303 @@
+"""Tables of measured coefficients as files: how columns may be named, and what no such table can hold."""
+
+from __future__ import annotations
+
+import math
+import re
+import shlex
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wingbeat.aero.table_checks import check_possible
+from wingbeat.errors import FaultList, suggest
+from wingbeat.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
+
+QUANTITIES = ("C_L", "C_D", "C_M", "x_cp")
+REQUIRED = ("alpha_deg", "C_L", "C_D")
+_ERRORS = tuple(f"{name}_{kind}" for name in QUANTITIES for kind in ("sd", "se"))
+KNOWN = ("alpha_deg", "reynolds", *QUANTITIES, *_ERRORS, "runs")
+# Cells that may be empty: no centre of pressure without a force, and what was not measured in every row.
+MAY_BE_EMPTY = frozenset(KNOWN) - frozenset(REQUIRED)
+
+_SPELLINGS = {same_name(name): name for name in KNOWN}
+_SPELLINGS |= dict.fromkeys(("alpha", "aoa", "aoadeg", "angleofattack", "angleofattackdeg", "α"), "alpha_deg")
+_SPELLINGS |= dict.fromkeys(("re", "reynoldsnumber"), "reynolds")
+_SPELLINGS |= {"liftcoefficient": "C_L", "dragcoefficient": "C_D", "momentcoefficient": "C_M"}
+# A column of these names starts like a coefficient and ends like an error; it is named if it is not used.
+_ERROR_LIKE = re.compile(r"(cl|cd|cm|xcp)\W*(e|s|u|d|std|stat|ci)", re.ASCII)
+# Lift rises with the angle of attack on every wing at small angles. These are the angles [deg], the least number of
+# angles, and the least fall of lift that says that a sign is wrong.
+_ATTACHED_DEG, _LEAST_ANGLES, _LEAST_FALL = 8.0, 4, 0.15
+# No wing in a stream at Re above 100 has so much drag at small angles: a plate at Re 100 has 0.27 (Blasius).
+_SMALL_DEG, _DRAG_AT_SMALL, _VISCOUS = 5.0, 1.0, 100.0
+# Friction of a flat plate, both sides, in laminar flow: 2.656/sqrt(Re) (Blasius 1908). Drag below a quarter of it
+# says that Re is in other units: in thousands, it would be too small by a factor of 32.
+_BLASIUS, _LEAST_SHARE = 2.656, 0.25
+_LISTED = 8
+
+
+class PolarSheet(NamedTuple):
+    """A table of coefficients as numbers.
+
+    Attributes
+    ----------
+    sheet : the parts of the file.
+    headings : the file's own names of the columns that are read, by our names.
+    columns : numbers by our names, each of shape (rows,); NaN where an optional cell is empty.
+    notes : what a reader should know: columns that are not read, values that look odd.
+    """
+
+    sheet: Sheet
+    headings: dict[str, str]
+    columns: dict[str, NDArray[np.float64]]
+    notes: tuple[str, ...]
+
+    def where(self, row: int, name: str) -> str:
+        """Return the place of a cell in the file, in the file's own words."""
+        at = self.sheet.rows[row][0] if row < len(self.sheet.rows) else self.sheet.header_row
+        return f"{self.sheet.file} row {at}, column {self.headings.get(name, name)}"
+
+
+def read_polar(path: str | Path, faults: FaultList) -> PolarSheet:
+    """Read a table of coefficients from CSV, with the columns in any order and in any usual spelling.
+
+    Parameters
+    ----------
+    path : of the CSV file.
+    faults : where faults of cells and values are noted; the caller raises them with its own.
+
+    Raises
+    ------
+    FileError : the file is missing or cannot be read.
+    InvalidInputError : it is no table, or columns are missing, given twice or in other units.
+    """
+    sheet = read_sheet(path)
+    names, notes = _names(faults, sheet)
+    headings = {name: split_unit(cell).name for name, cell in zip(names, sheet.header, strict=True) if name}
+    blank = frozenset(headings[name] for name in headings if name in MAY_BE_EMPTY)
+    numbers = parse_numbers(faults, sheet, [headings.get(name, "") for name in names], blank=blank)
+    columns = {name: numbers[:, k].copy() for k, name in enumerate(names) if name}
+    found = PolarSheet(sheet, headings, columns, ())
+    if sheet.rows:
+        _check_values(faults, found)
+    return found._replace(notes=(*notes, *_odd(columns)))
+
+
+def _names(faults: FaultList, sheet: Sheet) -> tuple[list[str], list[str]]:
+    """Return our name of each column, "" for one that is not read, and notes; refuse a head that cannot be read."""
+    names: list[str] = []
+    unread: list[str] = []
+    earlier = len(faults.faults)
+    for k, cell in enumerate(sheet.header):
+        name = _SPELLINGS.get(same_name(cell), "")
+        where = f"{sheet.file} row {sheet.header_row}, column {k + 1}"
+        if same_name(cell) in ("alpharad", "aoarad"):
+            faults.add(where, cell, "is in radians", "multiply by 57.29578 and name it alpha_deg")
+            name = "alpha_deg"
+        if not name:
+            unread.append(split_unit(cell).name)
+        elif name in names:
+            faults.add(where, cell, f"appears twice (above as {sheet.header[names.index(name)]})", "keep one")
+        else:
+            check_unit(faults, where, split_unit(cell).unit, "deg" if name == "alpha_deg" else "")
+        names.append(name)
+    missing = [name for name in REQUIRED if name not in names]
+    for name in missing:
+        near = suggest(name, unread, most=1, otherwise="")
+        fix = f"needed are {', '.join(REQUIRED)}" + (f"; {near}" if near else "")
+        where = f"{sheet.file} row {sheet.header_row}, column {name}"
+        faults.add(where, ",".join(sheet.header), "the column is missing", fix)
+    if len(faults.faults) > earlier:
+        faults.raise_if_any()
+    shown = [name or "(without a name)" for name in unread]
+    notes = [f"columns that are not used: {', '.join(shown[:_LISTED])}{', ...' * (len(shown) > _LISTED)}"] * bool(
+        shown
+    )
+    errors = [name for name in unread if _ERROR_LIKE.match(same_name(name))]
+    if errors:
+        rule = "named C_L_se (standard error of the mean) or C_L_sd (standard deviation), and so on"
+        notes.append(
+            f"{', '.join(errors)}: if these are errors, they are not used; errors are read from columns {rule}"
+        )
+    return names, notes
+
+
+def _check_values(faults: FaultList, polar: PolarSheet) -> None:
+    """Note what no table of a wing can hold: one fault for each column, at its worst row."""
+    columns = polar.columns
+    for name, column in columns.items():
+        if name in QUANTITIES:
+            check_possible(faults, name, column.tolist(), lambda i, name=name: polar.where(i, name))
+        elif name in _ERRORS:
+            fault_at(faults, polar, name, column < 0, "must be >= 0", "an error has no sign")
+        elif name == "runs":
+            fault_at(faults, polar, name, column < 1, "must be >= 1", "it is the number of runs in the row")
+        elif name == "reynolds":
+            small = np.nanmax(column, initial=0.0) < 100 and np.nanmin(column, initial=1.0) > 0
+            units = "it looks like millions or thousands: multiply by 1 000 000 or 1000"
+            fault_at(faults, polar, name, column < 1, "must be >= 1", units if small else "was the stream at rest?")
+    _check_angles(faults, polar)
+    alpha, lift = columns["alpha_deg"], columns["C_L"]
+    near = (np.abs(alpha) <= _ATTACHED_DEG) & np.isfinite(lift)
+    if len(np.unique(alpha[near])) >= _LEAST_ANGLES:
+        slope = float(np.polyfit(alpha[near], lift[near], 1)[0])
+        fall = -slope * float(np.ptp(alpha[near]))
+        if fall > _LEAST_FALL and np.corrcoef(alpha[near], lift[near])[0, 1] < -0.8:
+            rule = (
+                f"falls by {fall:.2g} from {alpha[near].min():g} to {alpha[near].max():g} degrees; lift must rise"
+            )
+            fix = f"reverse the sign of {polar.headings['C_L']} or of {polar.headings['alpha_deg']}"
+            faults.add(f"{polar.sheet.file}, column {polar.headings['C_L']}", f"{slope:.3g} per degree", rule, fix)
+    known = columns.get("reynolds", np.full(len(alpha), math.inf))
+    small = (np.abs(alpha) <= _SMALL_DEG) & (known >= _VISCOUS)
+    drag = columns["C_D"][small]
+    if len(drag) and drag.min() >= _DRAG_AT_SMALL and drag.max() <= 5:
+        rule = f"is at least {drag.min():g} at angles up to {_SMALL_DEG:g} degrees, and no wing has so much drag"
+        fix = "it looks like per cent: divide by 100"
+        faults.add(f"{polar.sheet.file}, column {polar.headings['C_D']}", float(drag.max()), rule, fix)
+
+
+def fault_at(faults: FaultList, polar: PolarSheet, name: str, bad: NDArray[np.bool_], rule: str, fix: str) -> None:
+    """Note one fault at the first bad row of a column, with the number of bad rows."""
+    if bad.any():
+        row = int(np.argmax(bad))
+        others = f" ({bad.sum()} of {len(bad)} rows)" if bad.sum() > 1 else ""
+        faults.add(polar.where(row, name), float(polar.columns[name][row]), rule + others, fix)
+
+
+def _check_angles(faults: FaultList, polar: PolarSheet) -> None:
+    """Note angles in radians, from 0 to 360 degrees, or beyond half a turn."""
+    angles = polar.columns["alpha_deg"]
+    finite = angles[np.isfinite(angles)]
+    if not len(finite):
+        return
+    row = int(np.nanargmax(np.abs(angles)))
+    largest = float(np.abs(angles[row]))
+    if check_radians(faults, polar.where(row, "alpha_deg"), finite):
+        return
+    if 180 < largest <= 360 and finite.min() >= 0 and (finite > 180).sum() > 2:
+        rule = "is the largest angle: this seems to be a turn that is counted from 0 to 360 degrees"
+        fix = "subtract 360 from the angles above 180 and sort the rows"
+        faults.add(polar.where(row, "alpha_deg"), largest, rule, fix)
+    else:
+        beyond = "must lie between -180 and 180 degrees"
+        fault_at(faults, polar, "alpha_deg", np.abs(angles) > 180, beyond, "wrap the angle")
+
+
+def check_radians(faults: FaultList, where: str, angles: NDArray[np.float64]) -> bool:
+    """Note a fault if four angles or more do not go beyond pi, as in radians; return whether it is so."""
+    distinct = np.unique(np.round(angles, 3))
+    largest = float(np.abs(distinct).max())
+    if len(distinct) < 4 or not 0 < largest <= math.pi:
+        return False
+    rule = f"is the largest of {len(distinct)} angles, which looks like a sweep in radians"
+    faults.add(where, largest, rule, "write degrees (radians times 57.29578); a sweep in degrees must go beyond 4")
+    return True
+
+
+def _odd(columns: dict[str, NDArray[np.float64]]) -> list[str]:
+    """Return notes on values that are possible but odd."""
+    stream = columns.get("reynolds", np.empty(0))
+    stream = stream[np.isfinite(stream) & (stream >= 1)]
+    drag = np.sort(columns["C_D"][np.isfinite(columns["C_D"])])
+    if not len(stream) or not len(drag):
+        return []
+    low, least = float(np.median(stream)), float(np.median(drag[: max(len(drag) // 4, 1)]))
+    friction = _BLASIUS / math.sqrt(low)
+    if not 0 < least < _LEAST_SHARE * friction:
+        return []
+    return [
+        f"C_D is {least:.2g} at its lowest, but the friction of a flat plate at Re {low:.3g} is {friction:.2g} "
+        "(Blasius): are the Reynolds numbers in thousands or millions, or is the zero of the drag wrong?"
+    ]
+
+
+def refuse_several(faults: FaultList, path: str | Path, polar: PolarSheet) -> None:
+    """Note a fault if angles repeat: the table holds several curves, or repeats of one, and a model needs one.
+
+    Parameters
+    ----------
+    faults : where it is noted.
+    path : of the table, as the user gave it.
+    polar : its content, without faults.
+    """
+    angles, first, count = np.unique(np.round(polar.columns["alpha_deg"], 6), return_index=True, return_counts=True)
+    twice = int((count > 1).sum())
+    if not twice:
+        return
+    row = int(first[np.argmax(count > 1)])
+    again = int(np.flatnonzero(np.round(polar.columns["alpha_deg"], 6) == angles[np.argmax(count > 1)])[1])
+    stream = reynolds_groups(polar.columns.get("reynolds"))
+    share = f"{twice} of {len(angles)} angles repeat{'s' * (twice == 1)}"
+    rule = f"also stands in row {polar.sheet.rows[again][0]}, and a model needs one curve ({share})"
+    fit = f"wingbeat fit {shlex.quote(str(path))}"
+    fix = f"fit a curve through repeats ({fit} ..); of two branches, such as sweeps up and down, keep one"
+    if len(stream) > 1:
+        values = ", ".join(
+            f"{group[0]:.0f}" if group[0] == group[1] else f"{group[0]:.0f}-{group[1]:.0f}" for group in stream
+        )
+        rule = f"repeats, and the table holds several Reynolds numbers ({values}); a model needs one curve"
+        low, high = stream[-1]
+        fix = f"fit one range: {fit} --reynolds-range {low:.0f} {high:.0f} .., or keep the rows of one"
+    faults.add(polar.where(row, "alpha_deg"), float(angles[np.argmax(count > 1)]), rule, fix)
+
+
+# Reynolds numbers closer than this ratio are one stream: a pump or a fan keeps its speed within some per cent.
+SAME_STREAM = 1.15
+
+
+def reynolds_groups(reynolds: NDArray[np.float64] | None) -> list[tuple[float, float]]:
+    """Return the lowest and highest Reynolds number of each group, rising; groups lie 15 per cent apart or more.
+
+    >>> reynolds_groups(np.array([20e3, 60e3, 20.5e3]))
+    [(20000.0, 20500.0), (60000.0, 60000.0)]
+    """
+    if reynolds is None:
+        return []
+    known = np.unique(reynolds[np.isfinite(reynolds)])
+    ends = np.flatnonzero(known[1:] > SAME_STREAM * known[:-1]) + 1
+    return [(float(part[0]), float(part[-1])) for part in np.split(known, ends) if len(part)]
+
+
+def completing(path: str | Path, polar: PolarSheet) -> str:
+    """Return advice that makes a model of all angles of a table of some: the command, or what to measure.
+
+    Parameters
+    ----------
+    path : of the table, as the user gave it.
+    polar : its content.
+    """
+    alpha, lift = polar.columns["alpha_deg"], polar.columns["C_L"]
+    low, high = float(alpha.min()), float(alpha.max())
+    sides = [len(np.unique(alpha[sign * lift > 0])) >= 3 for sign in (-1, 1)]
+    form, ends = "cambered", ""
+    if low >= 0 and high > 60:
+        form = "su-fan"
+    elif max(-low, high) > 60:
+        ends = " --alpha-min=-60 --alpha-max=60"
+    if form == "cambered" and not all(sides) and not (low >= 0 and zero_lift(alpha, lift) is not None):
+        return "measure on both sides of zero lift, at three angles or more each; no form can complete this table"
+    model = shlex.quote(str(Path(path).with_suffix(".toml").name))
+    return f"complete it: wingbeat fit {shlex.quote(str(path))} --form {form}{ends} -o {model}, and give {model}"
+
+
+# Lift at 0 degrees up to which a wing is taken as symmetric, from a line through the rows up to this angle [deg].
+_SYMMETRIC, _LINE_DEG = 0.06, 6.0
+
+
+def zero_lift(alpha_deg: NDArray[np.float64], lift: NDArray[np.float64]) -> float | None:
+    """Return the lift at 0 degrees of a table of one side if it is nearly zero, as on a symmetric wing; else None.
+
+    >>> zero_lift(np.array([0.0, 2, 4, 6]), np.array([0.01, 0.21, 0.40, 0.61])) is not None
+    True
+    >>> zero_lift(np.array([0.0, 2, 4, 6]), np.array([0.31, 0.51, 0.70, 0.91])) is None
+    True
+    """
+    near = (alpha_deg >= 0) & (alpha_deg <= _LINE_DEG)
+    if len(np.unique(alpha_deg[near])) < 2:
+        return None
+    at_zero = float(np.polyval(np.polyfit(alpha_deg[near], lift[near], 1), 0.0))
+    return at_zero if abs(at_zero) <= _SYMMETRIC else None

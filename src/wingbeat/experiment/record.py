@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from wingbeat.aero.polar_sheet import check_radians
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.nomenclature import plain_unit
 from wingbeat.sheets import Sheet, check_unit, parse_numbers, read_sheet, split_unit
@@ -228,11 +229,6 @@ def refuse_radians(where: str, angles: NDArray[np.float64]) -> None:
     ------
     InvalidInputError : four angles or more, none beyond pi, and some not zero.
     """
-    distinct = np.unique(np.round(angles, 3))
-    largest = float(np.abs(distinct).max())
-    if len(distinct) < 4 or not 0 < largest <= np.pi:
-        return
     faults = FaultList()
-    rule = f"is the largest of {len(distinct)} angles, which looks like a sweep in radians"
-    faults.add(where, largest, rule, "write degrees (radians times 57.29578); a sweep in degrees must go beyond 4")
-    raise InvalidInputError(faults.faults)
+    check_radians(faults, where, angles)
+    faults.raise_if_any()

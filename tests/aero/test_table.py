@@ -1,11 +1,11 @@
-"""Coefficient tables: the spline, its extension, and every fault of a file."""
+"""Coefficient tables: the curve, its extension, and every fault of a file."""
 
 import math
 import re
 
 import numpy as np
 import pytest
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import PchipInterpolator
 
 from tests.helpers.coefficients import value_slope_curvature
 from wingbeat.aero import SuFan, TableCoefficients, load_coefficients, load_table
@@ -33,7 +33,7 @@ def half(tmp_path):
     return write(tmp_path / "half.csv", polar_rows(np.arange(0, 111, 2.0), x_cp=True), "alpha_deg,c_l,c_d,x_cp")
 
 
-def test_spline_runs_through_the_points(half):
+def test_curve_runs_through_the_points(half):
     table = load_table(half)
     rows = polar_rows(np.arange(2, 89, 2.0), x_cp=True)
     alpha = np.deg2rad(rows[:, 0])
@@ -41,15 +41,15 @@ def test_spline_runs_through_the_points(half):
     np.testing.assert_allclose(found, rows[:, 1:], rtol=0, atol=1e-14)
 
 
-def test_spline_is_scipys_between_the_points(half):
+def test_curve_is_scipys_between_the_points(half):
     table = load_table(half)
     rows = polar_rows(np.arange(0, 111, 2.0), x_cp=True)
-    spline = CubicSpline(np.deg2rad(rows[:, 0]), rows[:, 1:])
+    curve = PchipInterpolator(np.deg2rad(rows[:, 0]), rows[:, 1:])
     alpha = np.random.default_rng(0).uniform(np.deg2rad(1), np.deg2rad(89), 500)
     found = np.column_stack([table.lift(alpha), table.drag(alpha), table.centre_of_pressure(alpha)])
-    np.testing.assert_allclose(found, spline(alpha), rtol=0, atol=1e-14)
+    np.testing.assert_allclose(found, curve(alpha), rtol=0, atol=1e-14)
     slopes = value_slope_curvature(table, alpha)[1]
-    np.testing.assert_allclose(slopes[:, :2], spline(alpha, 1)[:, :2], rtol=0, atol=1e-12)
+    np.testing.assert_allclose(slopes[:, :2], curve(alpha, 1)[:, :2], rtol=0, atol=1e-12)
 
 
 def test_a_table_of_a_formula_is_that_formula():
@@ -60,7 +60,7 @@ def test_a_table_of_a_formula_is_that_formula():
     table = TableCoefficients("fine", tuple(angles), tuple(lift), tuple(drag), blend_width_deg=2.0)
     alpha = np.linspace(-2 * np.pi, 2 * np.pi, 2001)
     np.testing.assert_allclose(table.lift(alpha), model.lift(alpha), rtol=0, atol=2e-3)
-    np.testing.assert_allclose(table.drag(alpha), model.drag(alpha), rtol=0, atol=1e-5)
+    np.testing.assert_allclose(table.drag(alpha), model.drag(alpha), rtol=0, atol=1e-4)
 
 
 @pytest.mark.parametrize("extension", ["mirrored", "clipped-drag"])
@@ -101,21 +101,26 @@ def test_whole_turn_table_is_periodic_and_used_as_it_is(tmp_path):
         np.testing.assert_allclose(table.lift(alpha + turns), rows[:, 1], rtol=0, atol=1e-13)
         np.testing.assert_allclose(table.drag(alpha + turns), rows[:, 2], rtol=0, atol=1e-13)
         np.testing.assert_allclose(table.centre_of_pressure(alpha + turns), rows[:, 3], rtol=0, atol=1e-13)
-    _, slopes, curvatures = value_slope_curvature(table, [math.pi, -math.pi])
+    _, slopes, _ = value_slope_curvature(table, [math.pi, -math.pi])
     np.testing.assert_allclose(*slopes[:, :2], rtol=0, atol=1e-12)
-    np.testing.assert_allclose(*curvatures[:, :2], rtol=0, atol=1e-10)
+    # Seen from the seam the table is the same as from any other row.
+    turned = np.roll(rows[:-1, 1:], 36, axis=0)
+    turned = TableCoefficients("turned", tuple(rows[:, 0]), *(tuple(c) for c in np.vstack([turned, turned[:1]]).T))
+    dense = np.linspace(-math.pi, math.pi, 999)
+    np.testing.assert_allclose(turned.drag(dense + math.pi), table.drag(dense), rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize(("extension", "first"), [("mirrored", 0), ("clipped-drag", 0), ("signed", -90)])
-def test_tables_are_twice_continuously_differentiable(extension, first):
+def test_tables_have_continuous_slopes_and_finite_curvature(extension, first):
     rows = polar_rows(np.arange(first, 91, 3.0), x_cp=True)
     table = TableCoefficients("smooth", *(tuple(column) for column in rows.T), extension=extension)
     edges = np.deg2rad([-179, -91, -90, -89, -45, -1, 0, 1, 30, 89, 90, 91, 179])
     either_side, dense = [edges - 1e-9, edges + 1e-9], np.deg2rad(np.arange(-720, 721) / 4)
     for order, rows in enumerate(value_slope_curvature(table, np.concatenate([*either_side, dense]))):
         before, after, _ = np.split(rows, [edges.size, 2 * edges.size])
-        np.testing.assert_allclose(before, after, rtol=0, atol=1e-6 * 60.0**order)
         assert np.isfinite(rows).all()
+        if order < 2:
+            np.testing.assert_allclose(before, after, rtol=0, atol=1e-6 * 60.0**order)
 
 
 def test_table_without_centre_of_pressure(tmp_path):
@@ -167,9 +172,9 @@ FAULTS = [
         "row 4, column alpha_deg = 20.0: must be above the 30 before it; sort",
     ),
     (HEADER + GOOD.replace("90", "190"), "row 5, column alpha_deg = 190.0: must lie between -180 and 180 degrees"),
-    (HEADER + GOOD.replace("1.5", "-1.5"), "row 4, column c_d = -1.5: must be >= 0"),
-    (HEADER + "0,0,0.1\n45,1,1\n90,0,2\n", "rows = 3: must be at least 4 for a cubic spline"),
-    (HEADER, "rows = 0: must be at least 4 for a cubic spline"),
+    (HEADER + GOOD.replace("1.5", "-1.5"), "row 4, column c_d = -1.5: must be > 0: every wing has drag"),
+    (HEADER + "0,0,0.1\n45,1,1\n90,0,2\n", "rows = 3: must be at least 4 for a curve"),
+    (HEADER, "rows = 0: must be at least 4 for a curve"),
     (
         HEADER + GOOD.replace("90", "80"),
         "row 5, column alpha_deg = 80.0: the table must reach at least 90 degrees",

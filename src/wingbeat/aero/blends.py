@@ -31,6 +31,10 @@ class Jet(NamedTuple):
         return Jet(-self.value, -self.slope, -self.curvature)
 
 
+# A curve by its jets: the angle in, the jet there out.
+Jets = Callable[[Any], Jet]
+
+
 def jet_of(function: Function, at: Scalar) -> Jet:
     """Return value, slope and curvature of a function, by automatic differentiation."""
     one = jnp.ones_like(at)
@@ -81,8 +85,11 @@ class Blend(NamedTuple):
         odd = Jet(*((r - m) / 2 for r, m in zip(right, mirror, strict=True)))
         return cls(even_blend(even, width), odd_blend(odd, width))
 
+    def at(self, distance: Angles) -> Angles:
+        """Return the blend's value at a distance from the join."""
+        squared = distance * distance
+        return horner(self.even, squared) + distance * horner(self.odd, squared)
+
     def over(self, value: Angles, distance: Angles, width: Scalar) -> Angles:
         """Return `value`, or the blend's value if the distance is below the width."""
-        squared = distance * distance
-        blend = horner(self.even, squared) + distance * horner(self.odd, squared)
-        return jnp.where(jnp.abs(distance) < width, blend, value)
+        return jnp.where(jnp.abs(distance) < width, self.at(distance), value)

@@ -25,10 +25,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
+import numpy as np
+
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import horner
 from wingbeat._jax.exported import exported
-from wingbeat.aero.blends import Blend, Function, Jet, even_blend, jet_of, odd_blend
+from wingbeat.aero.blends import Blend, Function, Jet, Jets, even_blend, jet_of, odd_blend
 from wingbeat.errors import FaultList
 
 if TYPE_CHECKING:
@@ -38,6 +40,8 @@ if TYPE_CHECKING:
 EXTENSIONS = ("mirrored", "signed-drag", "signed", "clipped-drag")
 MAX_BLEND_WIDTH_DEG = 3.0
 RIGHT_ANGLE = 0.5 * math.pi
+# Distances at which the drag in a blend, a quintic, is checked.
+_SAMPLES = 201
 
 
 class Pieces(Protocol):
@@ -176,39 +180,75 @@ class ExtendedKernel(NamedTuple):
         return centre
 
 
-def _patch(piece: Function, behind: Jet, width: Scalar, extension: str, name: str, signed: tuple[str, ...]) -> Any:
+def _patch(jet: Jets, behind: Jet, width: Scalar, extension: str, name: str, signed: tuple[str, ...]) -> Any:
     """Return the patch of `extension` for a mirrored coefficient; its jet beyond -90 degrees is `behind`."""
     if name in signed and (extension == "signed" or (extension == "signed-drag" and name == "drag")):
-        return SignedPatch(Blend.between(behind, jet_of(piece, width - RIGHT_ANGLE), width))
+        return SignedPatch(Blend.between(behind, jet(width - RIGHT_ANGLE), width))
     if extension == "clipped-drag" and name == "drag":
-        zero = jnp.zeros_like(width)
-        level = Jet(piece(zero), zero, zero)
-        front = jet_of(piece, width)
+        zero = 0.0 * width
+        level = Jet(jet(zero).value, zero, zero)
+        front = jet(width)
         joins = Blend.between(level, front, width), Blend.between(front.mirrored(), level, width)
         return ClippedPatch(level.value, *joins)
     return None
 
 
-@exported(static=("extension", "signed"))
-def _extended(pieces: Pieces, width: Scalar, *, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
-    """Return the kernel with its blends.
+def _ends(jet: Jets, width: Scalar, extension: str, name: str, signed: tuple[str, ...]) -> Ends:
+    """Return the blends of the coefficient `name`, whose value, slope and curvature at an angle are ``jet(angle)``.
 
     Theory: equation ``mirrored-blends``.
     """
+    zero, right = jet(width), jet(RIGHT_ANGLE - width)
+    backwards = right.mirrored()
+    blend_zero, blend_right, behind = even_blend(zero, width), even_blend(backwards, width), right
+    if name == "lift":
+        blend_zero, blend_right = odd_blend(zero, width), odd_blend(backwards.negated(), width)
+    if name == "centre":
+        # About 90 degrees it is x_cp - 1/2 that is odd.
+        about_half = backwards.negated()
+        blend_right = odd_blend(about_half._replace(value=about_half.value + 0.5), width)
+        behind = right.negated()._replace(value=1.0 - right.value)
+    return Ends(blend_zero, blend_right, _patch(jet, behind, width, extension, name, signed))
+
+
+def check_drag_of_joins(
+    faults: FaultList, what: str, jet: Jets, blend_width_deg: float, extension: str, signed: tuple[str, ...]
+) -> None:
+    """Note a fault for each join in whose blend C_D is not positive.
+
+    A blend keeps slope and curvature at its ends, so it can fall below both where drag is steep there.
+
+    Parameters
+    ----------
+    faults : collects the faults.
+    what : names C_D in the faults.
+    jet : value, slope and curvature of C_D at an angle [rad].
+    blend_width_deg, extension, signed : as for `extend`.
+    """
+    width = blend_width_deg * (math.pi / 180)
+    ends = _ends(jet, width, extension, "drag", signed)
+    blends = {90: Blend(ends.at_right, (0.0,))}
+    if not isinstance(ends.patch, SignedPatch):
+        blends[0] = Blend(ends.at_zero, (0.0,))
+    if isinstance(ends.patch, SignedPatch):
+        blends[-90] = ends.patch.at_minus_right
+    if isinstance(ends.patch, ClippedPatch):
+        blends |= {0: ends.patch.at_zero, 180: ends.patch.at_half_turn}
+    distances = np.linspace(-width, width, _SAMPLES)
+    for at, blend in blends.items():
+        least = float(blend.at(distances).min())
+        if least <= 0:
+            where = f"{what} in the blend at {at} degrees (half width {blend_width_deg:g})"
+            rule = "must be > 0: drag next to the blend is too steep for its width"
+            faults.add(where, least, rule, "give a smaller blend_width_deg, or measure at more angles there")
+
+
+@exported(static=("extension", "signed"))
+def _extended(pieces: Pieces, width: Scalar, *, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
+    """Return the kernel with its blends."""
 
     def ends(name: str) -> Ends:
-        piece = getattr(pieces, name)
-        zero, right = jet_of(piece, width), jet_of(piece, RIGHT_ANGLE - width)
-        backwards = right.mirrored()
-        blend_zero, blend_right, behind = even_blend(zero, width), even_blend(backwards, width), right
-        if name == "lift":
-            blend_zero, blend_right = odd_blend(zero, width), odd_blend(backwards.negated(), width)
-        if name == "centre":
-            # About 90 degrees it is x_cp - 1/2 that is odd.
-            about_half = backwards.negated()
-            blend_right = odd_blend(about_half._replace(value=about_half.value + 0.5), width)
-            behind = right.negated()._replace(value=1.0 - right.value)
-        return Ends(blend_zero, blend_right, _patch(piece, behind, width, extension, name, signed))
+        return _ends(lambda at: jet_of(getattr(pieces, name), at), width, extension, name, signed)
 
     return ExtendedKernel(pieces, width, ends("lift"), ends("drag"), ends("centre"))
 

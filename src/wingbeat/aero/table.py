@@ -1,4 +1,4 @@
-"""Coefficients from a table of measurements: a cubic spline through the points, extended to every angle."""
+"""Coefficients from a table of measurements: a curve that keeps the rows' shape, extended to every angle."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ import numpy as np
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementary import horner
+from wingbeat.aero.blends import Jet
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspect_ratio
-from wingbeat.aero.extension import check_extension, extend
+from wingbeat.aero.extension import check_drag_of_joins, check_extension, extend
 from wingbeat.aero.table_checks import (
     OPTIONAL,
     REQUIRED,
@@ -31,7 +32,7 @@ if TYPE_CHECKING:
 
 
 class TablePieces(NamedTuple):
-    """Cubic splines over the angle [rad]; the coefficients (4, n-1) go from the constant to the cubic term."""
+    """Piecewise cubics over the angle [rad]; the coefficients (4, n-1) go from the constant to the cubic term."""
 
     knots: Knots
     lift_spline: Spline
@@ -74,17 +75,18 @@ class WholeTurnKernel(NamedTuple):
 class TableCoefficients(CoefficientModel):
     """Quasi-steady coefficients of a wing strip, from a table.
 
-    A cubic spline (C2, not-a-knot) runs through the points. A table from 0 to at least 90 degrees is extended like
-    a formula; rows beyond 90 degrees serve only to shape the spline. A table with rows down to -90 degrees or below
-    needs the extension `signed`. A table from -180 to 180 is periodic and used without extension; its `extension`
-    is `signed`.
+    Between two rows each coefficient is monotone, so it never leaves their values: the curve is the piecewise cubic
+    of Fritsch and Butland 1984 (doi 10.1137/0905021), whose slope is continuous. A table from 0 to at least 90
+    degrees is extended like a formula; rows beyond 90 degrees only shape the slope there. A table with rows down to
+    -90 degrees or below needs the extension `signed`. A table from -180 to 180 is periodic and used without
+    extension; its `extension` is `signed`.
 
     Parameters
     ----------
     name : name of the model.
     alpha_deg : angles of attack [deg], rising, shape (n,).
-    c_l, c_d : coefficients of lift and drag, shape (n,).
-    x_cp : centre of pressure in chords from the leading edge, shape (n,), or None.
+    c_l, c_d : coefficients of lift, within -5 to 5, and of drag, above 0 and at most 5, shape (n,).
+    x_cp : centre of pressure in chords from the leading edge, within -1 to 2, shape (n,), or None.
     citation : source of the table.
     reynolds_range : chord Reynolds numbers of the measurements, or None.
     extension : how the table is extended to all angles (`wingbeat.aero.extension`).
@@ -94,10 +96,11 @@ class TableCoefficients(CoefficientModel):
     Raises
     ------
     InvalidInputError : not numbers, columns of different length, angles that do not rise or look like radians,
-        negative drag, fewer than 4 rows, too short a range of angles, an extension that does not fit the range.
+        coefficients that no wing has, fewer than 4 rows, too short a range of angles, an extension that does not
+        fit the range, a blend in which drag is not positive.
 
     >>> alpha = np.arange(0.0, 91.0, 5.0)
-    >>> lift, drag = np.sin(2 * np.deg2rad(alpha)), 1 - np.cos(2 * np.deg2rad(alpha))
+    >>> lift, drag = np.sin(2 * np.deg2rad(alpha)), 1.02 - np.cos(2 * np.deg2rad(alpha))
     >>> plate = TableCoefficients("plate", alpha, lift, drag)
     >>> round(float(plate.lift(np.deg2rad(-45.0))), 6)
     -1.0
@@ -133,6 +136,14 @@ class TableCoefficients(CoefficientModel):
             object.__setattr__(self, name, tuple(column))
         if is_whole_turn(self.alpha_deg):
             object.__setattr__(self, "extension", "signed")
+            return
+        drag = self._curve(self.c_d)
+
+        def jet(at: float) -> Jet:
+            return Jet(*(float(drag(at, order)) for order in range(3)))
+
+        check_drag_of_joins(faults, f"{self.name}, c_d", jet, self.blend_width_deg, *self._how)
+        faults.raise_if_any()
 
     def __str__(self) -> str:
         return f"{self.name} ({self.citation or 'no source given'})"
@@ -152,22 +163,33 @@ class TableCoefficients(CoefficientModel):
 
         Theory: equation ``table-spline``.
         """
+        none = np.full((4, len(self.alpha_deg) - 1), np.nan)
+        splines = [none if row is None else self._curve(row).c[::-1] for row in (self.c_l, self.c_d, self.x_cp)]
+        pieces = TablePieces(np.deg2rad(self.alpha_deg), *splines)
+        if is_whole_turn(self.alpha_deg):
+            return WholeTurnKernel(jax.tree.map(jnp.asarray, pieces))
+        return extend(pieces, self.blend_width_deg, *self._how)
+
+    @property
+    def _how(self) -> tuple[str, tuple[str, ...]]:
+        """The extension, and which coefficients the table also states at negative angles."""
+        return self.extension, ("lift", "drag", "centre") if self.extension == "signed" else ()
+
+    def _curve(self, values: tuple[float, ...]) -> Any:
+        """Return SciPy's piecewise cubic through a column; that of a whole turn has one slope at both ends.
+
+        Theory: equation ``table-slope``.
+        """
         # Imported here, because SciPy is slow to import and the formulas do not need it.
-        from scipy.interpolate import CubicSpline
+        from scipy.interpolate import PchipInterpolator, PPoly
 
         knots = np.deg2rad(self.alpha_deg)
-        whole = is_whole_turn(self.alpha_deg)
-
-        def spline(values: tuple[float, ...] | None) -> Any:
-            if values is None:
-                return np.full((4, len(knots) - 1), np.nan)
-            return CubicSpline(knots, values, bc_type="periodic" if whole else "not-a-knot").c[::-1]
-
-        pieces = TablePieces(knots, spline(self.c_l), spline(self.c_d), spline(self.x_cp))
-        if whole:
-            return WholeTurnKernel(jax.tree.map(jnp.asarray, pieces))
-        signed = ("lift", "drag", "centre") if self.extension == "signed" else ()
-        return extend(pieces, self.blend_width_deg, self.extension, signed)
+        if not is_whole_turn(self.alpha_deg):
+            return PchipInterpolator(knots, values)
+        # The slope at a row depends on the row before and the row after it.
+        around = np.concatenate([knots[-2:-1] - 2 * np.pi, knots, knots[1:2] + 2 * np.pi])
+        wrapped = PchipInterpolator(around, (values[-2], *values, values[1]))
+        return PPoly(wrapped.c[:, 1:-1], knots)
 
 
 _ASPECT_RATIO = re.compile(r"#\s*aspect_ratio\s*=\s*(.*)")

@@ -1,4 +1,4 @@
-"""What a table of coefficients must satisfy before a spline is put through it."""
+"""What a table of coefficients must satisfy before a curve is put through it."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def check_possible(faults: FaultList, quantity: str, values: Sequence[float], wh
 
 
 def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Where) -> None:
-    """Note angles that do not rise, negative drag, and too few rows."""
+    """Note angles that do not rise, coefficients that no wing has, and too few rows."""
     angles = columns["alpha_deg"]
     for i, angle in enumerate(angles):
         if i and angle <= angles[i - 1]:
@@ -81,13 +81,10 @@ def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Whe
             faults.add(where(i, "alpha_deg"), angle, rule, "sort the rows by angle and drop duplicates")
         if abs(angle) > 180:
             faults.add(where(i, "alpha_deg"), angle, "must lie between -180 and 180 degrees", "wrap the angle")
-    for i, drag in enumerate(columns["c_d"]):
-        if drag < 0:
-            faults.add(
-                where(i, "c_d"), drag, "must be >= 0: drag is measured against the motion", "reverse its sign"
-            )
+    for name, column in columns.items():
+        check_possible(faults, name, column, lambda i, name=name: where(i, name))
     if len(angles) < MIN_ROWS:
-        rule = f"must be at least {MIN_ROWS} for a cubic spline"
+        rule = f"must be at least {MIN_ROWS} for a curve"
         faults.add("rows", len(angles), rule, "measure at more angles")
 
 

@@ -10,12 +10,14 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from wingbeat.cli.app import EXIT_GOOD
-from wingbeat.cli.options import Seed, Whole
+from wingbeat.cli.options import Seed, Whole, check_outputs
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
 from wingbeat.errors import FaultList
 from wingbeat.explorer import LATTICE_MODELS, default_speeds, solve_lattice, write_explorer
+from wingbeat.explorer.lattice import check_lattice
 from wingbeat.explorer.page import check_names
+from wingbeat.files import make_folder
 from wingbeat.species import Species, load_species, species_names
 
 _MOST_SPEEDS = 200
@@ -77,6 +79,10 @@ def explore(
     species = [load_species(name) for name in names]
     tasks = [(one, model) for one in species for model in chosen]
     check_names([(one.name, model) for one, model in tasks])
+    for one, model in tasks:  # the last of them would else be refused after hours
+        check_lattice(one, model, row or default_speeds(one), starts, seed)
+    make_folder(static)
+    check_outputs(static / "index.html")
     with progress_bar("flights") as progress:
         written = write_explorer(static, _solved(tasks, row, starts, seed, progress, push))
     size = sum(path.stat().st_size for path in written)

@@ -13,7 +13,7 @@ from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import SPECIES, Climb, Settings, Whole, WithinPlausible
 from wingbeat.cli.progress import progress_bar
-from wingbeat.errors import InvalidInputError
+from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.nomenclature import written
 from wingbeat.orbits.many.uncertainty import ErrorBar
 from wingbeat.orbits.problem.path_functions import check_quantities
@@ -23,7 +23,7 @@ from wingbeat.orbits.status import Status
 from wingbeat.results.influence_report import in_words, ranked_in_words
 from wingbeat.results.sensitivities import QUANTITIES, sensitivities
 from wingbeat.results.solving import solve_orbit
-from wingbeat.results.uncertainty import Comparison, uncertainty_by_samples
+from wingbeat.results.uncertainty import Comparison, check_draws, uncertainty_by_samples
 from wingbeat.workers.affinity import core_count
 
 _DEFAULT = (*QUANTITIES, "spectral_radius")
@@ -65,6 +65,9 @@ def uncertainty(
     """
     bounds = "plausible" if within_plausible else {}
     problem = model.problem(species, speed, set_, climb=climb, minimise=minimise, bounds=bounds)
+    faults, fit = FaultList(), model.fit()
+    check_draws(faults, problem, samples, share, fit)
+    faults.raise_if_any()
     known = _known(problem, _DEFAULT if quantities is None else quantities)
     with progress_bar(f"{problem.species.name} at {speed:g} m/s") as progress:
         orbit = solve_orbit(problem, seed=seed, progress=progress)
@@ -72,7 +75,7 @@ def uncertainty(
         Console(stderr=True).print(f"{orbit.status.value}: {orbit.message}", markup=False)
         return EXIT_NOT_CERTIFIED
     slopes = sensitivities(orbit, known)
-    names, fit = [quantity.name for quantity in known], model.fit()
+    names = [quantity.name for quantity in known]
     if not json:
         _announce([slopes.error_bar(name, fit, share) for name in names], samples)
     with progress_bar(f"{samples} draws") as progress:

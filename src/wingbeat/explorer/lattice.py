@@ -15,7 +15,7 @@ from wingbeat.explorer.pushed import pushes_of
 from wingbeat.explorer.thinning import thinned
 from wingbeat.models import model_of
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.solve import Progress
+from wingbeat.orbits.solve import Progress, check_search
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.solving import solve_orbits
 from wingbeat.species import Species
@@ -81,15 +81,32 @@ def solve_lattice(
     >>> lattice["speed"], [point["certified"] for point in lattice["curve"]["points"]]
     (11.0, [True, True])
     """
+    problems, count = check_lattice(species, model, speeds, starts, seed)
+    orbits = solve_orbits(problems, count, seed, in_order=True, progress=progress)
+    return lattice_of(species, model, orbits, push)
+
+
+def check_lattice(
+    species: Species, model: str, speeds: Sequence[float], starts: int | None = None, seed: int = 0
+) -> tuple[list[OrbitProblem], int | None]:
+    """Return the problems of a lattice and the number of starts of each, without solving them.
+
+    Parameters
+    ----------
+    species, model, speeds, starts, seed : as in `solve_lattice`.
+
+    Raises
+    ------
+    InvalidInputError : as `solve_lattice`.
+    """
     faults = FaultList()
     if not len(speeds) or any(np.diff(speeds) <= 0):
         faults.add("speeds", list(speeds), "must be at least one, and increase", "for example 8, 10, 12")
     faults.choice("model", model, LATTICE_MODELS)
     faults.raise_if_any()
+    check_search(1 if starts is None else starts, seed)
     problems = [_problem(model, species, float(speed)) for speed in speeds]
-    within = EXPLORER_MODELS[model].within_plausible
-    orbits = solve_orbits(problems, search_starts(starts, within), seed, in_order=True, progress=progress)
-    return lattice_of(species, model, orbits, push)
+    return problems, search_starts(starts, EXPLORER_MODELS[model].within_plausible)
 
 
 def lattice_of(species: Species, model: str, orbits: Sequence[Orbit], push: bool = False) -> dict[str, Any]:

@@ -12,6 +12,8 @@ from wingbeat.errors import FaultList
 from wingbeat.nomenclature import PRECISION
 from wingbeat.orbits.many.uncertainty import ErrorBar, Samples, sample_orbits
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
+from wingbeat.orbits.problem.parameters import parameters_of
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import named_quantity
 from wingbeat.orbits.sensitivity import Sensitivity
 from wingbeat.orbits.solve import Progress
@@ -80,7 +82,8 @@ def uncertainty_by_samples(
 
     Raises
     ------
-    InvalidInputError : samples not a whole number from 10 to 100000; inputs that `Sensitivities.error_bar` refuses.
+    InvalidInputError : samples not a whole number from 10 to 100000; nothing that is uncertain; inputs that
+        `Sensitivities.error_bar` refuses.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -90,7 +93,7 @@ def uncertainty_by_samples(
     (10, True)
     """
     faults = FaultList()
-    faults.whole("samples", samples, 10, 100_000)
+    check_draws(faults, found.problem, samples, share, fit)
     faults.raise_if_any()
     bars = [found.error_bar(name, fit, share) for name in quantities]
     spreads = found.spreads(fit, share)
@@ -100,6 +103,15 @@ def uncertainty_by_samples(
     )
     slopes = {s.parameter.path: s for s in found.slopes}
     return {bar.quantity: _compared(bar, drawn, i, slopes) for i, bar in enumerate(bars)}
+
+
+def check_draws(faults: FaultList, problem: OrbitProblem, samples: int, share: float, fit: Fitted | None) -> None:
+    """Note a number of samples or a share out of range, and a problem of which nothing is uncertain."""
+    faults.whole("samples", samples, 10, 100_000)
+    faults.number("share", share, above=0, at_most=1)
+    if fit is None and not any(parameter.plausible for parameter in parameters_of(problem)):
+        rule = "has no plausible ranges, so there is nothing to draw"
+        faults.add("species", problem.species.name, rule, "give ranges in the species file, or a fit as aero")
 
 
 def _compared(bar: ErrorBar, drawn: Samples, column: int, slopes: dict[str, Sensitivity]) -> Comparison:

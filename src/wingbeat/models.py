@@ -26,6 +26,7 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import named_objective
 from wingbeat.species import Species
 from wingbeat.species.scaling import BODY_DRAG_AREA
+from wingbeat.style import in_words
 
 MODELS = ("paper", "animal")
 
@@ -148,7 +149,7 @@ class Model:
                 yield name
 
     def _choices(self, flown: Species) -> list[Choice]:
-        aero, objective = _air_loads(self.name, self.kind), self.objective(flown).replace("_", " ")
+        aero, objective = _air_loads(self.name, self.kind), in_words(self.objective(flown))
         if self.name == "paper":
             paper = "as in Su et al. 2023"
             return [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
@@ -47,6 +48,12 @@ _STYLE: dict[str, Any] = {
 }
 
 
+# What readers call quantities whose names in the program are too short.
+_QUANTITIES = {
+    "metabolic_power": "metabolic power of the flight muscle",
+    "strouhal": "Strouhal number",
+    "reynolds": "Reynolds number",
+}
 # What readers call the coefficient models that carry the names of people.
 _PEOPLE = {"su-fan": "Su-Fan", "dickinson": "Dickinson", "wang": "Wang", "whitney-wood": "Whitney and Wood"}
 _PEOPLE |= {"parslew-crowther": "Parslew and Crowther", "byl": "Byl"}
@@ -55,10 +62,11 @@ _PEOPLE |= {"parslew-crowther": "Parslew and Crowther", "byl": "Byl"}
 def in_words(name: str) -> str:
     """Return a program's name of an animal, a model or a quantity as a reader would write it.
 
-    >>> in_words("common-murre"), in_words("su-fan"), in_words("mean_positive_power")
-    ('common murre', 'Su-Fan', 'mean positive power')
+    >>> in_words("common-murre"), in_words("su-fan"), in_words("power_cost(-1)")
+    ('common murre', 'Su-Fan', 'power cost(-1)')
     """
-    return _PEOPLE.get(name, name.replace("-", " ").replace("_", " "))
+    known = _PEOPLE | _QUANTITIES
+    return known[name] if name in known else re.sub("(?<=[a-z])-(?=[a-z])|_", " ", name)  # a minus sign stays
 
 
 def heading(name: str) -> str:

@@ -272,7 +272,7 @@ def test_such_a_quantity_has_a_panel_of_its_own(curve):
     assert len(wb.plots.curve_page(curve.dataset).axes) == 2
     other = wb.plots.curve_page(curve.dataset.assign_attrs(objective="metabolic_power"))
     labels = [axes.get_ylabel() for axes in other.axes]
-    assert labels[1] == "metabolic power [Hz]"
+    assert labels[1] == "metabolic power of the flight muscle [Hz]"
     best = next(line for line in other.axes[1].get_lines() if str(line.get_label()).startswith("best"))
     values = curve.dataset["objective_value"].sel(speed=best.get_xdata())
     assert np.allclose(best.get_ydata(), values[:, 0])

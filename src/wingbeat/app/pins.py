@@ -7,6 +7,7 @@ from typing import Any
 
 from wingbeat.app.formatting import number, tiles
 from wingbeat.app.widgets import box, button, tag
+from wingbeat.style import in_words
 
 _MOST_PINS = 8
 
@@ -81,7 +82,7 @@ class Pins:
 
     def _row(self, answer: dict[str, Any]) -> None:
         record = answer["record"]
-        aero, minimised = record["aero"]["coefficients"], record["objective"].replace("_", " ")
+        aero, minimised = record["aero"]["coefficients"], in_words(record["objective"])
         name = f"{record['species']} at {number(record['speed'])} m/s, {aero}, minimum {minimised}"
         flies = answer is self._ghost
         with tag("tr"):

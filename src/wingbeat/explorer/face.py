@@ -22,7 +22,7 @@ from wingbeat.viewer import scene
 # Numbers of the record that are listed, and how they are called; those that a record lacks are left out.
 _LISTED = {
     "mean_positive_power": "mechanical power at the wing hinges, mean of the positive part",
-    "metabolic_power": "metabolic power of the flight muscles",
+    "metabolic_power": "metabolic power of the flight muscle alone",
     "electrical_power": "electrical power",
     "cost_of_transport": "cost of transport",
     "reduced_frequency": "reduced frequency",

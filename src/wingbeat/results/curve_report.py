@@ -9,6 +9,7 @@ from typing import Any
 from wingbeat.datasets import climb_text
 from wingbeat.nomenclature import find, for_people
 from wingbeat.reports import Block, Line, Notes, Report, Row, Table
+from wingbeat.style import in_words
 
 _LABELS = {
     "minimum_power": "minimum power",
@@ -28,7 +29,7 @@ def curve_report(record: dict[str, Any]) -> Report:
     record : of `Curve.record`.
     """
     points = record["points"]
-    animal, minimised = record["species"] + climb_text(record["climb"]), record["objective"].replace("_", " ")
+    animal, minimised = record["species"] + climb_text(record["climb"]), in_words(record["objective"])
     certified = len(points) - len(record["gaps"])
     headings: list[str] = list(_HEADINGS)
     factor, unit = _unit(record["objective"])
@@ -74,7 +75,7 @@ def _implausible(points: list[dict[str, Any]]) -> list[Block]:
 
 def _power(record: dict[str, Any]) -> str:
     if record["power"] == "minimised quantity":
-        return record["objective"].replace("_", " ")
+        return in_words(record["objective"])
     return record["power"]
 
 

@@ -7,6 +7,7 @@ import re
 from typing import Any, NamedTuple
 
 from wingbeat.orbits.problem.problem import PATH_NAMES
+from wingbeat.style import in_words
 
 # Numbers of which all but one determine the last, at a given speed and for a given vehicle.
 _RELATED = (
@@ -17,13 +18,8 @@ _RELATED = (
     frozenset({"reduced_frequency", "frequency"}),
 )
 
-# Names that do not read as words.
-_CALLED = {
-    "flap": "flap angle",
-    "strouhal": "Strouhal number",
-    "u": "initial speed forward",
-    "w": "initial speed upward",
-}
+# Names of the path and of the state that do not read as words.
+_CALLED = {"flap": "flap angle", "u": "initial speed forward", "w": "initial speed upward"}
 
 # A limit that stands for an end of a plausible range is 0.02 % inside it.
 _INSIDE = 5e-4  # relative
@@ -99,4 +95,4 @@ def called(name: str) -> str:
     >>> called("flap"), called("tail_tilt")
     ('flap angle', 'tail tilt')
     """
-    return _CALLED.get(name, name.replace("_", " "))
+    return _CALLED.get(name, in_words(name))

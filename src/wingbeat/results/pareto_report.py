@@ -7,6 +7,7 @@ from typing import Any
 from wingbeat.datasets import climb_text
 from wingbeat.nomenclature import for_people
 from wingbeat.reports import Line, Report, Row, Table
+from wingbeat.style import in_words
 
 
 def pareto_report(record: dict[str, Any]) -> Report:
@@ -16,7 +17,7 @@ def pareto_report(record: dict[str, Any]) -> Report:
     ----------
     record : of `ParetoFront.record`.
     """
-    minimised, limited = (record[kind].replace("_", " ") for kind in ("objective", "quantity"))
+    minimised, limited = (in_words(record[kind]) for kind in ("objective", "quantity"))
     where = f"{record['species']} at {record['speed']:g} m/s{climb_text(record['climb'])}"
     factor, unit = for_people(record["quantity_unit"])
     of_objective, objective_unit = for_people(record["objective_unit"])

@@ -12,8 +12,11 @@ from wingbeat.nomenclature import NOMENCLATURE, cf, find, for_people, plain_unit
 from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
 from wingbeat.orbits.problem.report import loads_in_words, model_rows, place_in_words
 from wingbeat.results.limits import SetBy, called, set_by_limit
+from wingbeat.style import in_words
 
 Rows = list[tuple[str, str]]
+# The metabolic power of a live animal, as it is measured, holds more.
+_LEFT_OUT = ", without resting rate, heart, breathing, other muscles and the muscle's recovery"
 Limited = Mapping[str, SetBy]  # numbers that a limit has set, by name
 _NONE: Limited = {}
 
@@ -149,8 +152,9 @@ def power_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
             unit = plain_unit("positive_power_per_mass")
             each = f" ({_number(record[name], unit, 1 / mass)})" if mass and record[name] is not None else ""
             rows.append((power_label(name), f"{_of(record, name)}{each}{_why(name, limited)}"))
-    others = ("cost_of_transport", *OF_MUSCLE, *OF_MOTOR)
-    return rows + [(_label(name), _of(record, name, limited)) for name in others if name in record]
+    others = [name for name in ("cost_of_transport", *OF_MUSCLE, *OF_MOTOR) if name in record]
+    rows += [(_label(name), _of(record, name, limited)) for name in others]
+    return [(label, value + _LEFT_OUT if label == _label("metabolic_power") else value) for label, value in rows]
 
 
 def certificate_rows(record: dict[str, Any]) -> Rows:
@@ -158,13 +162,13 @@ def certificate_rows(record: dict[str, Any]) -> Rows:
     closure = record.get("closure") or {}
     rows = []
     if record.get("objective_value") is not None:
-        rows.append(("minimised", f"{record['objective'].replace('_', ' ')}, {record['objective_value']:.5g}"))
+        rows.append(("minimised", f"{in_words(record['objective'])}, {record['objective_value']:.5g}"))
     for constraint, value in (record.get("constraints") or {}).items():
         name = re.split("[<>]=", constraint)[0]
         factor, unit = for_people(cf(plain_unit(name)))
         rows.append((f"limit {readable_limit(constraint)}", _number(value, unit, factor)))
     if record.get("price_of_stability") is not None:
-        price = f"{100 * record['price_of_stability']:.2g} % more {record['objective'].replace('_', ' ')}"
+        price = f"{100 * record['price_of_stability']:.2g} % more {in_words(record['objective'])}"
         rows.append(("price of stability", f"{price} than {record['free_objective']:.5g} without the limit"))
     if closure:
         worst = max(closure, key=lambda name: math.inf if closure[name] is None else abs(closure[name]))

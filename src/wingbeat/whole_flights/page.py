@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from wingbeat.style import in_words
 from wingbeat.whole_flights.comparison import AGREES, Score, compared, ends_of, name_of, words_of
 from wingbeat.whole_flights.measured import COMPARED
 from wingbeat.whole_flights.prediction import FEWEST_DRAWS, Flown, Prediction
@@ -63,7 +64,7 @@ def flight_text(prediction: Prediction, figure: str, common_name: str) -> str:
     common_name : of the animal, for the heading.
     """
     flights, drawn = prediction.flights, max(one.drawn for one in prediction.flown)
-    option, objective = f" --draws {drawn}" if drawn else "", prediction.objective.replace("_", " ")
+    option, objective = f" --draws {drawn}" if drawn else "", in_words(prediction.objective)
     parts = [
         f"# Whole flights: {common_name}",
         f"`uv run wingbeat validate {flights.species}{option} -o PAGE.md` writes this page. It computes the "

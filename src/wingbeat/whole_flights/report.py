@@ -6,6 +6,7 @@ import textwrap
 from typing import TYPE_CHECKING
 
 from wingbeat.reports import Line, Report, Row, Table
+from wingbeat.style import in_words
 from wingbeat.whole_flights.comparison import compared, ends_of, name_of, words_of
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ def prediction_report(found: Prediction) -> Report:
         told = score.measurement
         ends = ends_of(told.values), ends_of(score.predicted)
         rows.append(Row((name_of(told.quantity), told.basis, *ends, words_of(score))))
-    about = f"{found.flights.species}: model {found.model}, minimum {found.objective.replace('_', ' ')}"
+    about = f"{found.flights.species}: model {found.model}, minimum {in_words(found.objective)}"
     return [
         Line(about, tone="title"),
         Table(tuple(flown), ("speed\n[m/s]", *heads), "r" * (1 + len(heads))),

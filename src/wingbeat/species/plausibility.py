@@ -57,12 +57,14 @@ _BODY_PITCH = Range(
     "guess: no measurement found; a body that turns by 20 degrees turns a sixth of its lift into thrust and drag "
     "by turns",
 )
-# Mean body pitch in cruise [rad].
-_MEAN_BODY_PITCH = math.radians(-10.0), math.radians(40.0)
-_MEAN_BODY_PITCH_SOURCE = (
+# In cruise.
+_MEAN_BODY_PITCH = Range(
+    math.radians(-10.0),
+    math.radians(40.0),
+    "rad",
     "guess: no measured range was found; the body angle of pigeons falls with speed (A: Tobalske and Dial 1996, "
     "J Exp Biol 199:263, abstract), so that the body is nearly level in fast cruise and steeper in slow cruise; 10 "
-    "degrees nose down are left for the rest"
+    "degrees nose down are left for the rest",
 )
 # Strouhal numbers of cruising animals.
 _STROUHAL = 0.2, 0.4
@@ -82,11 +84,9 @@ def _plausible(
     return {
         "positive_power_per_mass": Range(None, _MUSCLE * share, "W/kg", f"{_MUSCLE_SOURCE}; {share_source}"),
         "peak_force_over_weight": _FORCE,
-        "mean_body_pitch": Range(
-            *_MEAN_BODY_PITCH,
-            "rad",
-            f"{_MEAN_BODY_PITCH_SOURCE}; cruise is 0.6 to 1.6 times {law}: slower flight is steeper",
-            (slowest, fastest),
+        "mean_body_pitch": _MEAN_BODY_PITCH._replace(
+            source=f"{_MEAN_BODY_PITCH.source}; cruise is 0.6 to 1.6 times {law}: slower flight is steeper",
+            speeds=(slowest, fastest),
         ),
         "body_pitch_range": _BODY_PITCH,
         "strouhal": Range(

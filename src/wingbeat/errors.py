@@ -158,6 +158,22 @@ def is_number(value: object) -> TypeGuard[int | float]:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
+# The rules for angles by the largest that is allowed. Larger numbers are most likely degrees.
+IN_RADIANS = {
+    math.pi: "must be an angle in radians, from -pi to pi",
+    2 * math.pi: "must be a phase in radians, from -2 pi to 2 pi",
+}
+
+
+def largest_angle(name: str) -> float:
+    """Return the largest angle [rad] that a number of this name can be: a whole turn for phases, else half a turn.
+
+    >>> round(largest_angle("wingbeat.sweep_phase") / math.pi), round(largest_angle("flap_mean") / math.pi)
+    (2, 1)
+    """
+    return 2 * math.pi if name.endswith("_phase") else math.pi
+
+
 # The rule for counts and seeds; where their range is known, `FaultList.whole` says it too.
 WHOLE = "must be a whole number"
 
@@ -203,6 +219,23 @@ class FaultList:
             self.add(where, value, f"must be {' and '.join(limits)} {unit}".rstrip(), fix)
         else:
             return True
+        return False
+
+    def angle(
+        self, where: str, value: Any, *, at_least: float = -math.inf, fix: str = "", advice: str = ""
+    ) -> bool:
+        """Note a fault unless `value` is an angle in radians of at most `largest_angle`; return whether it is.
+
+        `advice` says how to write it in degrees, if there is another way than those of a number's own name.
+        """
+        if not self.number(where, value, at_least=at_least, unit="rad", fix=fix):
+            return False
+        name = where.removesuffix(".range").rpartition(".")[2].partition("[")[0]
+        most = largest_angle(name)
+        if abs(value) <= most:
+            return True
+        advice = advice or f"write np.radians({value:g}), or {name}_deg in a species file or --set"
+        self.add(where, value, IN_RADIANS[most], f"{value:g} seems to be in degrees: {advice}")
         return False
 
     def whole(self, where: str, value: Any, least: int, most: int, fix: str = "") -> bool:

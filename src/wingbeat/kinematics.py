@@ -62,7 +62,8 @@ class Wingbeat:
 
     Raises
     ------
-    InvalidInputError : frequency not positive, an amplitude negative, retraction, wrist or downstroke fraction
+    InvalidInputError : frequency not positive, an amplitude negative, an angle above pi or a phase above 2 pi,
+        which is most likely in degrees, retraction, wrist or downstroke fraction
         outside 0..1, a sweep that reaches a right angle, harmonics not in pairs, a span or a chord that vanishes.
 
     >>> Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3).twist_ratio
@@ -97,23 +98,23 @@ class Wingbeat:
     def __post_init__(self) -> None:
         faults = FaultList()
         faults.number("wingbeat.frequency", self.frequency, above=0, unit="Hz")
-        faults.number("wingbeat.flap_mean", self.flap_mean, unit="rad")
+        faults.angle("wingbeat.flap_mean", self.flap_mean)
         half = "amplitudes are half of peak to peak"
-        faults.number("wingbeat.flap_amplitude", self.flap_amplitude, at_least=0, unit="rad", fix=half)
-        faults.number("wingbeat.pitch_mean", self.pitch_mean, unit="rad")
-        faults.number("wingbeat.pitch_amplitude", self.pitch_amplitude, at_least=0, unit="rad", fix=half)
+        faults.angle("wingbeat.flap_amplitude", self.flap_amplitude, at_least=0, fix=half)
+        faults.angle("wingbeat.pitch_mean", self.pitch_mean)
+        faults.angle("wingbeat.pitch_amplitude", self.pitch_amplitude, at_least=0, fix=half)
         faults.number("wingbeat.span_retraction", self.span_retraction, at_least=0, below=1)
         faults.number("wingbeat.twist_ratio", self.twist_ratio, fix="1 is no twist")
-        faults.number("wingbeat.fold_amplitude", self.fold_amplitude, unit="rad")
+        faults.angle("wingbeat.fold_amplitude", self.fold_amplitude)
         faults.number("wingbeat.wrist", self.wrist, at_least=0, at_most=1, fix="a fraction of the span")
-        faults.number("wingbeat.pitch_phase", self.pitch_phase, unit="rad")
+        faults.angle("wingbeat.pitch_phase", self.pitch_phase)
         even = "0.5 makes downstroke and upstroke equally long"
         faults.number("wingbeat.downstroke_fraction", self.downstroke_fraction, above=0, below=1, fix=even)
-        faults.number("wingbeat.sweep_phase", self.sweep_phase, unit="rad")
-        faults.number("wingbeat.stroke_plane_tilt", self.stroke_plane_tilt, unit="rad")
-        faults.number("wingbeat.tail_tilt", self.tail_tilt, unit="rad")
+        faults.angle("wingbeat.sweep_phase", self.sweep_phase)
+        faults.angle("wingbeat.stroke_plane_tilt", self.stroke_plane_tilt)
+        faults.angle("wingbeat.tail_tilt", self.tail_tilt)
         faults.number("wingbeat.chord_retraction", self.chord_retraction, at_least=0, below=1)
-        faults.number("wingbeat.twist_mean", self.twist_mean, unit="rad")
+        faults.angle("wingbeat.twist_mean", self.twist_mean)
         self._check_sweep(faults)
         sound = self._check_harmonics(faults) and not faults.faults
         if sound and (self.span_harmonics or self.chord_harmonics or self.sweep_harmonics):
@@ -121,8 +122,8 @@ class Wingbeat:
         faults.raise_if_any()
 
     def _check_sweep(self, faults: FaultList) -> None:
-        mean = faults.number("wingbeat.sweep_mean", self.sweep_mean, unit="rad")
-        swing = faults.number("wingbeat.sweep_amplitude", self.sweep_amplitude, at_least=0, unit="rad")
+        mean = faults.angle("wingbeat.sweep_mean", self.sweep_mean)
+        swing = faults.angle("wingbeat.sweep_amplitude", self.sweep_amplitude, at_least=0)
         if mean and swing and abs(self.sweep_mean) + self.sweep_amplitude >= 0.5 * math.pi:
             rule = "|sweep_mean| plus sweep_amplitude must stay below a right angle"
             faults.add("wingbeat.sweep_amplitude", self.sweep_amplitude, rule, "give both in rad")
@@ -142,7 +143,8 @@ class Wingbeat:
             object.__setattr__(self, where.removeprefix("wingbeat."), tuple(given))
             if len(given) % 2 or len(given) > 2 * (HIGHEST_ORDER + 1 - first):
                 faults.add(where, tuple(given), rule, "give the numbers in pairs")
-            sound &= all([faults.number(f"{where}[{i}]", value) for i, value in enumerate(given)])
+            check = faults.number if law in SHARES else faults.angle
+            sound &= all([check(f"{where}[{i}]", value) for i, value in enumerate(given)])
         return sound
 
     def _check_extremes(self, faults: FaultList) -> None:

@@ -83,7 +83,7 @@ class Wing:
         faults.number("wing.mass", self.mass, above=0, unit="kg", fix="give the mass of one wing")
         faults.number("wing.mass_exponent", self.mass_exponent, at_least=0, fix="0 is a uniform wing")
         self._check_shoulder(faults)
-        faults.number("wing.stroke_plane_angle", self.stroke_plane_angle, unit="rad")
+        faults.angle("wing.stroke_plane_angle", self.stroke_plane_angle)
         faults.raise_if_any()
 
     def _check_chord(self, faults: FaultList) -> None:
@@ -157,7 +157,7 @@ class Tail:
         faults.number("tail.lift_slope", self.lift_slope, above=0, unit="1/rad", fix=fix)
         faults.number("tail.drag_coefficient", self.drag_coefficient, at_least=0)
         faults.number("tail.height", self.height, unit="m")
-        faults.number("tail.incidence", self.incidence, unit="rad")
+        faults.angle("tail.incidence", self.incidence)
         faults.raise_if_any()
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -43,7 +42,7 @@ class Springs:
     def __post_init__(self) -> None:
         faults = FaultList()
         faults.number("springs.stiffness", self.stiffness, at_least=0, unit="N m/rad", fix="count both sides")
-        faults.number("springs.rest_angle", self.rest_angle, at_least=-math.pi, at_most=math.pi, unit="rad")
+        faults.angle("springs.rest_angle", self.rest_angle)
         fix = "give one over the stiffness of the series springs, or 0 for rigid ones"
         faults.number("springs.series_compliance", self.series_compliance, at_least=0, unit="rad/(N m)", fix=fix)
         faults.raise_if_any()

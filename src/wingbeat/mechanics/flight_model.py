@@ -52,17 +52,39 @@ class State(NamedTuple):
     pitch_rate: Component = 0.0
 
 
-def check_state(state: State) -> None:
-    """Check that every number of a state is finite.
+def state_of(given: Any) -> State:
+    """Return a state that was given as a `State` or as its six numbers.
+
+    Parameters
+    ----------
+    given : a `State`, or x, z [m], body_pitch [rad], u, w [m/s] and pitch_rate [rad/s] in a list, a tuple or an
+        array, shape (6,).
 
     Raises
     ------
-    InvalidInputError : some number is not finite.
+    InvalidInputError : not six numbers, some number is not finite, a body pitch above pi.
+
+    >>> state_of(np.array([0.0, 0.0, 0.1, 10.0, 0.0, 0.0])).u
+    10.0
     """
     faults = FaultList()
-    for name in State._fields:
-        faults.number(f"initial_state.{name}", getattr(state, name))
+    if isinstance(given, State):
+        values = list(given)
+    else:
+        values = np.asarray(given).tolist() if hasattr(given, "__array__") else given
+        if not isinstance(values, list | tuple) or len(values) != len(State._fields):
+            told = f"shape {np.shape(given)}" if hasattr(given, "__array__") else given
+            rule = "must be a State or six numbers: x, z [m], body_pitch [rad], u, w [m/s], pitch_rate [rad/s]"
+            faults.add("initial_state", told, rule, "for example wb.State(u=10.0), or flight.states[-1]")
+            faults.raise_if_any()
+    for name, value in zip(State._fields, values, strict=True):
+        where = f"initial_state.{name}"
+        if name == "body_pitch":  # a body that has turned over has a pitch within half a turn too
+            faults.angle(where, value, advice=f"write np.radians({value}), or take whole turns away")
+        else:
+            faults.number(where, value)
     faults.raise_if_any()
+    return State(*values)
 
 
 @register_record(static=("strips", "at_centre_of_pressure", "full_airspeed"), optional=("unsteady",))

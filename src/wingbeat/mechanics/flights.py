@@ -215,13 +215,16 @@ def fly_torque_driven(
 
     Raises
     ------
-    InvalidInputError : wrong shapes, numbers that are not finite, or times that do not increase.
+    InvalidInputError : wrong shapes, numbers that are not finite, angles above pi, or times that do not increase.
     """
     faults = FaultList()
     q, q_dot, when = (np.asarray(a, dtype=float) for a in (coordinates, rates, times))
     for name, value in (("coordinates", q), ("rates", q_dot)):
         if value.shape != (5,) or not np.isfinite(value).all():
             faults.add(name, value, "must be five finite numbers", "x, z, body_pitch, flap, pitch")
+        elif name == "coordinates":
+            for i, angle in enumerate(value[2:].tolist(), start=2):
+                faults.angle(f"coordinates[{i}]", angle, advice=f"write np.radians({angle:g})")
     if when.ndim != 1 or when.size < 2 or not np.isfinite(when).all() or not (np.diff(when) > 0).all():
         faults.add("times", when, "must be at least two increasing times", "in seconds")
     faults.raise_if_any()

@@ -9,13 +9,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from wingbeat._version import __version__
 from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.beat_by_beat import Controller, check_wind, fly_beats
-from wingbeat.mechanics.flight_model import FlightModel, State, check_state
+from wingbeat.mechanics.flight_model import FlightModel, State, state_of
 from wingbeat.mechanics.flights import fly_torque_driven
 from wingbeat.nomenclature import NOMENCLATURE, attributes_of
 from wingbeat.results.dataset import evaluate, flight_dataset
@@ -114,7 +115,7 @@ class Flight(Saveable):
 def simulate(
     model: FlightModel,
     wingbeat: Wingbeat,
-    state: State,
+    state: State | ArrayLike,
     beats: int = 1,
     samples: int = 128,
     *,
@@ -128,7 +129,8 @@ def simulate(
     ----------
     model : the flight model, a `FlightModel`.
     wingbeat : the prescribed wingbeat.
-    state : the state at phase 0, the top of the stroke [m, rad, m/s, rad/s].
+    state : the state at phase 0, the top of the stroke: a `State`, or its six numbers x, z [m], body_pitch [rad],
+        u, w [m/s], pitch_rate [rad/s] as a list or an array, such as ``flight.states[-1]``.
     beats : number of wingbeats.
     samples : samples per wingbeat.
     wind : velocity of the air, forward and up [m/s]: two numbers, or a function of times [s] such as those of
@@ -139,7 +141,8 @@ def simulate(
 
     Raises
     ------
-    InvalidInputError : a state that is not finite, beats or samples that are not whole numbers of at least 1, a
+    InvalidInputError : a state that is not six finite numbers, a body pitch above pi, which is most likely in
+        degrees, beats or samples that are not whole numbers of at least 1, a
         wind that is not finite or has another shape than its times, a controller that returns no wingbeat.
 
     >>> import wingbeat as wb
@@ -156,8 +159,7 @@ def simulate(
     if controller is not None and not callable(controller):
         faults.add("controller", controller, "must be a function of the beats flown and the state")
     faults.raise_if_any()
-    check_state(state)
-    flown = fly_beats(model, wingbeat, state, beats, samples, wind, controller)
+    flown = fly_beats(model, wingbeat, state_of(state), beats, samples, wind, controller)
     return Flight(model, flown.wingbeats[0], flown.phase, flown.states, flown.wingbeats, flown.air, species)
 
 

@@ -138,7 +138,8 @@ def glide_polar(
         faults.add("species", species, "is not a Species", "use load_species(name or path)")
     elif species.air.gravity == 0:
         faults.add("air.gravity", species.air.gravity, "must be > 0 m/s2", "nothing glides without weight")
-    faults.number("flap", flap, above=-0.5 * math.pi, below=0.5 * math.pi, unit="rad")
+    if faults.angle("flap", flap, advice="write np.radians(...)"):
+        faults.number("flap", flap, above=-0.5 * math.pi, below=0.5 * math.pi, unit="rad")
     faults.choice("trim", trim, TRIMS)
     faults.raise_if_any()
     loads = blade_element_of(SuFan() if aero is None else aero)

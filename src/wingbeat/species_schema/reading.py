@@ -7,13 +7,18 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from wingbeat.errors import Fault, FaultList, FileError
+from wingbeat.errors import IN_RADIANS, Fault, FaultList, FileError
 from wingbeat.files import toml_tables
 from wingbeat.species_schema.faults import NOTHING, check_shape, dotted, has_shape, shown
 from wingbeat.species_schema.keys import FREE, KEYS, LOOKS, PARTS, PATH, PLAUSIBLE, SHAPE, Key
 from wingbeat.species_schema.models import KINDS
 
 Value = float | tuple[float, ...]
+# The rule for an angle in radians, for one that the file gives in degrees.
+_IN_DEGREES = {
+    rule: f"must be an angle from {-most:.0f} to {most:.0f} degrees"
+    for most, rule in ((math.degrees(most), rule) for most, rule in IN_RADIANS.items())
+}
 
 
 class Number(NamedTuple):
@@ -70,8 +75,12 @@ class Numbers(dict[str, Number]):
         for canonical, (path, value) in self.written.items():
             rest = where[len(canonical) :]
             if where.startswith(canonical) and rest[:1] in ("", "[", "."):
-                rule = fault.rule.replace(" rad", " deg") if path.endswith("_deg") else fault.rule
-                return Fault(path + rest, fault.value if rest else shown(value), rule, fault.fix)
+                told = fault.value if rest else shown(value)
+                if not path.endswith("_deg"):
+                    return Fault(path + rest, told, fault.rule, fault.fix)
+                if fault.rule in _IN_DEGREES:
+                    return Fault(path + rest, told, _IN_DEGREES[fault.rule])
+                return Fault(path + rest, told, fault.rule.replace(" rad", " deg"), fault.fix)
         return Fault(where, fault.value, fault.rule, fault.fix)
 
 
@@ -217,6 +226,7 @@ def _values(raw: dict[str, Any], keys: Iterable[Key], prefix: tuple[str, ...], f
             table = leaf if isinstance(leaf, dict) else {}
             _check_unit(where, table.get("unit"), key, path, faults)
             limits = _range(f"{where}.range", table.get("range"), path, faults)
+            _check_angles(f"{where}.range", limits or (), key, path, faults)
             if has_shape(key.shape, value):
                 number = Number(to_si(value, path), key.unit, _line(table.get("source")), limits)
                 numbers.put(key, number, where, value)
@@ -257,6 +267,8 @@ def _bounds(
             _check_unit(path, table.get("unit"), key, path, faults)
             if (limits := _range(path, pair, path, faults)) is None:
                 continue
+            if key in PATH:  # those of the wingbeat are checked with the wingbeats that they allow
+                _check_angles(path, limits, key, path, faults)
             if limits[0] == limits[1]:
                 faults.add(path, pair, "has equal lower and upper bounds", "widen them, or leave the parameter out")
             bounds[key.name] = Bound(limits, _line(table.get("reason")), table.get("guessed") is True)
@@ -275,6 +287,7 @@ def _plausible(raw: dict[str, Any], faults: FaultList) -> dict[str, Range]:
             low, high = (to_si(end, path) if has_shape("number", end) else None for end in ends)
             if low is not None and high is not None and low > high:  # type: ignore[operator]
                 faults.add(path, ends, "has a low end above its high end", "swap the two")
+            _check_angles(path, [end for end in (low, high) if end is not None], key, path, faults)
             speeds = _range(f"{path}.speeds", table.get("speeds"), f"{path}.speeds", faults)
             found[key.name] = Range(low, high, key.unit, _line(table.get("source")), speeds)  # type: ignore[arg-type]
     return found
@@ -288,6 +301,13 @@ def _range(where: str, pair: Any, path: str, faults: FaultList) -> tuple[float, 
     if lowest > highest:  # type: ignore[operator]
         faults.add(where, pair, "has the highest value first", "write [lowest, highest]")
     return lowest, highest  # type: ignore[return-value]
+
+
+def _check_angles(where: str, ends: Iterable[Any], key: Key, path: str, faults: FaultList) -> None:
+    """Note ends of a range that are angles too large to be in radians."""
+    if key.unit == "rad" and not path.endswith("_deg"):
+        for end in ends:
+            faults.angle(where, end)
 
 
 def _check_unit(where: str, unit: Any, key: Key, path: str, faults: FaultList) -> None:

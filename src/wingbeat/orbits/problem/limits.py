@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from wingbeat.errors import FaultList
+from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.kinematics import ANGLES, FREE_NAMES
-from wingbeat.orbits.problem.quantities import NUMBER, Quantity, named_quantity
+from wingbeat.orbits.problem.quantities import NUMBER, QUANTITIES, Quantity, named_quantity
 
 
 @dataclass(frozen=True)
@@ -25,7 +26,7 @@ class Constraint:
 
     Raises
     ------
-    InvalidInputError : an unknown quantity, a limit that is not finite.
+    InvalidInputError : an unknown quantity, a limit that is not finite, an angle above pi.
 
     >>> import wingbeat as wb
     >>> limit = wb.Constraint("peak_power", 30.0)
@@ -46,6 +47,10 @@ class Constraint:
         if not isinstance(self.quantity, Quantity):
             faults.add("constraint.quantity", self.quantity, "is not a Quantity", "give a Quantity or its name")
         faults.number("constraint.limit", self.limit)
+        faults.raise_if_any()
+        if QUANTITIES.get(self.quantity.name) == self.quantity and self.quantity.unit == "rad":
+            advice = f"write '{self} deg' or np.radians({self.limit:g})"
+            faults.angle("constraint.limit", self.limit, advice=advice)
         faults.raise_if_any()
 
     def __str__(self) -> str:
@@ -107,3 +112,56 @@ def parse_wingbeat_limit(text: Any) -> WingbeatLimit | None:
         return None
     value = float(found[3])
     return WingbeatLimit(found[1], found[2], math.radians(value) if found[4] else value)
+
+
+def read_limits(given: Sequence[Any], faults: FaultList) -> tuple[list[WingbeatLimit], list[Constraint]]:
+    """Return the limits of wingbeat parameters and those of quantities; of two on the same side, the tighter one.
+
+    Parameters
+    ----------
+    given : texts and constraints.
+    faults : receives what is not a limit, angles in degrees, and limits that contradict each other.
+
+    >>> [str(one) for one in read_limits(["peak_power<=30", "peak_power<=40", "peak_power<=30.0"], FaultList())[1]]
+    ['peak_power<=30']
+    """
+    parameters: dict[tuple[str, str], WingbeatLimit] = {}
+    quantities: dict[tuple[str, str], Constraint] = {}
+    for i, one in enumerate(given):
+        limit = parse_wingbeat_limit(one)
+        if limit is not None:
+            if limit.name not in ANGLES or faults.angle(limit.name, limit.value, advice=f"write '{one} deg'"):
+                _add(parameters, (limit.name, limit.sign), limit, limit.value, faults)
+            continue
+        try:
+            constraint = parse_constraint(one) if isinstance(one, str) else one
+        except InvalidInputError as error:
+            faults.faults.extend(error.faults)
+            continue
+        if isinstance(constraint, Constraint):
+            sign = "<=" if constraint.at_most else ">="
+            _add(quantities, (constraint.quantity.name, sign), constraint, constraint.limit, faults)
+        else:
+            faults.add(f"subject_to[{i}]", one, "is not a constraint", "for example 'peak_power<=30'")
+    return list(parameters.values()), list(quantities.values())
+
+
+def _add(
+    kept: dict[tuple[str, str], Any], key: tuple[str, str], limit: Any, value: float, faults: FaultList
+) -> None:
+    """Keep a limit unless there is a tighter one on the same side; note one that contradicts another."""
+    name, sign = key
+    values = {side: _value(kept[name, side]) for side in ("=", "<=", ">=") if (name, side) in kept}
+    if sign == "=" and values.get("=", value) != value:
+        faults.add("subject_to", f"{name}={value:g}", f"is fixed at {values['=']:g} too", "keep one of the two")
+    elif sign != "=" and (other := values.get(">=" if sign == "<=" else "<=")) is not None:
+        lower, upper = (other, value) if sign == "<=" else (value, other)
+        if lower > upper:
+            rule = f"contradicts {name}{'>=' if sign == '<=' else '<='}{other:g}"
+            faults.add("subject_to", f"{name}{sign}{value:g}", rule, "keep one of the two, or exchange the signs")
+    if sign not in values or (value < values[sign] if sign == "<=" else value > values[sign]):
+        kept[key] = limit
+
+
+def _value(limit: WingbeatLimit | Constraint) -> float:
+    return limit.value if isinstance(limit, WingbeatLimit) else limit.limit

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import functools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -14,9 +14,9 @@ from wingbeat.aero import SuFan
 from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.errors import FaultList, InvalidInputError, suggest
 from wingbeat.harmonics import harmonic_place
-from wingbeat.kinematics import FREE_NAMES, Wingbeat, parameter, with_parameters
+from wingbeat.kinematics import ANGLES, FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.mechanics.flight_model import FlightModel
-from wingbeat.orbits.problem.limits import Constraint, WingbeatLimit, parse_constraint, parse_wingbeat_limit
+from wingbeat.orbits.problem.limits import Constraint, WingbeatLimit, read_limits
 from wingbeat.orbits.problem.origin import Origin
 from wingbeat.orbits.problem.path_functions import check_quantities, value_count
 from wingbeat.orbits.problem.plausible import drawn_in, plausible_limits
@@ -119,35 +119,27 @@ class OrbitProblem(ReportedProblem):
 
     def _check_asked(self, faults: FaultList) -> None:
         """Turn names and texts into objective and constraints."""
-
-        def understood(meaning: Callable[[str], Any], given: Any) -> Any:
-            try:
-                return meaning(given) if isinstance(given, str) else given
-            except InvalidInputError as error:
-                faults.faults.extend(error.faults)
-                return None
-
-        minimise = understood(named_objective, self.minimise)
+        minimise = self.minimise
+        try:
+            minimise = named_objective(minimise) if isinstance(minimise, str) else minimise
+        except InvalidInputError as error:
+            faults.faults.extend(error.faults)
+        else:
+            if not isinstance(minimise, Quantity):
+                fix = "give the name of a quantity, or a Quantity"
+                faults.add("minimise", minimise, "is not an objective", fix)
         texts = [self.subject_to] if isinstance(self.subject_to, str | Constraint) else self.subject_to
-        constraints = []
-        for text in texts:
-            limit = parse_wingbeat_limit(text)
-            if limit is None:
-                constraints.append(understood(parse_constraint, text))
-                continue
+        limits, constraints = read_limits(list(texts), faults)
+        for limit in limits:
             try:
                 self._limit_wingbeat(limit)
             except InvalidInputError as error:
                 faults.faults.extend(error.faults)
             if limit.sign == "=" and not self.free:
-                faults.add("subject_to", text, "leaves no parameter free", "fix fewer parameters of the wingbeat")
+                where = f"{limit.name}={limit.value:g}"
+                faults.add("subject_to", where, "leaves no parameter free", "fix fewer parameters of the wingbeat")
         if faults.faults:
             return
-        if not isinstance(minimise, Quantity):
-            faults.add("minimise", minimise, "is not an objective", "give the name of a quantity, or a Quantity")
-        for i, constraint in enumerate(constraints):
-            if not isinstance(constraint, Constraint):
-                faults.add(f"subject_to[{i}]", constraint, "is not a constraint", "for example 'peak_power<=30'")
         object.__setattr__(self, "minimise", minimise)
         object.__setattr__(self, "subject_to", tuple(constraints))
         if self.speed == 0 and not faults.faults:
@@ -184,7 +176,7 @@ class OrbitProblem(ReportedProblem):
 
     def _limit_plausibly(self, others: Sequence[Any], faults: FaultList) -> None:
         limits = plausible_limits(self.species, self.speed, self.air or self.species.air, faults)
-        object.__setattr__(self, "subject_to", (*others, *limits))
+        object.__setattr__(self, "subject_to", (*others, *(one for one in limits if one not in others)))
         object.__setattr__(self, "_plausible_limits", limits)
 
     def at_speed(self, speed: float) -> OrbitProblem:
@@ -250,7 +242,7 @@ class OrbitProblem(ReportedProblem):
                 faults.add("bounds", name, "is bounded but not free", f"the free parameters are {', '.join(free)}")
             elif not isinstance(pair, tuple | list) or len(pair) != 2:
                 faults.add(f"bounds.{name}", pair, "must be (lower, upper)")
-            elif all(faults.number(f"bounds.{name}", value) for value in pair):
+            elif all(_check_bound(faults, name, value) for value in pair):
                 if not pair[0] < pair[1]:
                     faults.add(f"bounds.{name}", pair, "lower must be below upper")
                 if name not in PATH_NAMES:
@@ -348,3 +340,10 @@ class OrbitProblem(ReportedProblem):
             jacobian[0, column] += self.speed / frequency**2
             jacobian[1, column] += self.climb / frequency**2
         return jacobian
+
+
+def _check_bound(faults: FaultList, name: str, value: Any) -> bool:
+    where = f"bounds.{name}"
+    if name in (*PATH_NAMES, *ANGLES):
+        return faults.angle(where, value, advice=f"write np.radians({value})")
+    return faults.number(where, value)

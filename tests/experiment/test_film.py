@@ -166,12 +166,6 @@ def test_times_become_phases(tmp_path):
     np.testing.assert_allclose(film.phase, [phase for phase, _ in rows()])
 
 
-def test_radians_are_suspected(tmp_path):
-    lines = "\n".join(f"{t},{flap}" for t, flap in rows(flap=0.7))
-    (note,) = read_film(written(tmp_path, f"phase,flap_deg\n{lines}")).notes
-    assert "radians" in note
-
-
 @pytest.mark.parametrize(
     ("text", "faults"),
     [
@@ -180,7 +174,7 @@ def test_radians_are_suspected(tmp_path):
             "phase,flap_rad,speed\n0,1,2\n",
             ["flap_rad", "write degrees", "speed", "not a known column", "no filmed column"],
         ),
-        ("phase,time,flap_deg\n0,0,1\n", ["one of phase and time", "frequency"]),
+        ("phase,time,flap_deg\n0,0,1\n", ["exactly one of phase, time and frame"]),
         ("time,flap_deg\n0,1\n", ["frequency", "is missing"]),
         (
             "# frequency = fast\ntime,flap_deg [rad]\n0,1\n",

@@ -127,7 +127,7 @@ def test_a_stroke_plane_that_varies_is_said_to():
     [
         ("phase,tip_pitch_deg\n", ["needs pitch_deg", "add the column pitch_deg"]),
         ("phase,sweep\n", ["write degrees, with a name such as"]),
-        ("phase,area_fraction\n", ["not a fraction of the full area", "divide it by the full area"]),
+        ("phase,area_fraction\n", ["not a fraction of the full area", "seem to be per cent; divide by 100"]),
     ],
 )
 def test_faults_of_the_new_columns(tmp_path, text, faults):

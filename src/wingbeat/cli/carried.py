@@ -81,7 +81,13 @@ def _errors(flight: CarriedFlight, beat: FilmedBeat, path: BodyPath, samples: in
     return dict(zip(told, errors.tolist(), strict=True))
 
 
-def report_carried(flight: CarriedFlight, errors: Mapping[str, float | None], beat: FilmedBeat, json: bool) -> None:
+def report_carried(
+    flight: CarriedFlight,
+    errors: Mapping[str, float | None],
+    beat: FilmedBeat,
+    warnings: list[str],
+    json: bool,
+) -> None:
     """Print velocities, body pitch and powers of a flight whose body moves as filmed, and what the model lacks.
 
     The model lacks the force and moment that must be added to its air loads to give the filmed motion.
@@ -90,12 +96,14 @@ def report_carried(flight: CarriedFlight, errors: Mapping[str, float | None], be
     ----------
     flight, errors : from `carried`.
     beat : the film's wingbeat.
+    warnings : of the flight and the film; part of the JSON, and otherwise left to the caller.
     json : whether to print JSON and nothing else.
     """
     told = flight.summary
     if json:
         record: dict[str, Any] = {"body": "prescribed", "summary": told, "standard_errors": errors}
-        print(json_format.dumps(record | {"kinematics": film_record(beat)}, indent=2, allow_nan=False))
+        record |= {"warnings": warnings, "kinematics": film_record(beat)}
+        print(json_format.dumps(record, indent=2, allow_nan=False))
         return
     print("the body moves as filmed; its motion is not integrated")
     for name, (label, series) in _NAMES.items():

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
-from wingbeat.experiment import FilmedBeat
+from wingbeat.errors import FaultList
+from wingbeat.experiment import FilmedBeat, fit_film, read_film
 from wingbeat.experiment.film import WHOLE
 from wingbeat.nomenclature import NOMENCLATURE, for_people, plain_unit, written
 from wingbeat.results.rows import power_label
@@ -21,11 +22,26 @@ if TYPE_CHECKING:
 DRAWS = 32
 Kinematics = Annotated[
     Path | None,
-    Parameter(
-        help="A filmed wingbeat (.csv): phase, or time and '# frequency = ..', with flap_deg, pitch_deg, ..."
-    ),
+    Parameter(help="A filmed wingbeat (.csv): time [s], or phase in beats, with flap_deg, pitch_deg, ..."),
+]
+Side = Annotated[
+    Literal["both", "left", "right"] | None,
+    Parameter(help="With --kinematics: the wing to read where left and right were filmed; default: their mean."),
 ]
 _POWERS = ("mean_power", "mean_positive_power", "peak_power")
+
+
+def filmed_beat(kinematics: Path, side: str | None) -> FilmedBeat:
+    """Read a film and fit its wingbeat."""
+    return fit_film(read_film(kinematics, side or "both"))
+
+
+def check_side(faults: FaultList, side: str | None, kinematics: Path | None) -> None:
+    """Note a side that is chosen without a film."""
+    if side is not None and kinematics is None:
+        faults.add(
+            "--side", side, "chooses a wing of a film, but there is none", "give --kinematics, or leave it out"
+        )
 
 
 def film_record(beat: FilmedBeat) -> dict[str, Any]:
@@ -34,19 +50,25 @@ def film_record(beat: FilmedBeat) -> dict[str, Any]:
         name: {"frames": law.frames, "residual_sd": law.residual_sd, "degrees_of_freedom": law.degrees}
         for name, law in beat.laws.items()
     }
-    return {"film": beat.film.name, "synthetic": beat.film.synthetic, "laws": laws, "notes": list(beat.notes)}
+    film = beat.film
+    clock = {"frequency": film.frequency, "frequency_se": film.frequency_se, "frequency_fitted": film.fitted}
+    named = {"film": film.name, "synthetic": film.synthetic} | clock
+    return named | {"laws": laws, "notes": list(beat.notes), "warnings": list(beat.warnings)}
 
 
 def film_lines(beat: FilmedBeat) -> list[str]:
-    """Describe the spline fits of a film, with a line for each column, and its notes."""
-    lines = []
+    """Describe the spline fits of a film, with a line for each column, and its notes, but not its warnings."""
+    lines, film = [], beat.film
+    if film.fitted and film.frequency is not None and film.clip is not None:
+        shown = written(film.frequency, film.frequency_se, "Hz")
+        lines.append(f"{film.name}: frequency {shown}, fitted to the {film.clip.beats:.2g} beats of the clip")
     for name, law in beat.laws.items():
         unit = f"of the {WHOLE[name]}" if name in WHOLE else "deg"
         lines.append(
             f"{beat.film.name}, {name}: {law.frames} frames, residual {law.residual_sd:.2g} {unit}, spline "
             f"with {law.degrees:.3g} degrees of freedom"
         )
-    return [*lines, *(f"note: {note}" for note in beat.notes)]
+    return [*lines, *(f"note: {note}" for note in beat.notes if note not in beat.warnings)]
 
 
 def spread_record(spread: Spread) -> dict[str, Any]:

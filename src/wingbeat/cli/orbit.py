@@ -15,8 +15,11 @@ from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.filmed import (
     DRAWS,
     Kinematics,
+    Side,
+    check_side,
     film_lines,
     film_record,
+    filmed_beat,
     spread_lines,
     spread_record,
 )
@@ -43,7 +46,7 @@ from wingbeat.cli.printing import print_report
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.report import print_orbit
 from wingbeat.errors import FaultList
-from wingbeat.experiment import FilmedBeat, fit_film, read_film
+from wingbeat.experiment import FilmedBeat
 from wingbeat.orbits.problem.filmed import filmed_problem
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
@@ -99,6 +102,7 @@ def orbit(
     set_: Settings = None,
     payload: Payload = 0.0,
     kinematics: Kinematics = None,
+    side: Side = None,
     from_: Annotated[
         Path | None, Parameter(name="--from", help="Solve the problem in this file again, from its inputs alone.")
     ] = None,
@@ -135,6 +139,7 @@ def orbit(
     check_files(faults, output, plot=plot, tornado=tornado)
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
+    check_side(faults, side, kinematics)
     if within_plausible and kinematics is not None:
         rule = "gives the wingbeat, so it cannot be combined with --within-plausible"
         faults.add("--kinematics", str(kinematics), rule, "leave out one of the two options")
@@ -168,7 +173,7 @@ def orbit(
         if kinematics is None:
             problem = whole.problem(animal, speed, **asked)
         else:
-            beat = fit_film(read_film(kinematics))
+            beat = filmed_beat(kinematics, side)
             problem = filmed_problem(beat, animal, speed, aero=whole.aero, **asked)
     fit = model.fit()
     found = _solve(problem, starts, seed)

@@ -16,7 +16,16 @@ from rich.table import Table
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.carried import carried, report_carried
-from wingbeat.cli.filmed import DRAWS, Kinematics, film_lines, film_record, plus_minus
+from wingbeat.cli.filmed import (
+    DRAWS,
+    Kinematics,
+    Side,
+    check_side,
+    film_lines,
+    film_record,
+    filmed_beat,
+    plus_minus,
+)
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import (
     SPECIES,
@@ -31,7 +40,7 @@ from wingbeat.cli.options import (
 )
 from wingbeat.cli.winds import Gust, Turbulence, WindSeed, wind_of
 from wingbeat.errors import FaultList
-from wingbeat.experiment import FilmedBeat, fit_film, read_film
+from wingbeat.experiment import FilmedBeat
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.orbits.problem.filmed import filmed_species
@@ -61,6 +70,7 @@ def simulate(
     model: ModelOptions = DEFAULT_MODEL,
     set_: Settings = None,
     kinematics: Kinematics = None,
+    side: Side = None,
     plot_kinematics: Annotated[
         Path | None, Parameter(help="Draw the film, the fitted spline and its 95 % band: .png, .pdf or .svg.")
     ] = None,
@@ -93,6 +103,7 @@ def simulate(
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
     check_result(faults, output)
     check_files(faults, output, plot_kinematics=plot_kinematics)
+    check_side(faults, side, kinematics)
     if plot_kinematics is not None and kinematics is None:
         faults.add("--plot-kinematics", str(plot_kinematics), "has no film to draw", "give --kinematics")
     faults.raise_if_any()
@@ -111,7 +122,7 @@ def simulate(
         assert species is not None
         animal, whole = model.flown(species, set_)
         if kinematics is not None:
-            beat = fit_film(read_film(kinematics))
+            beat = filmed_beat(kinematics, side)
             animal = filmed_species(beat, animal)
         wingbeat, reach = animal.wingbeat, animal.path_bounds["flap"]
         if beat is not None and beat.film.shows_body:
@@ -123,8 +134,9 @@ def simulate(
             check_outputs(output, plot_kinematics)
             flown, errors = carried(beat, animal, whole.aero, given, beats, samples)
             with answer() as told:
-                told.show(lambda: report_carried(flown, errors, beat, json))
-                _warn(flown.model, wingbeat, reach)
+                notes = _notes(flown.model, wingbeat, reach, beat)
+                told.show(lambda: report_carried(flown, errors, beat, notes, json))
+                _warn(notes)
                 told.save(output, flown.save)
                 told.save(plot_kinematics, lambda path: save_figure(film_page(beat), path))
             return EXIT_GOOD
@@ -138,25 +150,30 @@ def simulate(
     if beat is not None:
         for row, error in zip(rows, _errors(flight, beat, beats, samples, wind), strict=True):
             row["mean_power_se"] = error
+    notes = _notes(flown_by, wingbeat, reach, beat)
     with answer() as told:
         if json:
-            record = {"completed": flight.completed, "beats": rows}
+            record = {"completed": flight.completed, "beats": rows, "warnings": notes}
             record |= {} if beat is None else {"kinematics": film_record(beat)}
             told.show(lambda: print(json_format.dumps(record, indent=2, allow_nan=False)))
         else:
             told.show(lambda: _print(rows, flight.completed))
             for line in film_lines(beat) if beat else []:
                 told.show(lambda line=line: print(line))
-        _warn(flown_by, wingbeat, reach)
+        _warn(notes)
         told.save(output, flight.save)
         if beat is not None:
             told.save(plot_kinematics, lambda path: save_figure(film_page(beat), path))
     return EXIT_GOOD if flight.completed else EXIT_NOT_CERTIFIED
 
 
-def _warn(model: FlightModel, wingbeat: Wingbeat, flap: tuple[float, float]) -> None:
-    """Say on standard error if the prescribed wings cross, or flap beyond the range of the shoulder."""
-    for note in crossing(model.vehicle, model.strips, wingbeat, flap):
+def _notes(model: FlightModel, wingbeat: Wingbeat, flap: tuple[float, float], beat: FilmedBeat | None) -> list[str]:
+    """Return warnings of wings that cross or flap beyond the range of the shoulder, and those of the film."""
+    return [*crossing(model.vehicle, model.strips, wingbeat, flap), *(beat.warnings if beat else ())]
+
+
+def _warn(notes: list[str]) -> None:
+    for note in notes:
         print(f"warning: {note}", file=sys.stderr)
 
 

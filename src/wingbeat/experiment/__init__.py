@@ -23,11 +23,11 @@ if TYPE_CHECKING:
     from wingbeat.experiment.campaign import synthetic_runs as synthetic_runs
     from wingbeat.experiment.drawing import draw as draw
     from wingbeat.experiment.film import Film as Film
-    from wingbeat.experiment.film import read_film as read_film
-    from wingbeat.experiment.film import synthetic_film as synthetic_film
+    from wingbeat.experiment.film_file import read_film as read_film
     from wingbeat.experiment.film_fit import FilmedBeat as FilmedBeat
     from wingbeat.experiment.film_fit import fit_film as fit_film
     from wingbeat.experiment.forms import CurveForm as CurveForm
+    from wingbeat.experiment.known_film import synthetic_film as synthetic_film
     from wingbeat.experiment.record import LoadCellRun as LoadCellRun
     from wingbeat.experiment.record import read_run as read_run
     from wingbeat.experiment.reduction import reduce_run as reduce_run
@@ -61,12 +61,12 @@ _HOME = {
     "fit_film": "film_fit",
     "fit_wing": "wing_fit",
     "load_measurements": "table",
-    "read_film": "film",
+    "read_film": "film_file",
     "read_run": "record",
     "reduce_run": "reduction",
     "reduce_runs": "reduction",
     "save_runs": "campaign",
-    "synthetic_film": "film",
+    "synthetic_film": "known_film",
     "synthetic_runs": "campaign",
 }
 

@@ -1,8 +1,9 @@
-"""A filmed wingbeat: angles and span by phase, and its CSV file."""
+"""A filmed wingbeat: angles and span by phase, and what its numbers seem to be if they cannot be that."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -11,18 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat.errors import FaultList
+from wingbeat.experiment.clip import MIN_BEATS, SURE, Clip, clip_rate, scatter_at
 from wingbeat.experiment.wrapping import unwrapped
 from wingbeat.files import write_atomically
-from wingbeat.kinematics import (
-    Wingbeat,
-    chord_ratio,
-    flap_angle,
-    pitch_angle,
-    span_ratio,
-    sweep_angle,
-    tip_twist,
-)
-from wingbeat.sheets import Sheet, check_unit, parse_numbers, read_sheet, split_unit
 
 # What can be filmed, and its unit.
 FILMED = {
@@ -35,12 +27,23 @@ COLUMNS = FILMED | BODY
 # What a fraction of 1 stands for.
 WHOLE = {"span_fraction": "semi-span", "area_fraction": "full area"}
 # Angles that a tracker may give anywhere on the circle.
-_WRAPPED = ("pitch_deg", "tip_pitch_deg", "stroke_plane_deg", "body_pitch_deg")
-_CLOCKS = {"phase": "", "time": "s"}
-_CONSTANTS = {"frequency": "Hz", "frequency_se": "Hz"}
+WRAPPED = ("pitch_deg", "tip_pitch_deg", "stroke_plane_deg", "body_pitch_deg")
 _FEWEST = 8
 # Longest share of the beat without a frame; in a longer gap, cosine and sine are undetermined.
 _WIDEST_GAP = 0.35
+# Angles of a wing in radians lie below this number [rad].
+_LARGEST_RADIANS = 3.2
+# A tracker sees all angles of a wing about equally well. In radians, an angle's scatter is 57 times smaller than in
+# degrees: below this share of the flap's, or below this number of degrees. The body is tracked better than a wing.
+_QUIET_SHARE, _QUIET_DEG = 0.2, 0.06
+# Correlation of ranks above which an angle only rises or only falls.
+_ONE_WAY = 0.95
+# Phases in another unit: how many of them are a beat.
+_PHASE_UNITS = {"degrees": 360.0, "per cent of a beat": 100.0, "radians": 2 * math.pi}
+# A rate of phases that differs from one beat a beat by less than this is right.
+_PHASE_ERROR = 0.03
+# Every flying animal spreads its wings to more than this share in some part of the beat.
+_SPREAD = 0.7
 
 
 @dataclass(frozen=True)
@@ -59,15 +62,20 @@ class Film:
         ``body_z_m`` (up) and ``body_pitch_deg`` (nose up).
     frequency, frequency_se : wingbeat frequency, None if not known, and its standard error [Hz].
     synthetic : whether a random generator made the film.
+    fitted : whether the frequency is that of the frames themselves.
+    read_notes, read_warnings : what the reader of the file found, see `notes` and `warnings`.
 
     Attributes
     ----------
-    notes : notes for the reader.
+    clip : beats and rate of the frames themselves, in beats per beat of `phase`; None if they show no beat.
+    notes : all notes for the reader, warnings included.
+    warnings : those notes that may change the answer.
 
     Raises
     ------
     InvalidInputError : fewer than 8 frames, a phase that is not finite, no frame in a third of the beat, tip pitch
-        without root pitch.
+        without root pitch; phases of two beats or more whose frames repeat at another rate; a flap angle that only
+        rises or falls, or that is in radians; fractions of a span that are lengths or per cent.
     """
 
     name: str
@@ -76,7 +84,12 @@ class Film:
     frequency: float | None = None
     frequency_se: float = 0.0
     synthetic: bool = False
+    fitted: bool = False
+    read_notes: tuple[str, ...] = ()
+    read_warnings: tuple[str, ...] = ()
+    clip: Clip | None = field(default=None, init=False)
     notes: tuple[str, ...] = field(default=(), init=False)
+    warnings: tuple[str, ...] = field(default=(), init=False)
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -97,11 +110,17 @@ class Film:
             faults.add(f"{self.name}, columns", "tip_pitch_deg", rule, "add the column pitch_deg")
         faults.raise_if_any()
         object.__setattr__(self, "columns", dict(self.columns))
+        self._check_shapes(faults)
+        faults.raise_if_any()
+        self._check_clock(faults)
+        faults.raise_if_any()
         notes = [note for name in self.columns for note in self._check(name, faults)]
         faults.raise_if_any()
+        warnings = [*self.read_warnings, *self._suspicions()]
         if self.synthetic:
             notes.insert(0, f"{self.name} is synthetic: made by a random generator, not filmed")
-        object.__setattr__(self, "notes", tuple(notes))
+        object.__setattr__(self, "notes", (*notes, *self.read_notes, *warnings))
+        object.__setattr__(self, "warnings", tuple(warnings))
 
     @property
     def shows_body(self) -> bool:
@@ -118,39 +137,106 @@ class Film:
         there = np.isfinite(self.columns[name])
         return self.phase[there], self.columns[name][there]
 
+    def _check_shapes(self, faults: FaultList) -> None:
+        for name, column in self.columns.items():
+            where = f"{self.name}, column {name}"
+            if column.shape != self.phase.shape:
+                faults.add(where, f"shape {column.shape}", f"must be {self.phase.shape}, as phase")
+            elif (count := int(np.isfinite(column).sum())) < _FEWEST:
+                rule = f"must be seen in at least {_FEWEST} frames"
+                faults.add(where, f"{count} frames", rule, "film more frames")
+            elif name == "flap_deg":
+                self._check_flap(faults, where, *self.seen(name))
+
+    def _check_flap(
+        self, faults: FaultList, where: str, phase: NDArray[np.float64], flap: NDArray[np.float64]
+    ) -> None:
+        """Note a flap angle in radians, and one that does not go up and down."""
+        largest = float(np.abs(flap).max())
+        if 0 < largest < _LARGEST_RADIANS:
+            rule = "is the largest flap angle: these seem to be radians, not degrees"
+            faults.add(where, largest, rule, "multiply them by 57.29578")
+        elif way := _one_way(flap[np.argsort(phase, kind="stable")]):
+            rule = (
+                f"{way} from frame to frame and never turns back: it seems to be a phase, a time or an angle that"
+            )
+            faults.add(where, f"{len(flap)} frames", f"{rule} was unwrapped", "give the flap angle, up positive")
+
+    def _check_clock(self, faults: FaultList) -> None:
+        """Compare the beats of the frames with those of the phases; phases within one beat say nothing about it."""
+        order = np.argsort(self.phase, kind="stable")
+        clock = self.phase[order]
+        span = float(clock[-1] - clock[0])
+        clip = clip_rate(clock, {name: self.columns[name][order] for name in FILMED if name in self.columns})
+        if clip is None or not clip.clear or span < MIN_BEATS:
+            return
+        object.__setattr__(self, "clip", clip)
+        off = abs(clip.rate - 1.0)
+        if off <= max(_PHASE_ERROR, SURE * clip.rate_se, 0.5 * abs(clip.change)) or even_only(
+            clip.rate, self.columns
+        ):
+            return
+        unit = [name for name, turn in _PHASE_UNITS.items() if abs(clip.rate * turn - 1.0) < 0.15]
+        if not unit and np.array_equal(clock, np.round(clock)):
+            unit = ["numbers of frames"]
+        rule = f"the frames repeat every {1 / clip.rate:.4g} of phase, but a phase counts beats"
+        fix = (
+            f"the phases seem to be {unit[0]}; divide them by {1 / clip.rate:.4g}" if unit else "correct the phases"
+        )
+        faults.add(f"{self.name}, phase", f"{clock[0]:g} to {clock[-1]:g}", rule, fix)
+
     def _check(self, name: str, faults: FaultList) -> list[str]:
-        where, column = f"{self.name}, column {name}", self.columns[name]
-        if column.shape != self.phase.shape:
-            faults.add(where, f"shape {column.shape}", f"must be {self.phase.shape}, as phase")
-            return []
+        where = f"{self.name}, column {name}"
         phase, values = self.seen(name)
-        if len(values) < _FEWEST:
-            rule = f"must be seen in at least {_FEWEST} frames"
-            faults.add(where, f"{len(values)} frames", rule, "film more frames")
-            return []
         place = np.sort(phase % 1.0)
         gaps = np.diff(np.append(place, place[0] + 1.0))
         if gaps.max() > _WIDEST_GAP:
             start = place[gaps.argmax()]
             rule = f"has no frame from phase {start:.2f} to {(start + gaps.max()) % 1.0:.2f}"
             faults.add(where, f"{len(values)} frames", rule, "are the phases in beats, and the frequency in Hz?")
-        notes = self._unwrap(name, phase, faults) if name in _WRAPPED else []
+        notes = self._unwrap(name, phase, faults) if name in WRAPPED else []
         largest = float(np.abs(values).max())
-        if FILMED.get(name) == "deg" and 0 < largest < 3.0:
-            notes.append(
-                f"{where}: no angle exceeds {largest:.2g} degrees; if these are radians, multiply them by 57.29578"
-            )
-        if FILMED.get(name) == "deg" and name not in _WRAPPED and largest > 180:
+        if FILMED.get(name) == "deg" and name not in WRAPPED and largest > 180:
             faults.add(where, largest, "must lie between -180 and 180 degrees", "wrap the angle")
         if name in WHOLE and (values.min() <= 0 or values.max() > 2):
             worst = float(values.min() if values.min() <= 0 else values.max())
-            faults.add(
-                where,
-                worst,
-                f"is not a fraction of the {WHOLE[name]}",
-                f"divide it by the {WHOLE[name]}; do not use percent",
-            )
+            rule = f"is not a fraction of the {WHOLE[name]}"
+            fix = f"divide by the {WHOLE[name]} in the same unit"
+            if worst > 2:
+                looks = "per cent" if worst <= 130 and values.min() > 10 else "a length or an area"
+                fix = f"the numbers seem to be {looks}; {'divide by 100' if looks == 'per cent' else fix}"
+            faults.add(where, worst, rule, fix)
         return notes
+
+    def _suspicions(self) -> list[str]:
+        """Return warnings of a frequency that drifts, of angles in radians, and of spans in metres."""
+        found = []
+        if self.clip is not None and self.clip.drifts:
+            first, last = (end * (self.frequency or 1.0) for end in self.clip.ends)
+            unit = "Hz" if self.frequency else "beats per beat of phase"
+            found.append(
+                f"{self.name}: the frequency {'falls' if last < first else 'rises'} from {first:.3g} to {last:.3g} "
+                f"{unit} within the clip; the fit is one mean wingbeat: choose beats that are alike"
+            )
+        quiet = _QUIET_DEG
+        if "flap_deg" in self.columns:
+            quiet = max(quiet, _QUIET_SHARE * scatter_at(*self.seen("flap_deg"), 1.0))
+        for name in self.columns:
+            where, (phase, values) = f"{self.name}, column {name}", self.seen(name)
+            largest = float(np.abs(values).max())
+            limit = _QUIET_DEG if name in BODY else quiet
+            small = COLUMNS[name] == "deg" and name != "flap_deg" and 0 < largest < _LARGEST_RADIANS
+            if small and scatter_at(phase, values, 1.0) < limit:
+                found.append(
+                    f"{where}: no angle exceeds {largest:.2g} degrees, and they scatter far less than tracked "
+                    "angles do; if these are radians, multiply them by 57.29578"
+                )
+            if name in WHOLE and (most := float(np.quantile(values, 0.9))) < _SPREAD:
+                found.append(
+                    f"{where}: the wing never spreads to more than {most:.2g} of the {WHOLE[name]}; if these are "
+                    "lengths or areas, divide them by it"
+                )
+        return found
 
     def _unwrap(self, name: str, phase: NDArray[np.float64], faults: FaultList) -> list[str]:
         """Remove jumps of whole turns from a column, and return a note if there were any."""
@@ -186,132 +272,18 @@ class Film:
         write_atomically(path, "\n".join(lines) + "\n")
 
 
-def read_film(path: str | Path) -> Film:
-    """Read a filmed wingbeat from CSV.
-
-    One column is phase (in beats) or time [s]; time needs a line ``# frequency = 6.1`` [Hz] above the table. The
-    other columns are any of those of `Film`; unknown columns are refused. A cell is empty where the wing was not
-    seen.
-
-    Parameters
-    ----------
-    path : of the CSV file.
-
-    Raises
-    ------
-    FileError : the file is missing or cannot be read.
-    InvalidInputError : missing or unknown columns, other units, cells that are not numbers, and inputs that `Film`
-        refuses, each fault with its row and column.
-    """
-    sheet, faults = read_sheet(path), FaultList()
-    names, constants = _names(faults, sheet), _constants(faults, sheet)
-    if "time" in names and "frequency" not in constants:
-        fix = "add the line '# frequency [Hz] = ...' above the table, or give phases"
-        faults.add(f"{sheet.file}, frequency", "", "is missing: it converts times to phases", fix)
-    if set(names) & set(BODY) and "time" not in names:
-        rule = "has the path of a body but no times"
-        faults.add(f"{sheet.file} row {sheet.header_row}", ",".join(sheet.header), rule, "give time [s], not phase")
-    numbers = parse_numbers(faults, sheet, names, blank=frozenset(COLUMNS)) if names else np.empty((0, 0))
-    faults.raise_if_any()
-    by_name = {name: numbers[:, k].copy() for k, name in enumerate(names)}
-    frequency = constants.get("frequency")
-    phase = by_name["phase"] if "phase" in by_name else by_name["time"] * (frequency or 0.0)
-    columns = {name: by_name[name] for name in COLUMNS if name in by_name}
-    return Film(
-        sheet.file, phase, columns, frequency, constants.get("frequency_se", 0.0), "synthetic" in sheet.constants
-    )
+def even_only(rate: float, columns: Mapping[str, Any]) -> bool:
+    """Return whether columns repeat twice a beat as a span or a sweep may do, but a flap angle cannot."""
+    return "flap_deg" not in columns and abs(rate - 2.0) < 2 * _PHASE_ERROR
 
 
-def _names(faults: FaultList, sheet: Sheet) -> list[str]:
-    names: list[str] = []
-    units = _CLOCKS | COLUMNS
-    for k, cell in enumerate(sheet.header):
-        name, unit = split_unit(cell)
-        where = f"{sheet.file} row {sheet.header_row}, column {k + 1}"
-        if name not in units:
-            angle = name.startswith(("flap", "pitch", "sweep", "tip", "stroke", "body_pitch"))
-            fix = "write degrees, with a name such as flap_deg" if angle else f"known are {', '.join(units)}"
-            faults.add(where, cell, "is not a known column", fix)
-        elif name in names:
-            faults.add(where, cell, "appears twice", "keep one")
-        else:
-            check_unit(faults, where, unit, units[name])
-        names.append(name)
-    where = f"{sheet.file} row {sheet.header_row}"
-    if len(set(names) & set(_CLOCKS)) != 1:
-        rule = "must name exactly one of phase and time"
-        faults.add(where, ",".join(sheet.header), rule, "phase in beats, time in s")
-    if not set(names) & set(FILMED):
-        fix = f"any of {', '.join(FILMED)}"
-        faults.add(where, ",".join(sheet.header), "has no filmed column", fix)
-    return names
-
-
-def _constants(faults: FaultList, sheet: Sheet) -> dict[str, float]:
-    found: dict[str, float] = {}
-    for key, (row, text) in sheet.constants.items():
-        name, unit = split_unit(key)
-        if name not in _CONSTANTS:
-            continue
-        where = f"{sheet.file} row {row}, {name}"
-        check_unit(faults, where, unit, _CONSTANTS[name])
-        try:
-            value = float(text)
-        except ValueError:
-            faults.add(where, text, "must be one number", "in Hz")
-            continue
-        if name == "frequency":
-            faults.number(where, value, above=0, unit="Hz")
-        else:
-            faults.number(where, value, at_least=0, unit="Hz")
-        found[name] = value
-    return found
-
-
-def _true(name: str, wingbeat: Wingbeat, phase: NDArray[np.float64], stroke_plane: float) -> Any:
-    """Return what a perfect film of a wingbeat shows, in radians or as a fraction."""
-    if name == "flap_deg":
-        return flap_angle(wingbeat, phase)
-    if name == "sweep_deg":
-        sweep = sweep_angle(wingbeat, phase)
-        return np.zeros_like(phase) if sweep is None else sweep
-    if name == "stroke_plane_deg":
-        return np.full_like(phase, stroke_plane + wingbeat.stroke_plane_tilt)
-    if name in ("pitch_deg", "tip_pitch_deg"):
-        root, twist = np.asarray(pitch_angle(wingbeat, phase)), tip_twist(wingbeat, phase)
-        return root if name == "pitch_deg" else wingbeat.twist_ratio * root + (0.0 if twist is None else twist)
-    chord = chord_ratio(wingbeat, phase) if name == "area_fraction" else None
-    return np.asarray(span_ratio(wingbeat, phase)) * (1.0 if chord is None else np.asarray(chord))
-
-
-def synthetic_film(
-    wingbeat: Wingbeat,
-    frames: int = 60,
-    noise_deg: float = 1.0,
-    seed: int = 0,
-    columns: tuple[str, ...] = ("flap_deg",),
-    start: float = 0.0,
-    stroke_plane: float = 0.5 * math.pi,
-) -> Film:
-    """Return a film of a known wingbeat with white noise, labelled synthetic; the same seed gives the same film.
-
-    Parameters
-    ----------
-    wingbeat : the wingbeat to film, one period in equal steps.
-    frames : number of frames.
-    noise_deg : standard deviation of the angles' noise [deg]; that of fractions is a hundredth of this number.
-    seed : of the noise.
-    columns : the columns that the film shows.
-    start : phase of the wingbeat at the film's phase 0; without a column of flap, it has no effect.
-    stroke_plane : angle of the vehicle's stroke plane from the body axis [rad]; the wingbeat's tilt adds to it.
-    """
-    random = np.random.default_rng(seed)
-    phase = np.arange(frames) / frames
-    at = phase + (start if "flap_deg" in columns else 0.0)
-    seen = {}
-    for name in columns:
-        true = np.asarray(_true(name, wingbeat, at, stroke_plane))
-        angle = FILMED[name] == "deg"
-        noise = random.normal(scale=noise_deg if angle else 0.01 * noise_deg, size=frames)
-        seen[name] = (np.degrees(true) if angle else true) + noise
-    return Film("film of a known wingbeat", phase, seen, float(wingbeat.frequency), synthetic=True)
+def _one_way(values: NDArray[np.float64]) -> str:
+    """Return "rises" or "falls" if a series does so all the time, but for jumps back; "" if it turns."""
+    jumps = np.flatnonzero(np.abs(np.diff(values)) > 0.5 * max(float(np.ptp(values)), 1e-9)) + 1
+    parts = [part for part in np.split(values, jumps) if len(part) > 5 and np.ptp(part) > 0]
+    if not parts:
+        return ""
+    ranks = [np.argsort(np.argsort(part, kind="stable")) for part in parts]
+    ways = [np.corrcoef(np.arange(len(rank)), rank)[0, 1] for rank in ranks]
+    way = float(np.average(ways, weights=[len(part) for part in parts]))
+    return "" if abs(way) < _ONE_WAY else "rises" if way > 0 else "falls"

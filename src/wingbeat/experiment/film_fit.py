@@ -7,6 +7,7 @@ all films.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -15,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from wingbeat.errors import FaultList, InvalidInputError
-from wingbeat.experiment.film import FILMED, Film
+from wingbeat.experiment.film import FILMED, WHOLE, Film
 from wingbeat.experiment.periodic_spline import Array, FilmedLaw, fit_law, fourier_columns, from_phase
 from wingbeat.harmonics import HIGHEST_ORDER
 from wingbeat.kinematics import FREE_NAMES, Wingbeat, span_ratio
@@ -23,6 +24,12 @@ from wingbeat.vehicle import Vehicle
 
 # How far below zero, in standard errors, noise may bring a retraction.
 _NOISE = 3.0
+# A residual above this share of the amplitude is more than noise. Columns other than flap may vary little, so
+# theirs must also exceed the noise of films [deg, or a fraction].
+_LARGE, _NOISE_DEG, _NOISE_SHARE = 0.2, 5.0, 0.05
+# A tracker followed another point where a frame is so many times farther from the curve than the middle frame, and
+# by more than this share of the amplitude. Normal noise reaches the former in one frame of 10^9.
+_SWAPPED, _SWAPPED_SHARE = 9.0, 0.25
 # Noise alone exceeds this chi squared of four numbers in one film of a hundred.
 _CHANCE = 13.28
 
@@ -109,6 +116,11 @@ _SETTLED = {
 }
 
 
+def _amplitude(law: FilmedLaw) -> float:
+    """Return half of peak to peak of a fitted curve."""
+    return 0.5 * float(np.ptp(law.curve(np.linspace(0.0, 1.0, 97))[0]))
+
+
 @dataclass(frozen=True)
 class FilmedBeat:
     """A wingbeat fitted to a film, each filmed quantity of the wing on its own; made by `fit_film`.
@@ -172,19 +184,47 @@ class FilmedBeat:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What the reader of the fit must know."""
-        law = self.laws.get("stroke_plane_deg")
-        if law is None:
-            return self.film.notes
-        waves = law.coefficients[1:5]
-        if waves @ np.linalg.solve(law.covariance[1:5, 1:5], waves) <= _CHANCE:
-            return self.film.notes
-        swing = float(np.ptp(law.curve(np.linspace(0.0, 1.0, 97))[0]))
-        return (
-            *self.film.notes,
-            f"{self.film.name}, column stroke_plane_deg: the angle varies by {swing:.2g} degrees over the beat, "
-            "more than the noise; a wingbeat has a fixed stroke plane, so the mean angle is used",
-        )
+        """What the reader of the fit must know, warnings included."""
+        notes, law = [*self.film.notes], self.laws.get("stroke_plane_deg")
+        waves = np.zeros(4) if law is None else law.coefficients[1:5]
+        if law is not None and waves @ np.linalg.solve(law.covariance[1:5, 1:5], waves) > _CHANCE:
+            notes.append(
+                f"{self.film.name}, column stroke_plane_deg: the angle varies by {2 * _amplitude(law):.2g} degrees "
+                "over the beat, more than the noise; a wingbeat has a fixed stroke plane, so the mean angle is used"
+            )
+        return (*notes, *self._misfits)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Those notes that may change every number computed from the film."""
+        return (*self.film.warnings, *self._misfits)
+
+    @functools.cached_property
+    def _misfits(self) -> tuple[str, ...]:
+        """Say which columns are far from their curve, and in which frames only."""
+        found = []
+        for name, law in self.laws.items():
+            where, (phase, values) = f"{self.film.name}, column {name}", self.film.seen(name)
+            unit = "degrees" if FILMED[name] == "deg" else f"of the {WHOLE[name]}"
+            size, off = _amplitude(law), np.abs(values - law.curve(phase)[0])
+            least = 0.0 if name == "flap_deg" else _NOISE_DEG if FILMED[name] == "deg" else _NOISE_SHARE
+            # The middle of the absolute deviations, on average over the noise of few frames.
+            far = np.flatnonzero(off > max(_SWAPPED * float(np.median(off)), _SWAPPED_SHARE * size, least))
+            if 0 < len(far) <= max(0.1 * len(off), 1):
+                worst = int(far[np.argmax(off[far])])
+                time = f" ({phase[worst] / self.film.frequency:.4g} s)" if self.film.frequency else ""
+                found.append(
+                    f"{where}: {len(far)} of {len(off)} frames are far from the fitted curve, by up to "
+                    f"{off[worst]:.2g} {unit} at phase {phase[worst]:.3f}{time}; did the tracker follow another "
+                    "point? Leave such cells empty"
+                )
+            if law.residual_sd > max(_LARGE * size, least):
+                found.append(
+                    f"{where}: the frames lie {law.residual_sd:.2g} {unit} from the fitted wingbeat, whose "
+                    f"amplitude is {size:.2g} {unit}: the beats are not alike, or the clock is wrong; do not trust "
+                    "numbers computed from this film"
+                )
+        return tuple(found)
 
     @property
     def held(self) -> frozenset[str]:
@@ -231,8 +271,8 @@ def fit_film(film: Film) -> FilmedBeat:
 
     Raises
     ------
-    InvalidInputError : a flap angle that does not vary, a span fraction that is on average above 1 or below one
-        half.
+    InvalidInputError : a flap angle that does not vary or has no beat (frames farther from the curve than its
+        amplitude), a span fraction that is on average above 1 or below one half.
 
     >>> from wingbeat.experiment import synthetic_film
     >>> beat = fit_film(synthetic_film(Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3), frames=80, noise_deg=1.0))
@@ -248,6 +288,11 @@ def fit_film(film: Film) -> FilmedBeat:
         if math.hypot(flap[1], flap[2]) < 1.0:
             fix = "is the phase right, and the column in degrees?"
             faults.add(f"{film.name}, flap_deg", f"{math.hypot(flap[1], flap[2]):.2g} deg", "hardly swings", fix)
+        elif (rest := laws["flap_deg"].residual_sd) > _amplitude(laws["flap_deg"]):
+            size = _amplitude(laws["flap_deg"])
+            rule = f"is the scatter about the fitted wingbeat, more than its amplitude, {size:.2g} deg"
+            fix = "these frames are not of one wingbeat: are phases, times and frequency right?"
+            faults.add(f"{film.name}, flap_deg", f"{rest:.2g} deg", rule, fix)
     if "span_fraction" in laws:
         mean, error = laws["span_fraction"].coefficients[0], math.sqrt(laws["span_fraction"].covariance[0, 0])
         if not 0.5 < mean <= 1.0 + _NOISE * error:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Mapping
 from typing import Any, Protocol
@@ -29,9 +30,14 @@ class Filmed(Protocol):
         """Names of the parameters that an orbit must not change."""
         ...
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What may change every number computed from the film."""
+        ...
+
 
 def filmed_species(beat: Filmed, species: Species) -> Species:
-    """Return a species with the filmed wingbeat; parameters that were not filmed do not change.
+    """Return a species with the filmed wingbeat and its warnings; parameters that were not filmed do not change.
 
     Parameters
     ----------
@@ -50,7 +56,8 @@ def filmed_species(beat: Filmed, species: Species) -> Species:
     1.0
     """
     filmed = beat.numbers_of(species.vehicle, species.wingbeat)
-    return species.with_values({f"wingbeat.{name}": value for name, value in filmed.items()})
+    changed = species.with_values({f"wingbeat.{name}": value for name, value in filmed.items()})
+    return dataclasses.replace(changed, warnings=(*changed.warnings, *beat.warnings))
 
 
 def trim_of(beat: Filmed, species: Species) -> tuple[tuple[str, ...], dict[str, tuple[float, float]]]:

@@ -19,7 +19,6 @@ from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.solve import find_optima
 from wingbeat.orbits.status import Status
 from wingbeat.reports.text import text_of
-from wingbeat.results.characteristic import characteristic_speeds
 from wingbeat.results.curve_report import curve_report
 
 SPEEDS = [5.0, 6.0, 7.0]
@@ -57,7 +56,7 @@ def traced():
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("wingbeat.results.curve.trace", kept)
-        curve = wb.solve_curve(problem_at("bat"), SPEEDS, power_limit=20.0)
+        curve = wb.solve_curve(problem_at("bat"), SPEEDS)
     return curve, *branches
 
 
@@ -134,40 +133,6 @@ def test_the_answer_does_not_hang_on_the_threads():
     assert [[o.objective for o in row] for row in one.optima] == [[o.objective for o in row] for row in two.optima]
 
 
-@pytest.mark.parametrize(("a", "b"), [(60.0, 0.01), (5.0, 0.004)])
-def test_characteristic_speeds_of_a_known_curve(a, b):
-    speed = np.arange(3.0, 21.0)
-    found = characteristic_speeds(speed, a / speed + b * speed**3, np.ones(17, dtype=bool), power_limit=20.0)
-    slowest_power, best_range = (a / (3 * b)) ** 0.25, (a / b) ** 0.25
-    assert found["minimum_power"]["speed"] == pytest.approx(slowest_power, abs=0.05)
-    assert found["minimum_power"]["power"] == pytest.approx(a / slowest_power + b * slowest_power**3, rel=2e-3)
-    assert found["maximum_range"]["speed"] == pytest.approx(best_range, abs=0.05)
-    roots = np.roots([b, 0, 0, -20.0, a])
-    fastest = max(r.real for r in roots if abs(r.imag) < 1e-9)
-    assert found["fastest_sustained"]["speed"] == pytest.approx(fastest, abs=0.03)
-    low, high = found["minimum_power"]["within_2_percent"]
-    assert low < slowest_power < high
-    assert not any(one["at_edge"] or one["jump_beside"] for one in found.values() if one["speed"] > 3)
-
-
-def test_characteristic_speeds_at_edges_jumps_and_gaps():
-    speed, falling = np.array([0.0, 3.0, 4.0, 5.0]), np.array([9.0, 7.0, 5.0, 4.0])
-    whole = np.ones(3, dtype=bool)
-    edge = characteristic_speeds(speed, falling, whole, 6.0)
-    assert edge["minimum_power"]["speed"] == 5.0
-    assert edge["minimum_power"]["at_edge"]
-    assert edge["fastest_sustained"] == {"speed": 5.0, "power": 4.0, "at_edge": True, "jump_beside": False}
-    assert edge["slowest_sustained"]["speed"] == pytest.approx(3.5)
-    assert characteristic_speeds(speed, falling, whole, 3.0)["fastest_sustained"] is None
-    valley = np.array([9.0, 5.0, 4.0, 8.0])
-    torn = characteristic_speeds(speed, valley, np.array([True, True, False]), 6.0)
-    assert torn["minimum_power"]["jump_beside"]
-    assert torn["minimum_power"]["speed"] == torn["fastest_sustained"]["speed"] == 4.0
-    gap = characteristic_speeds(speed, np.array([9.0, 5.0, 4.0, np.nan]), whole, 6.0)
-    assert gap["minimum_power"]["at_edge"]
-    assert characteristic_speeds(speed, np.full(4, np.nan), whole)["minimum_power"] is None
-
-
 def test_a_saved_curve_comes_back(curve, tmp_path):
     curve.save(tmp_path / "curve.nc")
     again = wb.load_curve(tmp_path / "curve.nc")
@@ -200,18 +165,32 @@ def test_bad_speeds_are_refused(speeds):
 
 def test_the_command_line_draws_saves_and_prints(tmp_path, capsys):
     saved, page = tmp_path / "pigeon.nc", tmp_path / "pigeon.svg"
-    words = ["curve", "pigeon", "--speeds", "9:11:1", "--starts", "1", "--power-limit", "60", "--json"]
+    words = ["curve", "pigeon", "--speeds", "10:12:1", "--starts", "1", "--json"]
     assert main([*words, "-o", str(saved), "--plot", str(page)]) == 0
     record = json.loads(capsys.readouterr().out)
-    assert [point["speed"] for point in record["points"]] == [9.0, 10.0, 11.0]
-    assert record["characteristic_speeds"]["fastest_sustained"]["at_edge"]
+    speeds = [point["speed"] for point in record["points"]]
+    assert [point["speed"] for point in record["points"] if not point["refined"]] == [10.0, 11.0, 12.0]
+    # Three orbits more, certified as the others, enclose the speed of least frequency to 0.1 m/s.
+    found = record["characteristic_speeds"]["minimum_frequency"]
+    at = speeds.index(found["lowest"])
+    best = [point["optima"][0] for point in record["points"]]
+    assert len(speeds) == 6
+    assert found["status"] == "found"
+    assert best[at]["frequency"] == min(one["frequency"] for one in best) == found["value"]
+    assert found["interval"][0] <= speeds[at - 1] < found["speed"] < speeds[at + 1] <= found["interval"][1]
+    assert found["interval"][1] - found["interval"][0] < 0.3
+    assert record["marks"] == []
     assert page.stat().st_size > 10_000
     assert main(["show", str(saved), "--json"]) == 0
     assert json.loads(capsys.readouterr().out) == record
     assert main(["show", str(saved)]) == 0
-    printed = capsys.readouterr().out
-    assert "3 of 3 speeds certified" in printed
-    assert "minimum power: 9 m/s" in printed
+    printed = " ".join(capsys.readouterr().out.split())
+    assert "6 of 6 speeds certified" in printed
+    assert f"{speeds[at]:g}* 9.469" in printed
+    assert f"minimum frequency: {found['speed']:.2f} m/s (10.6" in printed
+    assert "with flap amplitude at its limit" in printed
+    assert "greatest range: not given, because frequency was minimised" in printed
+    assert "flap amplitude set by the limit at 10 to 12 m/s" in printed
     assert main(["plot", str(saved), "-o", str(tmp_path / "again.svg")]) == 0
     assert (tmp_path / "again.svg").read_bytes() == page.read_bytes()
 
@@ -221,6 +200,15 @@ def test_the_command_line_tells_when_nothing_is_certified(capsys, monkeypatch):
     words = ["curve", "bat", "--speeds", "8:9:1", "--starts", "1", "--subject-to", "flap_amplitude<=6 deg"]
     assert main(words) == 3
     assert "0 of 2 speeds certified" in capsys.readouterr().out
+
+
+def test_a_power_limit_is_refused_where_no_power_is_minimised(capsys):
+    assert main(["curve", "pigeon", "--speeds", "3:5:1", "--power-limit", "60"]) == 2
+    told = capsys.readouterr().err
+    assert "frequency is minimised" in told
+    assert "--minimise positive-power" in told
+    with pytest.raises(InvalidInputError, match="refinements"):
+        wb.solve_curve(problem_at("pigeon"), SPEEDS, refinements=-1)
 
 
 @pytest.mark.parametrize(
@@ -251,7 +239,7 @@ def test_a_minimised_quantity_other_than_power_and_frequency_has_a_column():
     best |= {"flap_amplitude": 0.5, "active_bounds": ""}
     point = {"speed": 9.0, "status": "converged", "message": "", "optima": [best], "distinct_optima": 1}
     record = {"species": "kestrel", "climb": 0.0, "objective": "metabolic_power", "points": [point], "gaps": []}
-    record |= {"marks": [], "power": "", "characteristic_speeds": {}, "warnings": []}
+    record |= {"marks": [], "characteristic_speeds": {"minimum_power": None}, "warnings": []}
     lines = text_of(curve_report(record)).splitlines()
     assert lines[1].split()[:4] == ["U", "f", "P+", "minimised"]
     assert lines[3].split()[:4] == ["9", "6", "2.4", "4.84"]

@@ -31,7 +31,7 @@ from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
 from wingbeat.errors import FaultList
 from wingbeat.plots.saving import save_figure
-from wingbeat.results.curve import solve_curve
+from wingbeat.results.curve import REFINEMENTS, solve_curve
 
 
 def curve(
@@ -58,12 +58,19 @@ def curve(
     stable: Stable = False,
     power_limit: Annotated[
         float | None,
-        Parameter(help="Sustainable power [W]; the slowest and the fastest speed within this power are printed."),
+        Parameter(
+            help="Sustainable power [W] of the kind that is minimised; the slowest and the fastest speed within it "
+            "are printed."
+        ),
     ] = None,
     starts: Annotated[
         Whole,
         Parameter(help="Number of starts at the first and last speed; other speeds get a third as many."),
     ] = 6,
+    refinements: Annotated[
+        Whole,
+        Parameter(help="Most speeds to add until each characteristic speed is known to 0.1 m/s; 0 adds none."),
+    ] = REFINEMENTS,
     seed: Seed = 0,
     set_: Settings = None,
     json: Annotated[bool, Parameter(negative="", help="Print the curve as JSON and nothing else.")] = False,
@@ -73,11 +80,12 @@ def curve(
     """Find the curves of power and frequency against speed, their branches and their characteristic speeds.
 
     Every optimum found is continued to the next lower and higher speeds. A mark on the curve shows where the best
-    orbit changes branch or reaches other bounds.
+    orbit changes branch or reaches other bounds. The characteristic speeds are those of the quantity that is
+    minimised: to get the speeds of minimum power and of greatest range, minimise a power.
     Exit code 0: some speeds are certified, and gaps are reported. 3: no speed is certified.
 
     Examples: wingbeat curve pigeon --speeds 3:20:1 --minimise positive-power --plot pigeon.png;
-    wingbeat curve bat --speeds 0 3:20:1 --power-limit 4 -o bat.nc
+    wingbeat curve bat --speeds 0 3:20:1 --minimise positive-power --power-limit 4 -o bat.nc
     """
     faults = FaultList()
     check_result(faults, output)
@@ -95,7 +103,7 @@ def curve(
     )
     check_outputs(output, plot)
     with progress_bar(f"{problem.species.name} along speed") as progress:
-        found = solve_curve(problem, row, starts, seed, power_limit, progress)
+        found = solve_curve(problem, row, starts, seed, power_limit, progress, refinements=refinements)
     with answer() as given:
         if json:
             given.show(lambda: print(json_format.dumps(found.record(), indent=2, allow_nan=False)))

@@ -121,6 +121,7 @@ ANSWER = (
     Term("solve_seconds", "s", "time to solve"),
     Term("version", "", "version of wingbeat"),
     Term("optimum", "", "rank of the optimum at its speed; 0 is the best"),
+    Term("refined", "1", "whether the speed was added to find the characteristic speeds"),
     Term("family", "", "number of the family of orbits, -1 if none"),
     Term(
         "continued",

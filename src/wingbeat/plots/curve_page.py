@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -13,6 +14,7 @@ import numpy as np
 from wingbeat.datasets import climb_text
 from wingbeat.errors import FaultList
 from wingbeat.nomenclature import axis_label, plain, readable_limit
+from wingbeat.results.curve_report import speed_in_words, speed_label
 from wingbeat.style import (
     ALARM,
     BLUE,
@@ -32,6 +34,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _HEIGHT = 150.0  # mm
+_LETTERS = 50  # of a line of the legend
 _MOST_LIMITS = 1  # for whose words the title has room
 _MOST_EMPTY = 0.35  # share of the axis that may lie below the slowest speed
 _BEST, _OTHER, _PUBLISHED, _SPEEDS = BLUE, "0.6", GREEN, VERMILION
@@ -42,8 +45,7 @@ _STRIP = (
     ("bounds", "^", "w", 1.03, "change of active bounds"),
 )
 _NEEDED = ("frequency", "mean_positive_power", "objective_value", "family", "continued", "status")
-_NAMES = {"minimum_power": ("minimum power", "v"), "maximum_range": ("maximum range", "s")}
-_NAMES |= {"fastest_sustained": ("fastest sustained", ">"), "slowest_sustained": ("slowest sustained", "<")}
+_MARKERS = {"maximum_range": "s", "fastest_sustained": ">", "slowest_sustained": "<"}  # of minima: "v"
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,8 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
 
     The thick line is the best orbit of each speed, broken where it changes branch. Thin grey lines are the other
     certified optima found. The grey band spans all optima. If another quantity is minimised, such as the metabolic
-    power, it has a panel of its own.
+    power, it has a panel of its own. Small points were added to find the characteristic speeds, which stand in the
+    panel of the minimised quantity with their error bars; where a point is empty, a limit has set the number.
 
     Parameters
     ----------
@@ -83,6 +86,7 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
     InvalidInputError : the dataset is not a curve.
     """
     from wingbeat.results.curve import Curve
+    from wingbeat.results.curve_dataset import best_line
 
     faults = FaultList()
     if dataset.attrs.get("wingbeat_kind") != "curve" or any(name not in dataset for name in _NEEDED):
@@ -93,16 +97,19 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
     if dataset.attrs["objective"] == "mean_power":
         powers = ["mean_power", *powers]
     minimised = dataset.attrs["objective"]
-    panels = [*powers, *([] if minimised in (*powers, "frequency") else ["objective_value"]), "frequency"]
+    has_panel = minimised in (*powers, "frequency")
+    panels = [*powers, *([] if has_panel else ["objective_value"]), "frequency"]
+    limits = best_line(dataset).limits
     with drawing():
         figure = new_figure(PAGE, _HEIGHT + 45 * (len(panels) - 2))
         all_axes = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
         for axes, name in zip(all_axes, panels, strict=True):
             axes.set_ylabel(_minimised_label(dataset) if name == "objective_value" else axis_label(name))
-            _draw_optima(axes, dataset, curve.marks, name)
+            own = minimised if name == "objective_value" else name
+            _draw_optima(axes, dataset, curve.marks, name, np.array([own in reached for reached in limits]))
             _draw_published(axes, published, name)
             _draw_marks(axes, curve.marks, curve.gaps, dataset["speed"].values)
-        _draw_speeds(all_axes[0], curve, powers[0])
+        _draw_speeds(all_axes[panels.index(minimised if has_panel else "objective_value")], curve)
         all_axes[-1].set_xlabel(axis_label("speed", full=True))
         for axes in all_axes:
             axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=6.5)
@@ -128,7 +135,9 @@ def _title(dataset: xr.Dataset) -> str:
     return f"{animal}: minimum {in_words(about['objective'])}{limits}; {loads}"
 
 
-def _draw_optima(axes: Axes, dataset: xr.Dataset, marks: list[dict[str, Any]], name: str) -> None:
+def _draw_optima(
+    axes: Axes, dataset: xr.Dataset, marks: list[dict[str, Any]], name: str, at_limit: np.ndarray
+) -> None:
     speed, values = dataset["speed"].values, dataset[name].values
     good = np.isfinite(values)
     low = np.where(good, values, np.inf).min(axis=1)
@@ -147,8 +156,17 @@ def _draw_optima(axes: Axes, dataset: xr.Dataset, marks: list[dict[str, Any]], n
     torn = {m["lower_speed"] for m in marks if m["kind"] == "branch"}
     line, label = [values[:, 0], speed], f"best, minimum {in_words(dataset.attrs['objective'])}"
     for part in np.split(np.arange(len(speed)), [i + 1 for i, u in enumerate(speed) if u in torn]):
-        axes.plot(line[1][part], line[0][part], "-o", color=_BEST, markersize=3, label=label, zorder=3)
+        axes.plot(line[1][part], line[0][part], "-", color=_BEST, label=label, zorder=3)
         label = "_"
+    refined = dataset["refined"].values > 0 if "refined" in dataset else np.zeros(len(speed), dtype=bool)
+    for which, size, fill, label in (
+        (~refined & ~at_limit, 3, _BEST, "_"),
+        (refined & ~at_limit, 1.5, _BEST, "_"),
+        (at_limit, 3, "w", f"{in_words(name)} set by a limit"),
+    ):
+        if which.any():
+            look = {"markersize": size, "markerfacecolor": fill, "label": label, "zorder": 3}
+            axes.plot(speed[which], values[which, 0], "o", color=_BEST, **look)
     top = 1.15 * np.nanmax(values[:, 0]) if some.any() else 1.0
     # From 0 on, where the tangent of greatest range starts, unless that leaves much of the panel empty.
     start = 0.0 if speed[0] < _MOST_EMPTY * speed[-1] else speed[0]
@@ -210,24 +228,33 @@ def _draw_published(axes: Axes, published: Sequence[Published], name: str) -> No
     axes.set(xlim=(left, right), ylim=(0, tallest))
 
 
-def _draw_speeds(axes: Axes, curve: Any, name: str) -> None:
-    """Mark the characteristic speeds on the power curve, with the tangent from the origin."""
-    for key, found in curve.characteristic_speeds.items():
+def _draw_speeds(axes: Axes, curve: Any) -> None:
+    """Mark the characteristic speeds with their error bars, and the tangent from the origin to that of range."""
+    limit, record = curve.record()["power_limit"], curve.characteristic_speeds
+    for key, found in record.items():
         if found is None:
             continue
-        label, marker = _NAMES[key]
-        edge = ", at the edge" if found["at_edge"] else ", beside a jump" if found["jump_beside"] else ""
-        label = f"{label}: {found['speed']:.1f} m/s, {found['power']:.3g} W{edge}"
-        look = {"marker": marker, "color": _SPEEDS, "markeredgecolor": "k", "linestyle": "", "markersize": 6}
+        label = f"{speed_label(key)}: {speed_in_words(found)}"
+        look: dict[str, Any] = {
+            "marker": _MARKERS.get(key, "v"),
+            "color": _SPEEDS,
+            "markeredgecolor": "k",
+            "linestyle": "",
+        }
+        look |= {"markersize": 6, "label": textwrap.fill(label, _LETTERS), "zorder": 5}
         if key == "maximum_range":  # larger and open: both speeds may be the same
             look |= {"markersize": 9, "markerfacecolor": "none", "markeredgecolor": _SPEEDS}
-        axes.plot(found["speed"], found["power"], label=label, zorder=5, **look)
-        if key == "maximum_range":
-            reach = np.array([0.0, 1.15 * found["speed"]])
-            slope = found["power"] / found["speed"]
+        if found["speed"] is None:  # only the words, in the legend
+            axes.plot([], [], **look | {"marker": "", "zorder": 0})
+            continue
+        low, high = found["interval"]
+        reach = [[found["speed"] - low], [high - found["speed"]]]
+        axes.errorbar([found["speed"]], [found["value"]], xerr=reach, capsize=2, elinewidth=0.8, **look)
+        if key == "maximum_range" and "minimum_power" in record:
+            along = np.array([0.0, 1.15 * found["speed"]])
             left, right = axes.get_xlim()
-            axes.plot(reach, slope * reach, color=_SPEEDS, linewidth=0.6, linestyle=(0, (4, 2)))
+            dashed = {"linewidth": 0.6, "linestyle": (0, (4, 2))}
+            axes.plot(along, found["value"] / found["lowest"] * along, color=_SPEEDS, **dashed)
             axes.set_xlim(left, right)
-    limit = curve.record()["power_limit"]
     if limit is not None:
         axes.axhline(limit, color=_SPEEDS, linewidth=0.7, linestyle=":", label=f"power limit {limit:g} W")

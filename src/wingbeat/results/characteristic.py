@@ -1,116 +1,297 @@
-"""Characteristic speeds of a power curve: minimum power, maximum range, and the fastest within a power limit."""
+"""Characteristic speeds of a curve: where the minimised quantity is least, and where to solve to find that."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from wingbeat.nomenclature import PRECISION
+
 # Speeds are `within_2_percent` if their value exceeds the minimum by at most this share.
 _FLAT = 0.02
+# Another minimum within this share of the least is practically as good: warnings of orbits use the same share.
+_RIVAL = 0.01
+# Points on each side of the lowest that show how much optima scatter about a smooth curve.
+_WINDOW = 3
 
 
-def characteristic_speeds(
-    speed: np.ndarray, power: np.ndarray, joined: np.ndarray, power_limit: float | None = None
-) -> dict[str, Any]:
-    """Return the speeds of minimum power and of maximum range, and the slowest and fastest within a power limit.
+class BestLine(NamedTuple):
+    """The best orbits along speed.
+
+    Attributes
+    ----------
+    quantity : name of the minimised quantity.
+    is_power : whether it is a mean power, which divided by speed is least at the speed of maximum range.
+    speed, value : increasing speeds [m/s], and the minimised quantity, not-a-number in gaps; shape (K,).
+    joined : whether each point and the next belong to one branch, shape (K - 1,).
+    limits : names of the bounds and limits that each orbit has reached, shape (K,).
+    others : the quantity of other families of optima, shape (F, K), not-a-number where a family has no optimum.
+    """
+
+    quantity: str
+    is_power: bool
+    speed: np.ndarray
+    value: np.ndarray
+    joined: np.ndarray
+    limits: Sequence[frozenset[str]]
+    others: np.ndarray
+
+    def sought(self) -> dict[str, bool]:
+        """Return the names of the minima that the curve has, and whether each is that of the value over speed."""
+        if self.is_power:
+            return {"minimum_power": False, "maximum_range": True}
+        return {"maximum_range" if self.quantity == "cost_of_transport" else f"minimum_{self.quantity}": False}
+
+    def over(self, speed: bool) -> BestLine:
+        """Return this line, or that of the value divided by speed, which hover has not."""
+        if not speed:
+            return self
+        moving = np.where(self.speed > 0, self.speed, np.nan)
+        return self._replace(value=self.value / moving, others=self.others / moving)
+
+    def mirrored(self) -> BestLine:
+        """Return the line along minus the speed."""
+        back = {name: getattr(self, name)[::-1] for name in ("value", "joined", "limits")}
+        return self._replace(speed=-self.speed[::-1], others=self.others[:, ::-1], **back)
+
+    def reaches(self, k: int, way: int) -> bool:
+        """Whether point k and its neighbour in one direction belong to one branch."""
+        there = k + way
+        return 0 <= there < len(self.value) and bool(np.isfinite(self.value[there]) and self.joined[min(k, there)])
+
+    def smooth_piece(self, k: int) -> slice:
+        """Return the points about point k that belong to its branch and have the same active limits."""
+        ends = []
+        for way in (-1, 1):
+            end = k
+            while abs(end - k) < _WINDOW and self.reaches(end, way) and self.limits[end + way] == self.limits[k]:
+                end += way
+            ends.append(end)
+        return slice(ends[0], ends[1] + 1)
+
+
+def characteristic_speeds(line: BestLine, power_limit: float | None = None) -> dict[str, Any]:
+    """Return the speeds at which the minimised quantity is least, and those that a power limit allows.
 
     Parameters
     ----------
-    speed, power : the curve [m/s, W], shape (K,), increasing in speed; power is not-a-number where there is a gap.
-    joined : whether each point and the next belong to one branch, shape (K - 1,).
-    power_limit : [W].
+    line : the best orbits.
+    power_limit : of a minimised power [W].
 
     Returns
     -------
-    ``minimum_power``; ``maximum_range``, where power divided by speed is smallest (the tangent from the origin);
-    and, with a limit, ``fastest_sustained`` and ``slowest_sustained``. An entry is None if the curve has no such
-    speed. Each entry holds ``speed`` [m/s], ``power`` [W], ``at_edge`` (the range of speeds ends there or a gap
-    begins, so the true speed may lie beyond) and ``jump_beside`` (the curve changes branch there). The first two
-    also hold ``within_2_percent``: the speeds between which the minimised value is within 2 % of its minimum.
+    Of a power ``minimum_power``, and ``maximum_range``, where power over speed is least (the tangent from the
+    origin); of the cost of transport ``maximum_range``; of another quantity such as ``minimum_frequency``. With a
+    limit also ``fastest_sustained`` and ``slowest_sustained``, None if no speed is within the limit. Each holds
+    ``speed`` [m/s], its error bar ``interval`` [m/s], ``value`` (the minimised quantity) and ``status``:
+    ``found``; ``at_or_below`` or ``at_or_above`` the end of the curve; ``beside_jump`` or ``beside_gap``, where no
+    speed is given; ``set_by_limit``, where a limit has set the minimised quantity itself. A minimum also holds
+    ``lowest`` (the computed speed with the least value), ``limits`` (that are active there), ``changed_limits``
+    (active on one side of it only), ``rivals`` (other minima within 1 %) and ``within_2_percent``: the speeds
+    between which the value is within 2 % of its minimum.
+
+    The error bar covers the neighbours of the lowest point, between which a smooth branch has its minimum; all
+    speeds at which a smooth curve is above its minimum by less than twice the scatter of the optima about it; and
+    the rivals.
 
     >>> u = np.arange(4.0, 13.0)
-    >>> found = characteristic_speeds(u, 60 / u + 0.01 * u**3, np.ones(8, bool))
-    >>> f"{found['minimum_power']['speed']:.1f}"
-    '6.7'
+    >>> free = [frozenset()] * 9
+    >>> line = BestLine("mean_power", True, u, 60 / u + 0.01 * u**3, np.ones(8, bool), free, np.empty((0, 9)))
+    >>> found = characteristic_speeds(line)["minimum_power"]
+    >>> f"{found['speed']:.1f}", found["interval"]
+    ('6.7', [6.0, 8.0])
     """
-    moving = speed > 0
-    found: dict[str, Any] = {
-        "minimum_power": _least(speed, power, joined, power, lambda square, slope, _: -0.5 * slope / square),
-        "maximum_range": _least(
-            speed,
-            np.where(moving, power / np.where(moving, speed, 1.0), np.nan),
-            joined,
-            power,
-            lambda square, _, level: math.sqrt(max(level / square, 0.0)),
-        ),
-    }
-    if power_limit is not None:
-        found["fastest_sustained"] = _crossing(speed, power, joined, power_limit)
-        mirrored = _crossing(-speed[::-1], power[::-1], joined[::-1], power_limit)
-        found["slowest_sustained"] = mirrored and mirrored | {"speed": -mirrored["speed"] + 0.0}
+    found: dict[str, Any] = {name: _least(line, line.over(speed)) for name, speed in line.sought().items()}
+    if power_limit is not None and line.is_power:
+        found["fastest_sustained"] = _crossing(line, power_limit)
+        slowest = _crossing(line.mirrored(), power_limit)
+        found["slowest_sustained"] = slowest and slowest | {
+            "status": slowest["status"].replace("above", "below"),
+            "speed": None if slowest["speed"] is None else -slowest["speed"] + 0.0,
+            "interval": slowest["interval"]
+            and [None if u is None else -u + 0.0 for u in slowest["interval"][::-1]],
+        }
     return found
 
 
-def _least(
-    speed: np.ndarray,
-    value: np.ndarray,
-    joined: np.ndarray,
-    power: np.ndarray,
-    lowest: Callable[[float, float, float], float],
-) -> dict[str, Any] | None:
-    """Return where a value is smallest.
+def next_speeds(line: BestLine, tolerance: float, power_limit: float | None = None) -> list[float]:
+    """Return the speeds to solve at next, so that each characteristic speed gets neighbours within a tolerance.
 
-    If the lowest point and its two neighbours belong to one branch, the power between the neighbours is
-    approximated by the parabola ``square U^2 + slope U + level`` through the three points. `lowest` takes the
-    parabola's coefficients and returns the speed at which the value is smallest.
+    A minimum is sought by successive parabolas, and then enclosed from both sides; a crossing by the chord.
+
+    Parameters
+    ----------
+    line : the best orbits so far.
+    tolerance : distance of the neighbours [m/s].
+    power_limit : as in `characteristic_speeds`.
+
+    Returns
+    -------
+    Speeds, none twice; no speeds if every characteristic speed is enclosed, or if solving there cannot enclose it:
+    at an end, beside a jump, or at a limit.
     """
-    good = np.isfinite(value)
-    if not good.any():
+    asked: list[float] = []
+    for over_speed in line.sought().values():
+        asked += _toward_least(line.over(over_speed), tolerance)
+    if power_limit is not None and line.is_power:
+        asked += _toward_crossing(line, power_limit, tolerance)
+        asked += [-u for u in _toward_crossing(line.mirrored(), power_limit, tolerance)]
+    decimals = max(0, 1 - math.floor(math.log10(tolerance)))
+    known = list(line.speed)
+    chosen = []
+    for speed in asked:
+        rounded = round(speed, decimals)
+        if min(abs(rounded - u) for u in known) > 0.2 * tolerance:
+            known.append(rounded)
+            chosen.append(rounded)
+    return chosen
+
+
+def _lowest(line: BestLine) -> int | None:
+    return int(np.nanargmin(line.value)) if np.isfinite(line.value).any() else None
+
+
+def _toward_least(line: BestLine, tolerance: float) -> list[float]:
+    k = _lowest(line)
+    if k is None or _status(line, k) != "found":
+        return []
+    low, mid, high = (float(u) for u in line.speed[k - 1 : k + 2])
+    wide = 1.001 * tolerance
+    if max(mid - low, high - mid) <= wide:
+        return []
+    vertex = _vertex(line.speed[k - 1 : k + 2], line.value[k - 1 : k + 2])
+    if abs(vertex - mid) > 0.5 * tolerance:
+        return [min(max(vertex, low + 0.5 * tolerance), high - 0.5 * tolerance)]
+    return [u for u, room in ((mid - tolerance, mid - low > wide), (mid + tolerance, high - mid > wide)) if room]
+
+
+def _toward_crossing(line: BestLine, limit: float, tolerance: float) -> list[float]:
+    k = _last_within(line, limit)
+    if k is None or not line.reaches(k, 1) or line.speed[k + 1] - line.speed[k] <= 1.001 * tolerance:
+        return []
+    at = _chord(line, k, limit)
+    return [u for u in (at - 0.5 * tolerance, at + 0.5 * tolerance) if line.speed[k] < u < line.speed[k + 1]]
+
+
+def _vertex(speed: np.ndarray, value: np.ndarray) -> float:
+    """Return where the parabola through three points is least; the middle speed if it is not."""
+    square, slope, _ = np.polyfit(speed - speed[1], value, 2)
+    return float(speed[1] - 0.5 * slope / square) if square > 0 else float(speed[1])
+
+
+def _status(line: BestLine, k: int) -> str:
+    """Return what can be said of a minimum at point k."""
+    last = len(line.value) - 1
+    if line.quantity in line.limits[k]:
+        return "set_by_limit"
+    sides = [(way, k + way) for way in (-1, 1) if 0 <= k + way <= last]
+    if any(np.isfinite(line.value[there]) and not line.reaches(k, way) for way, there in sides):
+        return "beside_jump"
+    # Hover has no power over speed, but it is no gap.
+    if any(np.isnan(line.value[there]) and line.speed[there] > 0 for _, there in sides):
+        return "beside_gap"
+    if len(sides) == 2 and all(np.isfinite(line.value[there]) for _, there in sides):
+        return "found"
+    return "at_or_above" if k == last else "at_or_below"
+
+
+def _least(whole: BestLine, line: BestLine) -> dict[str, Any] | None:
+    """Return where the value of a line is least; `whole` is that before it was divided by speed."""
+    k = _lowest(line)
+    if k is None:
         return None
-    k = int(np.nanargmin(value))
-    low, high = k > 0 and good[k - 1], k + 1 < len(value) and good[k + 1]
-    jump = bool((low and not joined[k - 1]) or (high and not joined[k]))
-    at, watts = float(speed[k]), float(power[k])
-    if low and high and not jump:
-        around = slice(k - 1, k + 2)
-        square, slope, level_at_rest = (float(c) for c in np.polyfit(speed[around], power[around], 2))
-        if square > 0:
-            at = min(max(lowest(square, slope, level_at_rest), float(speed[k - 1])), float(speed[k + 1]))
-            watts = (square * at + slope) * at + level_at_rest
-    level = float(value[k]) * (1 + _FLAT) if value[k] > 0 else float(value[k])
+    status, here = _status(line, k), float(line.speed[k])
+    bounds = {"at_or_below": [None, here], "at_or_above": [here, None]}
+    at, interval, rivals = None, bounds.get(status), []
+    if status == "found":
+        at, interval, rivals = _enclosed(line, k)
+    sides = [line.limits[n] for n in (k - 1, k + 1) if 0 <= n < len(line.value)]
+    level = float(line.value[k]) * (1 + _FLAT) if line.value[k] > 0 else float(line.value[k])
     return {
+        "status": status,
         "speed": at,
-        "power": watts,
-        "at_edge": not (low and high),
-        "jump_beside": jump,
-        "within_2_percent": [_reach(speed, value, k, -1, level), _reach(speed, value, k, 1, level)],
+        "interval": interval,
+        "value": float(whole.value[k]),
+        "lowest": here,
+        "limits": sorted(line.limits[k]),
+        "changed_limits": sorted(sides[0] ^ sides[-1]) if status == "found" else [],
+        "rivals": rivals,
+        "within_2_percent": [_reach(line, k, -1, level), _reach(line, k, 1, level)],
     }
 
 
-def _reach(speed: np.ndarray, value: np.ndarray, start: int, way: int, level: float) -> float:
+def _enclosed(line: BestLine, k: int) -> tuple[float, list[float], list[float]]:
+    """Return the speed of a minimum between two neighbours of its branch, its error bar, and rivals."""
+    low, here, high = (float(u) for u in line.speed[k - 1 : k + 2])
+    piece = line.smooth_piece(k)
+    speed, value = line.speed[piece], line.value[piece]
+    at, ends = here, [low, high]
+    if piece.start < k < piece.stop - 1:  # otherwise the minimum is where a limit begins to act
+        at = _vertex(line.speed[k - 1 : k + 2], line.value[k - 1 : k + 2])
+        degree = 3 if len(speed) > 5 else 2
+        spare = len(speed) - degree - 1
+        if spare > 0:
+            shifted = speed - here
+            smooth = np.polynomial.Polynomial.fit(shifted, value, degree)
+            scatter = math.sqrt(float(np.sum((smooth(shifted) - value) ** 2)) / spare)
+            fine = np.linspace(shifted[0], shifted[-1], 2001)
+            along = smooth(fine)
+            at = here + float(fine[along.argmin()])
+            near = fine[along <= along.min() + max(2.0 * scatter, PRECISION * abs(line.value[k]))]
+            ends += [here + float(near[0]), here + float(near[-1])]
+    rivals = _rivals(line, k)
+    ends += rivals
+    return min(max(at, low), high), [min(ends), max(ends)], rivals
+
+
+def _rivals(line: BestLine, k: int) -> list[float]:
+    """Return the speeds of other minima, of the best orbits or of other families, within 1 % of the least."""
+    level = line.value[k] + _RIVAL * abs(line.value[k])
+    found = set()
+    for values in (line.value, *line.others):
+        for n in range(1, len(values) - 1):
+            around = values[n - 1 : n + 2]
+            enclosed = abs(line.speed[n] - line.speed[k]) <= line.speed[k + 1] - line.speed[k - 1]
+            if np.isfinite(around).all() and around[1] == around.min() and around[1] <= level and not enclosed:
+                found.add(float(line.speed[n]))
+    return sorted(found)
+
+
+def _reach(line: BestLine, start: int, way: int, level: float) -> float:
     """Return the first speed in one direction at which the value rises above a level, or else the last speed."""
     here = start
-    while 0 <= here + way < len(value) and np.isfinite(value[here + way]):
+    while 0 <= here + way < len(line.value) and np.isfinite(line.value[here + way]):
         there = here + way
-        if value[there] > level:
-            share = (level - value[here]) / (value[there] - value[here])
-            return float(speed[here] + share * (speed[there] - speed[here]))
+        if line.value[there] > level:
+            share = (level - line.value[here]) / (line.value[there] - line.value[here])
+            return float(line.speed[here] + share * (line.speed[there] - line.speed[here]))
         here = there
-    return float(speed[here])
+    return float(line.speed[here])
 
 
-def _crossing(speed: np.ndarray, power: np.ndarray, joined: np.ndarray, limit: float) -> dict[str, Any] | None:
-    """Return the largest speed at which the power is within the limit."""
-    within = np.flatnonzero(power <= limit)
-    if not within.size:
+def _last_within(line: BestLine, limit: float) -> int | None:
+    within = np.flatnonzero(line.value <= limit)
+    return int(within[-1]) if within.size else None
+
+
+def _chord(line: BestLine, k: int, limit: float) -> float:
+    low, high = line.value[k : k + 2]
+    return float(line.speed[k] + (limit - low) / (high - low) * (line.speed[k + 1] - line.speed[k]))
+
+
+def _crossing(line: BestLine, limit: float) -> dict[str, Any] | None:
+    """Return the largest speed at which the value is within a limit."""
+    k = _last_within(line, limit)
+    if k is None:
         return None
-    k = int(within[-1])
-    beyond = k + 1 < len(speed) and bool(np.isfinite(power[k + 1]))
-    jump = beyond and not joined[k]
-    at, watts = float(speed[k]), float(power[k])
-    if beyond and not jump:
-        at, watts = _reach(speed, power, k, 1, limit), limit
-    return {"speed": at, "power": watts, "at_edge": not beyond, "jump_beside": bool(jump)}
+    here, at = float(line.speed[k]), None
+    if k + 1 == len(line.value):
+        status, interval = "at_or_above", [here, None]
+    elif line.reaches(k, 1):
+        at, status, interval = _chord(line, k, limit), "found", [here, float(line.speed[k + 1])]
+    else:
+        status, interval = ("beside_jump" if np.isfinite(line.value[k + 1]) else "beside_gap"), None
+    return {"status": status, "speed": at, "interval": interval, "value": limit}

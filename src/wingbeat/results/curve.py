@@ -12,19 +12,17 @@ from concurrent.futures import ThreadPoolExecutor
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList, FileError
-from wingbeat.orbits.many.branches import trace
+from wingbeat.orbits.many.branches import Branches, trace
 from wingbeat.orbits.many.transitions import marks_of
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
 from wingbeat.reports import Report, Reported, drawn
-from wingbeat.results.characteristic import characteristic_speeds
+from wingbeat.results.characteristic import characteristic_speeds, next_speeds
 from wingbeat.results.csv_table import frame_of
-from wingbeat.results.curve_dataset import POINTS, curve_dataset, power_name
+from wingbeat.results.curve_dataset import POINTS, best_line, best_of, curve_dataset, is_mean_power
 from wingbeat.results.curve_report import curve_report
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.provenance import inputs_of
@@ -39,6 +37,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 MOST_SPEEDS = 1000
+# Three orbits enclose a minimum of a smooth curve in steps of 1 m/s; a power has two, that of least power and that
+# of greatest range. Steps of 3 m/s need two orbits more.
+REFINEMENTS = 8
 
 
 class Curve(Saveable, Reported):
@@ -50,7 +51,7 @@ class Curve(Saveable, Reported):
     marks : changes between neighbouring speeds.
     gaps : speeds at which nothing is certified [m/s].
     warnings : notes for the reader.
-    characteristic_speeds : speeds of minimum power and maximum range [m/s].
+    characteristic_speeds : speeds at which the minimised quantity is least [m/s].
 
     >>> import wingbeat as wb
     >>> curve = wb.solve_curve(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), [12.0, 12.5], starts=1)
@@ -90,16 +91,13 @@ class Curve(Saveable, Reported):
 
     @functools.cached_property
     def characteristic_speeds(self) -> dict[str, Any]:
-        """Speeds of minimum power and of maximum range, and those within a power limit.
+        """Speeds at which the minimised quantity is least, with error bars, and those that a power limit allows.
 
-        They use the minimised power, or the mean positive power if the objective is not a power.
+        A power has ``minimum_power`` and ``maximum_range``, and, with a limit, ``fastest_sustained`` and
+        ``slowest_sustained``; the cost of transport has ``maximum_range``; another quantity has its own, such as
+        ``minimum_frequency``. Each says whether it was found, or why no speed is given.
         """
-        data = self._dataset
-        torn = {(m["lower_speed"], m["upper_speed"]) for m in self.marks if m["kind"] != "bounds"}
-        speed, power = data["speed"].values, data[power_name(data.attrs["objective"])].values[:, 0]
-        joined = np.array([ends not in torn for ends in itertools.pairwise(speed)], dtype=bool)
-        limit = self._about["inputs"]["power_limit"]
-        return characteristic_speeds(speed, power, joined, limit)
+        return characteristic_speeds(best_line(self._dataset), self._about["inputs"]["power_limit"])
 
     def _report(self) -> Report:
         return curve_report(self.record())
@@ -137,7 +135,7 @@ class Curve(Saveable, Reported):
             **{n: about[n] for n in ("species", "climb", "objective", "solve_seconds", "version")},
             **{n: self._about[n] for n in ("vehicle", "aero", "air", "constraints")},
             "power_limit": self._about["inputs"]["power_limit"],
-            "power": data[power_name(about["objective"])].attrs["long_name"],
+            "objective_unit": data["objective_value"].attrs["units"],
             "characteristic_speeds": self.characteristic_speeds,
             "gaps": self.gaps,
             "marks": self.marks,
@@ -158,12 +156,14 @@ def solve_curve(
     power_limit: float | None = None,
     progress: Progress | None = None,
     options: SolverOptions = DEFAULTS,
+    refinements: int = REFINEMENTS,
 ) -> Curve:
     """Find certified orbits that minimise an objective at each speed of a range, and keep all other optima found.
 
     Every optimum that is found is continued to the neighbouring speeds, up and down, until nothing new appears.
     Each step changes every unknown only a little. If the best optimum of one speed does not lead to the best of the
-    next, the curve has a mark between these speeds.
+    next, the curve has a mark between these speeds. Where the minimised quantity is least, speeds are added until
+    its neighbours are within `ContinuationOptions.refined_to`; the dataset marks them as ``refined``.
 
     Parameters
     ----------
@@ -171,13 +171,16 @@ def solve_curve(
     speeds : at least two, increasing [m/s]; 0 is hover.
     starts : number of starts at each end of the range; each speed in between gets a third as many.
     seed : of the random starts.
-    power_limit : the mean power that can be sustained [W]; if given, the speeds within this limit are found too.
+    power_limit : the mean power that can be sustained [W], of the kind that the problem minimises; if given, the
+        speeds within this limit are found too.
     progress : called with (tasks done, tasks known so far).
     options : of the solvers.
+    refinements : largest number of speeds that are added; 0 adds none.
 
     Raises
     ------
-    InvalidInputError : speeds that are not numbers in increasing order, starts, seed or power_limit out of range.
+    InvalidInputError : speeds that are not numbers in increasing order; starts, seed, power_limit or refinements
+        out of range; a power_limit where no mean power is minimised.
 
     >>> import wingbeat as wb
     >>> problem = wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0)
@@ -195,16 +198,30 @@ def solve_curve(
         faults.add("speeds", values, "must increase", "give each speed once, the slowest first")
     if power_limit is not None:
         faults.number("power_limit", power_limit, above=0, unit="W", fix="the sustainable power")
+        if not is_mean_power(problem.minimise.name, problem.minimise.unit):
+            rule = f"is a limit on the power that is minimised, but {problem.minimise.name} is minimised"
+            fix = "minimise a mean power, such as mean_positive_power (--minimise positive-power)"
+            faults.add("power_limit", power_limit, rule, fix)
+    faults.whole("refinements", refinements, 0, MOST_SPEEDS)
     faults.raise_if_any()
     begun = time.perf_counter()
     speeds = [float(u) for u in values]
-    branches = trace(problem, speeds, starts, seed, progress, options=options)
+    left = refinements
+
+    def refine(branches: Branches) -> list[OrbitProblem]:
+        nonlocal left
+        added = next_speeds(best_of(branches), options.continuation.refined_to, power_limit)[:left]
+        left -= len(added)
+        return [problem.at_speed(speed) for speed in added]
+
+    branches = trace(problem, speeds, starts, seed, progress, options=options, refine=refine)
     with ThreadPoolExecutor(core_count()) as pool:
         tasks = [[pool.submit(Orbit.of(o, starts, seed).record) for o in optima] for optima in branches.optima]
         records = [[task.result() for task in row] for row in tasks]
-    inputs = inputs_of(problem, starts, seed, options) | {"speed": speeds, "power_limit": power_limit}
+    solved = [optima[0].problem.speed for optima in branches.optima]
+    inputs = inputs_of(problem, starts, seed, options) | {"speed": solved, "power_limit": power_limit}
     seconds = time.perf_counter() - begun
-    return Curve(curve_dataset(branches, records, marks_of(branches), inputs, seconds))
+    return Curve(curve_dataset(branches, records, marks_of(branches), inputs, speeds, seconds))
 
 
 def load_curve(path: str | PathLike[str]) -> Curve:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 import re
@@ -17,10 +18,10 @@ from wingbeat.kinematics import NAMED_IF_ON, PARAMETER_NAMES, in_use
 from wingbeat.mechanics.flight_model import State
 from wingbeat.nomenclature import NOMENCLATURE, attributes_of, cf, label_of
 from wingbeat.orbits.many.branches import Branches
-from wingbeat.orbits.many.transitions import Mark, certified, families
+from wingbeat.orbits.many.transitions import BOUNDS, Mark, certified, families, marks_of
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.results.aero_record import aero_record
+from wingbeat.results.characteristic import BestLine, characteristic_speeds
 from wingbeat.results.record import vehicle_record
 from wingbeat.results.storage import inputs_hash
 
@@ -47,9 +48,13 @@ def curve_dataset(
     records: Sequence[Sequence[dict[str, Any]]],
     marks: Sequence[Mark],
     inputs: dict[str, Any],
+    asked: Sequence[float],
     seconds: float,
 ) -> xr.Dataset:
-    """Assemble the records of all optima, shape (speed, optimum), the best first, padded with not-a-number."""
+    """Assemble the records of all optima, shape (speed, optimum), the best first, padded with not-a-number.
+
+    Speeds that were not `asked` for are marked: they were added to find the characteristic speeds.
+    """
     import xarray as xr
 
     labels = families(branches)
@@ -95,18 +100,16 @@ def curve_dataset(
         table.columns[name] = (("speed",), np.array([r[name] for r in first], dtype=object), _about(name))
     listed = np.array(["\n".join(r["warnings"]) for r in first], dtype=object)
     table.columns["warnings"] = (("speed",), listed, _about("warnings"))
+    table.columns["refined"] = (("speed",), np.array([int(u not in asked) for u in speeds]), _about("refined"))
     for name in ("starts", "distinct_optima"):
         counts = [r[name] if g[0] is not None or name == "starts" else 0 for r, g in zip(first, good, strict=True)]
         table.columns[name] = (("speed",), np.array(counts), _about(name))
     meaning = {"units": NOMENCLATURE["speed"].unit, "long_name": label_of("speed")}
     meaning["standard_name"] = "platform_speed_wrt_air"
-    ranks = _about("optimum")
-    attributes = _attributes(problem, first, marks, inputs, seconds)
-    return xr.Dataset(
-        table.columns,
-        {"speed": ("speed", speeds, meaning), "optimum": ("optimum", np.arange(widest), ranks)},
-        attributes,
-    )
+    axes = {"speed": ("speed", speeds, meaning), "optimum": ("optimum", np.arange(widest), _about("optimum"))}
+    dataset = xr.Dataset(table.columns, axes, _attributes(problem, first, marks, inputs, seconds))
+    found = characteristic_speeds(best_line(dataset), inputs["power_limit"])
+    return dataset.assign_attrs(characteristic_speeds=json.dumps(found))
 
 
 def _about(name: str) -> dict[str, str]:
@@ -155,11 +158,59 @@ def _largest_multiplier(record: dict[str, Any]) -> float | None:
     )
 
 
-def power_name(objective: str) -> str:
-    """Return which power a curve shows: the minimised quantity if it is a mean power, else mean positive power."""
-    known = QUANTITIES.get(objective)
-    is_mean = objective.startswith(("mean_", "power_cost")) and (known is None or known.unit == "W")
-    return "objective_value" if is_mean else "mean_positive_power"
+def best_line(dataset: xr.Dataset) -> BestLine:
+    """Return the best orbits of a curve along speed, and the other families of optima.
+
+    Parameters
+    ----------
+    dataset : of the curve, also one read from a file.
+    """
+    values, family = dataset["objective_value"].values, dataset["family"].values
+    others = [_one(np.where(family == one, values, np.nan)) for one in range(int(family.max(initial=-1)) + 1)]
+    names = [str(text).split(", ") for text in dataset["active_bounds"].values[:, 0]]
+    marks = [(m["kind"], m["lower_speed"], m["upper_speed"]) for m in json.loads(dataset.attrs["marks"])]
+    objective, unit = dataset.attrs["objective"], dataset["objective_value"].attrs["units"]
+    limits = [frozenset(re.split("[<>]=", name)[0] for name in row if name) for row in names]
+    line = _line(objective, unit, dataset["speed"].values, values[:, 0], marks, limits)
+    return line._replace(others=np.array(others).reshape(-1, len(values)))
+
+
+def best_of(branches: Branches) -> BestLine:
+    """Return the best orbits along speed, while the curve is being solved."""
+    best = [optima[0] for optima in branches.optima]
+    problem, speed = best[0].problem, np.array([one.problem.speed for one in best])
+    value = np.array([one.objective if certified(one) else math.nan for one in best])
+    marks = [(mark.kind, mark.lower, mark.upper) for mark in marks_of(branches)]
+    limits = [one.limited for one in best]
+    return _line(problem.minimise.name, problem.minimise.unit, speed, value, marks, limits)
+
+
+def is_mean_power(objective: str, unit: str) -> bool:
+    """Whether a quantity is a mean power, of which a least value and a limit along speed mean something.
+
+    >>> is_mean_power("metabolic_power", "W"), is_mean_power("peak_power", "W"), is_mean_power("frequency", "Hz")
+    (True, False, False)
+    """
+    return unit == "W" and not objective.startswith("peak_")
+
+
+def _line(
+    objective: str,
+    unit: str,
+    speed: np.ndarray,
+    value: np.ndarray,
+    marks: list[tuple[str, float, float]],
+    limits: list[frozenset[str]],
+) -> BestLine:
+    torn = {(low, high) for kind, low, high in marks if kind != BOUNDS}
+    joined = np.array([ends not in torn for ends in itertools.pairwise(speed.tolist())], dtype=bool)
+    others = np.empty((0, len(speed)))
+    return BestLine(objective, is_mean_power(objective, unit), speed, value, joined, limits, others)
+
+
+def _one(rows: np.ndarray) -> np.ndarray:
+    """Return the values of a family, of which there is at most one at each speed."""
+    return np.where(np.isfinite(rows).any(axis=1), np.nansum(rows, axis=1), np.nan)
 
 
 def _by_speed(mark: Mark) -> dict[str, Any]:

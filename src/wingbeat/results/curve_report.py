@@ -7,17 +7,18 @@ import math
 from typing import Any
 
 from wingbeat.datasets import climb_text
-from wingbeat.nomenclature import find, for_people
+from wingbeat.nomenclature import find, for_people, written, written_range
 from wingbeat.reports import Block, Line, Notes, Report, Row, Table
+from wingbeat.results.limits import SetBy, called, set_by_limit
 from wingbeat.style import in_words
 
+# Of characteristic speeds that do not say it by their name.
 _LABELS = {
-    "minimum_power": "minimum power",
     "maximum_range": "greatest range",
     "fastest_sustained": "fastest within the power limit",
     "slowest_sustained": "slowest within the power limit",
 }
-_HEADINGS = ("U\n[m/s]", "f\n[Hz]", "P+\n[W]", "CoT\n[-]", "flap\n[deg]", "optima", "at the bound of")
+_HEADINGS = ("U\n[m/s]", "f\n[Hz]", "P+\n[W]", "CoT\n[-]", "flap\n[deg]", "optima", "at the limit of")
 _MINIMISED_AT = 3  # column of the minimised quantity, after the power
 
 
@@ -40,6 +41,8 @@ def curve_report(record: dict[str, Any]) -> Report:
     blocks: list[Block] = [
         Line(f"{animal}, minimum {minimised}: {certified} of {len(points)} speeds certified"),
         Table(rows, tuple(headings), "r" * (len(headings) - 1) + "l"),
+        *([Line("* added to find the characteristic speeds")] if any(map(_refined, points)) else []),
+        *_limited(record),
         *_implausible(points),
         Line(""),
         Line("changes from one speed to the next", tone="title"),
@@ -50,10 +53,7 @@ def curve_report(record: dict[str, Any]) -> Report:
         blocks.append(Line(text, tone="" if mark["kind"] == "bounds" else "warning"))
     if not record["marks"]:
         blocks.append(Line("  one branch, always at the same bounds"))
-    blocks.append(Line(f"characteristic speeds, from the curve of {_power(record)}", tone="title"))
-    blocks += [
-        Line(f"  {_LABELS[name]}: {_told(name, found)}") for name, found in record["characteristic_speeds"].items()
-    ]
+    blocks += _characteristic(record)
     if record["warnings"]:
         blocks += [Line("warnings", tone="title"), Notes(tuple(record["warnings"]))]
     return blocks
@@ -67,16 +67,94 @@ def _implausible(points: list[dict[str, Any]]) -> list[Block]:
     lines: list[Block] = [Line(""), Line("outside plausible ranges", tone="title")]
     for names, group in itertools.groupby(judged, key=lambda one: one[1]):
         speeds = [speed for speed, _ in group]
-        where = f"{speeds[0]:g}" if len(speeds) == 1 else f"{speeds[0]:g} to {speeds[-1]:g}"
         if names:
-            lines.append(Line(f"  at {where} m/s: {str(names).replace('_', ' ')}", tone="warning"))
+            lines.append(Line(f"  at {_span(speeds)} m/s: {str(names).replace('_', ' ')}", tone="warning"))
     return lines if len(lines) > 2 else [*lines, Line("  at no speed")]
 
 
-def _power(record: dict[str, Any]) -> str:
-    if record["power"] == "minimised quantity":
-        return in_words(record["objective"])
-    return record["power"]
+def _limited(record: dict[str, Any]) -> list[Block]:
+    """Say at which speeds limits have set which numbers of the best orbit, which are then no predictions."""
+    spans: dict[tuple[str, str], list[list[float]]] = {}
+    for place, point in enumerate(record["points"]):
+        for name, what in _set_by_limit(point, record["objective"]).items():
+            own = what.by == (name,)  # also of a limit along the path, whose value the curve does not hold
+            runs = spans.setdefault((called(name), "set by the limit" if own else what.words), [])
+            if not runs or runs[-1][-1] != record["points"][place - 1]["speed"]:
+                runs.append([])
+            runs[-1].append(point["speed"])
+    if not spans:
+        return []
+    told = [
+        Line(f"  {name} {words} at {' and '.join(map(_span, runs))} m/s") for (name, words), runs in spans.items()
+    ]
+    return [Line(""), Line("set by limits, so not predicted", tone="title"), *told]
+
+
+def _set_by_limit(point: dict[str, Any], objective: str) -> dict[str, SetBy]:
+    if not point["optima"]:
+        return {}
+    best = point["optima"][0]
+    names = [name for name in str(best["active_bounds"]).split(", ") if name]
+    return set_by_limit({"active_bounds": names, "objective": objective, "wingbeat": best})
+
+
+def _span(speeds: list[float]) -> str:
+    return f"{speeds[0]:g}" if len(speeds) == 1 else f"{speeds[0]:g} to {speeds[-1]:g}"
+
+
+def _refined(point: dict[str, Any]) -> bool:
+    return bool(point.get("refined"))  # a file of before has no such points
+
+
+def _characteristic(record: dict[str, Any]) -> list[Block]:
+    """Return a line for each characteristic speed, and what to minimise to get those of power."""
+    objective = record["objective"].replace("_", " ")
+    lines: list[Block] = [Line(f"characteristic speeds, of the least {objective}", tone="title")]
+    speeds = record["characteristic_speeds"]
+    for name, found in speeds.items():
+        over = " over speed" if name == "maximum_range" and "minimum_power" in speeds else ""
+        lines.append(Line(f"  {speed_label(name)}: {_told(found, objective + over, record['objective'])}"))
+    if not {"minimum_power", "maximum_range"} & speeds.keys():
+        why = f"not given, because {objective} was minimised; to get them add --minimise positive-power"
+        lines.append(Line(f"  speeds of minimum power and greatest range: {why}"))
+    return lines
+
+
+def speed_label(name: str) -> str:
+    """Return a characteristic speed's name in words.
+
+    >>> speed_label("maximum_range"), speed_label("minimum_frequency")
+    ('greatest range', 'minimum frequency')
+    """
+    return _LABELS.get(name, name.replace("_", " "))
+
+
+def speed_in_words(found: dict[str, Any] | None) -> str:
+    """Return a characteristic speed with its error bar, or why none is given.
+
+    Parameters
+    ----------
+    found : an entry of `Curve.characteristic_speeds`.
+
+    >>> speed_in_words({"status": "at_or_below", "speed": None, "interval": [None, 4.0]})
+    'at or below 4 m/s, where the curve ends'
+    >>> speed_in_words({"status": "found", "speed": 8.4762, "interval": [8.36, 8.56]})
+    '8.48 m/s (8.36 to 8.56)'
+    """
+    if found is None:
+        return "none"
+    if found["status"] == "found":
+        low, high = found["interval"]
+        return written_range(low, high, "m/s", found["speed"])
+    if found["status"] in ("at_or_below", "at_or_above"):
+        (end,) = (speed for speed in found["interval"] if speed is not None)
+        where = "in hover" if end == 0 else f"{found['status'].replace('_', ' ')} {end:g} m/s"
+        return f"{where}, where the curve {'begins' if end == 0 else 'ends'}"
+    return {
+        "beside_jump": "none is given: the best wingbeat changes branch there",
+        "beside_gap": "none is given: a speed without an orbit is beside it",
+        "set_by_limit": "none is given: the limit has set the minimised quantity",
+    }[found["status"]]
 
 
 def _unit(objective: str) -> tuple[float, str]:
@@ -87,14 +165,15 @@ def _unit(objective: str) -> tuple[float, str]:
 
 def _row(point: dict[str, Any], factor: float | None) -> tuple[str, ...]:
     """Return the cells of a speed; with a factor to its unit, also the minimised quantity."""
+    shown = f"{point['speed']:g}{'*' if _refined(point) else ''}"
     if not point["optima"]:
         none = ("",) * (4 if factor is None else 5)
-        return (f"{point['speed']:g}", *none, "0", f"{point['status']}: {point['message']}")
+        return (shown, *none, "0", f"{point['status']}: {point['message']}")
     best = point["optima"][0]
     cost = best["cost_of_transport"]
     minimised = () if factor is None else (f"{best['objective_value'] * factor:.4g}",)
     return (
-        f"{point['speed']:g}",
+        shown,
         f"{best['frequency']:.4g}",
         f"{best['mean_positive_power']:.4g}",
         *minimised,
@@ -105,16 +184,33 @@ def _row(point: dict[str, Any], factor: float | None) -> tuple[str, ...]:
     )
 
 
-def _told(name: str, found: dict[str, Any] | None) -> str:
+def _told(found: dict[str, Any] | None, quantity: str, objective: str) -> str:
+    text = speed_in_words(found)
     if found is None:
-        return "none"
-    text = f"{found['speed']:.3g} m/s, {found['power']:.4g} W"
-    if "within_2_percent" in found:
+        return text
+    factor, unit = _unit(objective)
+    value = written(factor * found["value"], unit=unit)
+    if "lowest" not in found:
+        return f"{text}, {value}" if found["status"] == "found" else text
+    text += f", {value}" if found["status"] == "found" else f"; {value} at {found['lowest']:g} m/s"
+    if found["status"] in ("found", "at_or_below", "at_or_above"):
         low, high = found["within_2_percent"]
-        least = "power over speed" if name == "maximum_range" else "the power"
-        text += f"; {least} is within 2 % of its minimum from {low:.3g} to {high:.3g} m/s"
-    if found["at_edge"]:
-        text += "; at the end of the range or beside a gap: the true speed may lie beyond"
-    if found["jump_beside"]:
-        text += "; the curve changes branch there"
+        text += f"; {quantity} is within 2 % of its minimum from {written_range(low, high, 'm/s')}"
+    if found["rivals"]:
+        others = " and ".join(f"{speed:g}" for speed in found["rivals"])
+        text += f"; other minima within 1 % at {others} m/s"
+    both = [name for name in found["limits"] if name not in found["changed_limits"]]
+    if both and found["status"] != "set_by_limit":
+        text += f"; with {_named(both)} at {_its(both)}"
+    if found["changed_limits"]:
+        names = found["changed_limits"]
+        text += f"; a limit chose it: {_named(names)} at {_its(names)} on one side of it only"
     return text
+
+
+def _named(names: list[str]) -> str:
+    return " and ".join(called(name) for name in names)
+
+
+def _its(names: list[str]) -> str:
+    return "its limit" if len(names) == 1 else "their limits"

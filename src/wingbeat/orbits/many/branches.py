@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import bisect
 import dataclasses
 import math
 from collections.abc import Callable, Sequence
@@ -49,6 +50,10 @@ class Branches(NamedTuple):
     along: Along = SPEED
 
 
+# Returns the problems to solve between those solved so far; none to end.
+Refine = Callable[[Branches], Sequence[OrbitProblem]]
+
+
 def trace(
     problem: OrbitProblem,
     speeds: Sequence[float],
@@ -57,6 +62,7 @@ def trace(
     progress: Progress | None = None,
     threads: int | None = None,
     options: SolverOptions = DEFAULTS,
+    refine: Refine | None = None,
 ) -> Branches:
     """Solve at every speed and continue each optimum to the neighbouring speeds until no new optimum appears.
 
@@ -69,9 +75,11 @@ def trace(
     progress : called with (tasks done, tasks known).
     threads : number of tasks at a time; default the number of cores. The results do not depend on it.
     options : of the solvers.
+    refine : chooses speeds to add, again and again, from the branches so far. Continuation from the neighbours
+        solves there, without starts of its own.
     """
     problems = [problem.at_speed(float(speed)) for speed in speeds]
-    return trace_along(SPEED, problems, starts, seed, progress, threads, options)
+    return trace_along(SPEED, problems, starts, seed, progress, threads, options, refine)
 
 
 def trace_along(
@@ -82,6 +90,7 @@ def trace_along(
     progress: Progress | None = None,
     threads: int | None = None,
     options: SolverOptions = DEFAULTS,
+    refine: Refine | None = None,
 ) -> Branches:
     """Solve problems that differ in one number, and continue each optimum to the neighbouring problems.
 
@@ -91,11 +100,11 @@ def trace_along(
     ----------
     along : the number in which the problems differ.
     problems : in the order of that number.
-    starts, seed, progress, threads, options : as in `trace`, with this number in place of the speed.
+    starts, seed, progress, threads, options, refine : as in `trace`, with this number in place of the speed.
     """
     with ThreadPoolExecutor(threads or core_count()) as pool:
         try:
-            return _BranchTracer(along, problems, pool, progress, options).branches(starts, seed)
+            return _BranchTracer(along, problems, pool, progress, options).branches(starts, seed, refine)
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
 
@@ -111,7 +120,7 @@ class _BranchTracer:
         progress: Progress | None,
         options: SolverOptions,
     ) -> None:
-        self._along, self._problems = along, problems
+        self._along, self._problems = along, list(problems)
         self._pool, self._progress, self._options = pool, progress, options
         self._met: list[list[Solution]] = [[] for _ in problems]
         self._links: dict[tuple[int, int, int], int] = {}
@@ -119,7 +128,7 @@ class _BranchTracer:
         self._searches = [0] * len(problems)
         self._done = 0
 
-    def branches(self, starts: int, seed: int) -> Branches:
+    def branches(self, starts: int, seed: int, refine: Refine | None) -> Branches:
         last, options = len(self._problems) - 1, self._options
         between = math.ceil(starts / options.continuation.fewer_starts)
         counts = [starts if place in (0, last) else between for place in range(last + 1)]
@@ -128,21 +137,45 @@ class _BranchTracer:
             self._searches[place] += counts[place]
             for optimum in optima:
                 self._add(place, optimum)
+        failed: dict[float, Solution] = {}
+        self._complete(starts, seed, failed)
+        found = self._sorted(failed)
+        while refine is not None and (added := refine(found)):
+            for problem in added:
+                self._insert(problem)
+            self._complete(starts, seed, failed)
+            found = self._sorted(failed)
+        return found
+
+    def _complete(self, starts: int, seed: int, failed: dict[float, Solution]) -> None:
+        """Continue all optima; where that finds nothing, search once more, and keep what failed, by its number."""
         self._grow()
-        lost = [place for place, met in enumerate(self._met) if not met]
+        lost = [i for i, met in enumerate(self._met) if not met and self._along.of(self._problems[i]) not in failed]
         twice = 2 * starts
         again = self._each(
-            lambda i: find_orbit(self._problems[i], twice, seed, None, 1, twice, options=options), lost
+            lambda i: find_orbit(self._problems[i], twice, seed, None, 1, twice, options=self._options), lost
         )
-        failed = {}
         for place, solution in zip(lost, again, strict=True):
             self._searches[place] += solution.starts
             if solution.status is Status.CONVERGED:
                 self._add(place, solution)
             else:
-                failed[place] = solution
+                failed[self._along.of(self._problems[place])] = solution
         self._grow()
-        return self._sorted(failed)
+
+    def _insert(self, problem: OrbitProblem) -> None:
+        """Put a problem between two others, whose optima are then continued to it."""
+        at = bisect.bisect([self._along.of(other) for other in self._problems], self._along.of(problem))
+        self._problems.insert(at, problem)
+        self._met.insert(at, [])
+        self._searches.insert(at, 0)
+
+        def moved(place: int) -> int:
+            return place + (place >= at)
+
+        split = ((at - 1, 1), (at, -1))  # what was continued across the place is now continued to it
+        self._links = {(moved(i), low, high): n for (i, low, high), n in self._links.items() if i != at - 1}
+        self._tried = {(moved(i), index, way) for i, index, way in self._tried if (i, way) not in split}
 
     def _each(self, work: Callable[[T], R], items: Sequence[T]) -> list[R]:
         """Return the result of `work` for each item."""
@@ -212,14 +245,14 @@ class _BranchTracer:
                 tasks += [(place, low, 1), (place + 1, high, -1)]
         return [task for task in tasks if task not in self._tried]
 
-    def _sorted(self, failed: dict[int, Solution]) -> Branches:
+    def _sorted(self, failed: dict[float, Solution]) -> Branches:
         """Return the branches, with the optima of each speed in order and the number of starts at that speed."""
         optima, ranks = [], []
         for place, met in enumerate(self._met):
             order = sorted(range(len(met)), key=lambda k: met[k].objective)
             ranks.append({index: rank for rank, index in enumerate(order)})
             count = {"starts": self._searches[place], "distinct_optima": len(met)}
-            here = [met[k] for k in order] or [failed[place]]
+            here = [met[k] for k in order] or [failed[self._along.of(self._problems[place])]]
             optima.append(tuple(dataclasses.replace(optimum, **count) for optimum in here))
         links = [
             BranchLink(place, ranks[place][low], ranks[place + 1][high], steps)

@@ -26,9 +26,10 @@ and nothing is fitted.
 The model `paper` computes air loads from the Su-Fan coefficients, without induced flow and without body drag. Its
 least power is the least positive hinge power, because it has no muscle. The model `animal` has feathered wings. Its
 air loads include induced flow, rotation and added mass; scaling laws give body drag, tail and muscle. Its least
-power is the least *metabolic* power, which is this model's own objective. Theories of flight speed ask what a
-flight costs the bird, and only metabolic power includes what force and frequency cost the muscle. We chose this
-objective before any comparison with the radar. The tables also hold the positive hinge power of the orbits.
+power is the least *metabolic* power of the flight muscle, which is this model's own objective. It leaves out the
+resting rate, heart, breathing, other muscles and the muscle's recovery. Theories of flight speed ask what a flight
+costs the bird, and only metabolic power includes what force and frequency cost the muscle. We chose this objective
+before any comparison with the radar. The tables also hold the positive hinge power of the orbits.
 
 Each bird flies with least power at several speeds. These speeds are multiples of the speed at which a wing of lift
 coefficient 1 carries the bird, so they do not depend on the measured airspeed. The model `paper` has seven

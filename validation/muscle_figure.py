@@ -50,7 +50,9 @@ def main() -> None:
             for f, power, activation, amplitude in zip(at, *series, strict=True):
                 print(f"{speed:g} m/s, {f:g} Hz: {power:.2f} W, activation {activation:.2f}, {amplitude:.0f} deg")
         for axes, label in zip(
-            panels, ("metabolic power [W]", "largest activation [-]", "flap amplitude [deg]"), strict=True
+            panels,
+            ("metabolic power of\nthe flight muscle [W]", "largest activation [-]", "flap amplitude [deg]"),
+            strict=True,
         ):
             dress(axes, "wingbeat frequency [Hz]", label)
             axes.set_ylim(bottom=0.0)

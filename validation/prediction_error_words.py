@@ -44,7 +44,7 @@ A set holds all numbers of the animal, of its tail, of its muscle and of its win
 number is drawn evenly from the range that its source gives. We flew each set with the model
 [`animal`](../guide/models.md) from two starts: the stock wingbeat, and the best flight of the species' own numbers
 at the nearest speed of the [whole flights](whole_flights.md). If both starts lead to a certified flight, we keep
-the one with less metabolic power. For {certified} sets we found a certified flight.
+the one in which the flight muscle needs less metabolic power. For {certified} sets we found a certified flight.
 For {own} of these sets, the flight that we kept started from the flight of the species' own numbers.
 
 ![Predicted over measured values for each quantity and band of speeds]({figure})

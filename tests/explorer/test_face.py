@@ -9,7 +9,7 @@ import pytest
 import wingbeat as wb
 from wingbeat.errors import FileError
 from wingbeat.explorer import face
-from wingbeat.explorer.face import lights_of, sentence_of
+from wingbeat.explorer.face import is_plausible, lights_of, sentence_of
 from wingbeat.explorer.gauges import gauges_of
 
 
@@ -30,8 +30,11 @@ def judged(record, name):
 
 
 def test_the_sentence_of_a_plausible_flight(record):
-    told = "A rock pigeon at 12 m/s beats 5.6 times a second and needs 9.1 W, within what its muscle gives."
-    assert sentence_of(record, "rock pigeon") == told
+    told = "A rock pigeon at 12 m/s beats 5.6 times a second{} and needs 9.1 W, within what its muscle gives."
+    # Its amplitude is at a bound, and the least frequency follows from that.
+    assert record["active_bounds"] == ["flap_amplitude"]
+    assert sentence_of(record, "rock pigeon") == told.format(" (set by a limit)")
+    assert sentence_of(record | {"active_bounds": []}, "rock pigeon") == told.format("")
     assert [(light["good"], light["known"]) for light in lights_of(record)] == [(True, True), (True, True)]
 
 
@@ -93,10 +96,20 @@ def test_what_is_not_known_is_neither_good_nor_a_fault(record):
         "name": "plausible",
         "good": False,
         "known": False,
-        "text": "No range is known.",
+        "text": "No range is known for power per mass, frequency, flap amplitude, peak force over weight, "
+        "mean body pitch, range of body pitch, Strouhal number and Reynolds number.",
     }
     assert "muscle" not in sentence_of(record, "RoboFalcon2.0 robot")
     assert {gauge["inside"] for gauge in gauges_of(record)} == {None}
+
+
+def test_too_little_known_is_neither_plausible_nor_implausible(record):
+    assert is_plausible(lights_of(record)) is True
+    open_ = [one | {"low": None, "high": None, "within": None} for one in record["plausibility"]]
+    assert is_plausible(lights_of(record | {"plausibility": open_})) is None
+    judged(record, "frequency")["within"] = False
+    assert is_plausible(lights_of(record)) is False
+    assert is_plausible(lights_of(record | {"status": "infeasible"})) is False
 
 
 @pytest.mark.parametrize(
@@ -126,12 +139,20 @@ def test_a_flight_that_tumbles_at_once_has_no_picture(monkeypatch):
 def test_the_face_has_the_record_s_numbers_in_the_units_of_readers(orbits, answers):
     record, answer = orbits["pigeon"][2].record(), answers["pigeon"][2]
     gauges = {gauge["name"]: gauge for gauge in answer["gauges"]}
-    assert list(gauges) == ["positive_power_per_mass", "frequency", "flap_amplitude", "strouhal", "reynolds"]
+    assert list(gauges) == [one["name"] for one in record["plausibility"]]
+    assert gauges["frequency"]["label"] == "Wingbeat frequency"
+    assert gauges["mean_body_pitch"]["label"] == "Mean body pitch"
+    assert [name for name, gauge in gauges.items() if gauge["limited"]] == [
+        "frequency",
+        "flap_amplitude",
+        "strouhal",
+    ]
     assert gauges["frequency"]["value"] == answer["frequency"] == record["wingbeat"]["frequency"]
     amplitude = gauges["flap_amplitude"]
     assert amplitude["value"] == pytest.approx(math.degrees(record["wingbeat"]["flap_amplitude"]))
     assert (amplitude["unit"], amplitude["inside"]) == ("deg", False)
     assert answer["power"] == record["mean_positive_power"]
-    assert len(answer["warnings"]) == len(record["warnings"])
+    assert answer["warnings"][0].startswith("Set by limits, not predicted: flap amplitude 70 deg, and with it")
+    assert len(answer["warnings"]) == 1 + len(record["warnings"])
     assert ["mass", "316", "g"] in answer["numbers"]
     assert answer["title"] == wb.load_species("pigeon").common_name

@@ -11,11 +11,12 @@ from wingbeat.explorer.gauges import gauges_of
 from wingbeat.explorer.models import EXPLORER_MODELS
 from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.orbits.status import Status
+from wingbeat.results.limits import set_by_limit
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.plausibility import statements
 from wingbeat.results.power import SPENT
 from wingbeat.results.record import beat_mean
-from wingbeat.results.rows import mass_of
+from wingbeat.results.rows import limits_in_words, mass_of
 from wingbeat.species.warnings import NOT_MEASURED
 from wingbeat.viewer import scene
 
@@ -47,8 +48,8 @@ def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
-    >>> face_of(orbit, "paper")["sentence"]
-    'A rock pigeon at 12 m/s beats 9.5 times a second and needs 56 W, twice what its muscle gives.'
+    >>> face_of(orbit, "paper")["sentence"].split(" and ")[0]
+    'A rock pigeon at 12 m/s beats 9.5 times a second (set by a limit)'
     """
     record, species = orbit.record(), orbit.problem.species
     title = species.common_name or species.name
@@ -69,7 +70,7 @@ def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
         "lights": lights_of(record),
         "gauges": gauges_of(record),
         "numbers": numbers_of(record),
-        "warnings": [_sentence(_shorter(text)) for text in record["warnings"]],
+        "warnings": [_sentence(_shorter(text)) for text in (*_limits(record), *record["warnings"])],
         "scene": _scene_of(orbit, title),
     }
 
@@ -82,6 +83,11 @@ def _scene_of(orbit: Orbit, title: str) -> dict[str, Any] | None:
         if orbit.status is Status.CONVERGED:
             raise
         return None
+
+
+def _limits(record: dict[str, Any]) -> list[str]:
+    limits = limits_in_words(record)
+    return [f"set by limits, not predicted: {limits}"] if limits else []
 
 
 def _spent(orbit: Orbit) -> dict[str, float] | None:
@@ -105,7 +111,8 @@ def sentence_of(record: dict[str, Any], title: str) -> str:
     if record["status"] != "converged":
         return f"No wingbeat that closes was found for {who[0].lower()}{who[1:]}."
     beats, power = _short(record["wingbeat"]["frequency"]), _short(record["mean_positive_power"])
-    sentence = f"{who} beats {beats} times a second and needs {power} W"
+    why = " (set by a limit)" if "frequency" in set_by_limit(record) else ""
+    sentence = f"{who} beats {beats} times a second{why} and needs {power} W"
     judged = {one["name"]: one for one in record.get("plausibility") or []}
     limit = judged.get(_MUSCLE, {}).get("high")
     if limit is not None:
@@ -132,26 +139,26 @@ def lights_of(record: dict[str, Any]) -> list[dict[str, Any]]:
     certified = record["status"] == "converged"
     why_not = said.closes.removeprefix("does not close: ")  # the light itself says that it does not
     closes = f"flown again, it {said.closes}" if certified else f"{why_not}. {_sentence(record['message'])}"
-    # The statement is "plausible: yes", "plausible: no: frequency 12 above 10 Hz" or "plausible: unknown: ...".
+    # The statement is "plausible: yes", "plausible: no: frequency 12 above 10 Hz" or "plausible: not known: ...".
     verdict, why = (*re.split("[:;] ", said.plausible.removeprefix("plausible: "), maxsplit=1), "")[:2]
     words = f"every number is inside its plausible range{f'; {why}' if why else ''}" if verdict == "yes" else why
     if not certified:
-        verdict, words = "unknown", "there is no certified wingbeat to judge"
+        verdict, words = "not known", "there is no certified wingbeat to judge"
     return [
         {"name": "closes", "good": certified, "known": True, "text": _sentence(closes)},
-        {"name": "plausible", "good": verdict == "yes", "known": verdict != "unknown", "text": _sentence(words)},
+        {"name": "plausible", "good": verdict == "yes", "known": verdict != "not known", "text": _sentence(words)},
     ]
 
 
-def is_plausible(lights: list[dict[str, Any]]) -> bool:
-    """Return whether a flight closes and none of its numbers is known to be outside its plausible range.
+def is_plausible(lights: list[dict[str, Any]]) -> bool | None:
+    """Return whether a flight closes and its numbers are plausible; None if it closes and too little is known.
 
     Parameters
     ----------
     lights : from `lights_of`.
     """
     closes, plausible = lights
-    return closes["good"] and (plausible["good"] or not plausible["known"])
+    return None if closes["good"] and not plausible["known"] else closes["good"] and plausible["good"]
 
 
 def numbers_of(record: dict[str, Any]) -> list[list[str]]:

@@ -5,22 +5,17 @@ from __future__ import annotations
 from typing import Any
 
 from wingbeat.nomenclature import cf, for_people
-
-# What the explorer shows, in its order, and how it is called there.
-GAUGES = {
-    "positive_power_per_mass": "Power per mass",
-    "frequency": "Wingbeat frequency",
-    "flap_amplitude": "Flap amplitude",
-    "strouhal": "Strouhal number",
-    "reynolds": "Reynolds number",
-}
+from wingbeat.results.limits import set_by_limit
+from wingbeat.results.plausibility import JUDGED_NAMES
 
 
 def gauges_of(record: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return the gauges of an orbit record: name, label, value, unit, low, high, inside and source of each.
+    """Return the gauges of an orbit record: one for each number of its ``plausibility``.
 
-    Angles are in degrees. An end of a range that is open or unknown is None. `inside` is None if the number has no
-    value, such as the Strouhal number in hover, or if nothing is known of its range.
+    Each has name, label, value, unit, low, high, inside, limited and source. Angles are in degrees. An end of a
+    range that is open or unknown is None. `inside` is None if the number has no value, such as the Strouhal number
+    in hover, or if nothing is known of its range. `limited` says whether a limit has set the number, or it follows
+    from a limit.
 
     Parameters
     ----------
@@ -31,22 +26,24 @@ def gauges_of(record: dict[str, Any]) -> list[dict[str, Any]]:
     >>> gauge["label"], gauge["value"], gauge["inside"]
     ('Wingbeat frequency', 12.0, False)
     """
-    judged = {one["name"]: one for one in record.get("plausibility") or []}
-    return [_gauge(judged[name], label) for name, label in GAUGES.items() if name in judged]
+    limited = set_by_limit(record)
+    return [_gauge(one, one["name"] in limited) for one in record.get("plausibility") or []]
 
 
-def _gauge(judged: dict[str, Any], label: str) -> dict[str, Any]:
+def _gauge(judged: dict[str, Any], limited: bool) -> dict[str, Any]:
     factor, unit = for_people(cf(judged["unit"]))
     value, low, high = (None if part is None else factor * part for part in (judged[n] for n in _NUMBERS))
     known = low is not None or high is not None
+    label = JUDGED_NAMES[judged["name"]]
     return {
         "name": judged["name"],
-        "label": label,
+        "label": "Wingbeat frequency" if label == "frequency" else label[:1].upper() + label[1:],
         "value": value,
         "unit": unit,
         "low": low,
         "high": high,
         "inside": judged["within"] if known else None,
+        "limited": limited,
         "source": " ".join(judged["source"].split()),
     }
 

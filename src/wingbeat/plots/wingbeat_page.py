@@ -10,7 +10,7 @@ from wingbeat.datasets import climb_text
 from wingbeat.errors import FaultList
 from wingbeat.plots.panels import draw_loads, draw_motion, draw_portraits, flown, mean_power
 from wingbeat.results.plausibility import statements
-from wingbeat.results.rows import mass_of
+from wingbeat.results.rows import limits_in_words, mass_of
 from wingbeat.style import ALARM, GOOD, PAGE, drawing, heading, in_words, letter_panels, new_figure
 
 if TYPE_CHECKING:
@@ -90,18 +90,24 @@ def _described(dataset: xr.Dataset) -> tuple[list[tuple[str, dict[str, Any]]], f
     raise AssertionError
 
 
+# What the two statements on an orbit, and what its limits have set, are read from.
+_READ = ("status", "closure", "plausibility", "active_bounds", "objective", "wingbeat")
+
+
 def _orbit_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[str, Any]]]:
     about = dataset.attrs
-    aero, bounds = json.loads(about["aero"]), json.loads(about["active_bounds"])
+    aero = json.loads(about["aero"])
     first = f"{heading(about['species'])} at {about['speed']:.4g} m/s{climb_text(about['climb'])}, {frequency}"
     names = f"{in_words(aero['coefficients'])}, {in_words(aero['extension'])}"
     loads = f"Air loads: {names}, {aero['strips']} strips per wing"
-    at = ", ".join(bounds).replace("_", " ") or "nothing"  # a limit may hold a minus sign, which stays
-    second = f"{loads}; minimised: {in_words(about['objective'])}; at the bound of {at}"
+    second = f"{loads}; minimised: {in_words(about['objective'])}"
     if about["status"] == "converged":
-        said = statements({name: _read(about, name) for name in ("status", "closure", "plausibility")})
+        record = {name: _read(about, name) for name in _READ}
+        said = statements(record)
         parts = [(f"Certified: {said.closes}", _GOOD if said.good else _TEXT)]
         parts.append((_capital(said.plausible), _GOOD if said.good else _ALARM))
+        if limits := limits_in_words(record):
+            parts.append((f"Set by limits, not predicted: {limits}", _TEXT))
     else:
         parts = [(f"NOT CERTIFIED ({about['status']}): {about['message']}", _ALARM)]
     lines = [(line, look) for text, look in ((second, _TEXT), *parts) for line in textwrap.wrap(text, 120)]
@@ -114,7 +120,7 @@ def _capital(text: str) -> str:
 
 def _read(about: dict[str, Any], name: str) -> Any:
     """Return a part of the record, or None: files of early versions have no ``plausibility``."""
-    return about[name] if name == "status" else json.loads(about.get(name, "null"))
+    return about[name] if name in ("status", "objective") else json.loads(about.get(name, "null"))
 
 
 def _flight_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[str, Any]]]:

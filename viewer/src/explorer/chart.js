@@ -1,7 +1,7 @@
 // What the power curve is drawn with: scales, ticks, lines between neighbours, marks, and measured ranges behind.
 
 import { draw } from "../elements.js";
-import { ends } from "./numbers.js";
+import { ends, implausible } from "./numbers.js";
 
 export const MARGIN = { left: 46, right: 16, top: 14, bottom: 38 };
 
@@ -30,7 +30,7 @@ export function lines(points, { x, y }, name) {
   for (let nth = 1; nth < points.length; nth++) {
     const [before, after] = [points[nth - 1], points[nth]];
     if (!before.certified || !after.certified) continue;
-    const kind = before.plausible && after.plausible ? "wbx-curve" : "wbx-curve wbx-dashed";
+    const kind = [before, after].some(implausible) ? "wbx-curve wbx-dashed" : "wbx-curve";
     const at = { x1: x(before.speed), y1: y(before[name]), x2: x(after.speed), y2: y(after[name]) };
     found.push(draw("line", { class: kind, ...at }));
   }
@@ -41,7 +41,7 @@ export function dots(points, { x, y, height }, name) {
   const found = points.map((point) => {
     const at = x(point.speed);
     if (!point.certified) return cross(at, height - MARGIN.bottom - 9);
-    return draw("circle", { class: point.plausible ? "wbx-dot" : "wbx-dot wbx-hollow", cx: at, cy: y(point[name]), r: 4 });
+    return draw("circle", { class: implausible(point) ? "wbx-dot wbx-hollow" : "wbx-dot", cx: at, cy: y(point[name]), r: 4 });
   });
   return draw("g", {}, ...found);
 }

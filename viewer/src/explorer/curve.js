@@ -3,7 +3,7 @@
 import { draw, make } from "../elements.js";
 import { short, ticks } from "../writing.js";
 import { axes, dots, lines, MARGIN, measured, rings } from "./chart.js";
-import { ends, judged } from "./numbers.js";
+import { ends, implausible, judged } from "./numbers.js";
 import { ownMarks } from "./own_marks.js";
 
 const QUANTITIES = [
@@ -142,7 +142,7 @@ export class Curve {
   legend(shown) {
     const { points } = this.data;
     const parts = [];
-    if (points.some((point) => point.certified && !point.plausible)) parts.push("dashed: not plausible");
+    if (points.some((point) => point.certified && implausible(point))) parts.push("dashed: not plausible");
     if (points.some((point) => !point.certified)) parts.push("cross: no certified wingbeat");
     if (this.data.pending.length) parts.push("rings on the axis: still to be computed");
     if (shown.length) parts.push("bars behind: real animals (point at one for its source)");

@@ -52,27 +52,28 @@ class Row {
     this.range.textContent = known ? `Plausible: ${range(gauge)}` : "No plausible range is known.";
     this.source.textContent = known ? `Source: ${source}` : "";
     const most = high !== null ? ROOM * high : 2.5 * low;
-    const place = (number) => `${100 * Math.min(Math.max(number / most, 0), 1)}%`;
+    const least = low !== null && low < 0 ? ROOM * low : 0;
+    const place = (number) => `${100 * Math.min(Math.max((number - least) / (most - least), 0), 1)}%`;
     this.bar.hidden = !known;
     if (!known) return;
-    this.band.style.left = place(low ?? 0);
+    this.band.style.left = place(low ?? least);
     this.band.style.right = `calc(100% - ${place(high ?? most)})`;
-    this.put(this.mark, value, most, place);
-    this.put(this.pinned, before?.value ?? null, most, place);
+    this.put(this.mark, value, least, most, place);
+    this.put(this.pinned, before?.value ?? null, least, most, place);
   }
 
-  put(mark, value, most, place) {
+  put(mark, value, least, most, place) {
     mark.hidden = value === null;
     if (value === null) return;
     mark.style.left = place(value);
-    mark.classList.toggle("wbx-beyond", value > most);
+    mark.classList.toggle("wbx-beyond", value > most || value < least);
   }
 }
 
-export function word({ value, low, high, inside }) {
+export function word({ value, low, high, inside, limited }) {
   if (value === null) return "not defined";
   if (low === null && high === null) return "no range known";
-  if (inside) return "inside";
+  if (inside) return limited ? "set by a limit" : "inside";
   return high !== null && value > high ? "above" : "below";
 }
 

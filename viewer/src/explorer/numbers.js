@@ -11,7 +11,11 @@ export function ends(value) {
   return Array.isArray(value) ? value : [value, value];
 }
 
+// Plausible is true, false, or null if too little is known to say.
+export const implausible = (point) => point.plausible === false;
+
 export function judged(point) {
   if (!point.certified) return "no certified wingbeat";
+  if (point.plausible === null) return "certified, plausibility not known";
   return `certified, ${point.plausible ? "plausible" : "not plausible"}`;
 }

@@ -86,6 +86,7 @@ def test_one_sided_and_empty_intervals():
     assert written_range(-math.inf, 4.04, "m/s") == "at most 4.04 m/s"
     assert written_range(4.04, math.inf, "m/s") == "at least 4.04 m/s"
     assert written_range(math.nan, 4.0, "m/s") == "not determined"
+    assert written_range(math.nan, math.nan, value=4.0) == "4 (not determined)"
     assert written_range(4.0, 4.0 + 1e-9, "m/s", 4.0) == "4 m/s"
     with pytest.raises(ValueError, match="negative"):
         written(1.0, -0.1)

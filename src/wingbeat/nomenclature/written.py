@@ -69,7 +69,7 @@ def written_range(low: float, high: float, unit: str = "", value: float | None =
     after = f" {unit}" if unit and unit != "1" else ""
     half = 0.5 * (high - low)
     if math.isnan(half) or (math.isinf(low) and math.isinf(high)):
-        return "not determined"
+        return "not determined" if value is None else f"{_significant(value, 4)}{after} (not determined)"
     if math.isinf(high):
         ends = f"at least {_significant(low, 4)}"
     elif math.isinf(low):

@@ -21,7 +21,13 @@ BEAT = (
     Term("spring_power", "W", "mean positive hinge power with springs at the flap hinges"),
     Term("stiffness", "N m rad-1", "stiffness of the springs at both flap hinges together", "k"),
     Term("rest_angle", "rad", "flap angle at which the springs exert no torque"),
-    Term("metabolic_power", "W", "mean metabolic power of the flight muscles"),
+    Term(
+        "metabolic_power",
+        "W",
+        "mean metabolic power of the flight muscle alone, without resting rate, heart, breathing, other muscles and "
+        "the muscle's recovery",
+        short="metabolic power of the flight muscle",
+    ),
     Term(
         "peak_activation",
         "1",
@@ -34,7 +40,7 @@ BEAT = (
     Term(
         "muscle_work_per_mass", "J kg-1", "positive work per beat of the flap hinges' muscles divided by their mass"
     ),
-    Term("muscle_efficiency", "1", "mean positive power of the muscles divided by their metabolic power"),
+    Term("muscle_efficiency", "1", "mean positive power of the flight muscle divided by its metabolic power"),
     Term(
         "electrical_power",
         "W",

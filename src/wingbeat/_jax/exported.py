@@ -25,7 +25,7 @@ from jax._src import xla_bridge
 from jax._src.core import trace_state_clean
 from jax.core import Tracer
 
-from wingbeat._jax.config import jnp
+from wingbeat._jax.config import in_own_settings, jnp, own_settings
 from wingbeat._jax.program_cache import keep_program, kept_program
 from wingbeat._jax.repeats import without_repeats
 from wingbeat._version import __version__
@@ -96,11 +96,12 @@ class StoredFunction:
 
     def __call__(self, *args: Any, **static: Any) -> Any:
         """Evaluate the function."""
-        if any(isinstance(leaf, Tracer) for leaf in jax.tree_util.tree_leaves(args)):
-            return self._inlined(*args, **static)
         leaves, tree = jax.tree_util.tree_flatten(args)
+        if any(isinstance(leaf, Tracer) for leaf in leaves):
+            return self._inlined(*args, **static)
         more = [np.asarray(leaf, dtype=float) for leaf in leaves]
-        return self._run(self._program(tree, (), more, static), _NOTHING, more)
+        with own_settings():
+            return self._run(self._program(tree, (), more, static), _NOTHING, more)
 
     def bind(self, *first: Any, **static: Any) -> Callable[..., Any]:
         """Return the function with its first arguments fixed; these are flattened only once.
@@ -110,15 +111,17 @@ class StoredFunction:
         leaves, tree = jax.tree_util.tree_flatten(first)
         arrays = [np.asarray(leaf, dtype=float) for leaf in leaves]
         shapes = tuple(array.shape for array in arrays)
-        held = _moved(arrays)
+        with own_settings():
+            held = _moved(arrays)
         ready: _Ready | None = None
 
         def call(*rest: Any) -> Any:
             nonlocal ready
             more = [np.asarray(a, dtype=float) for a in rest]
-            if ready is None:
-                ready = self._program(tree, shapes, more, static)
-            return self._run(ready, held, more)
+            with own_settings():
+                if ready is None:
+                    ready = self._program(tree, shapes, more, static)
+                return self._run(ready, held, more)
 
         return call
 
@@ -207,6 +210,7 @@ def jit_soon(function: Callable[..., Any], **options: Any) -> Callable[..., Any]
     soon = jax.jit(function, **options, compiler_options=dict(_SOON_ON_CPU))
 
     @functools.wraps(function)
+    @in_own_settings
     def call(*args: Any) -> Any:
         if jax.default_backend() == "cpu" and trace_state_clean():
             with suppress(jax.errors.JaxRuntimeError):  # from an XLA without this option

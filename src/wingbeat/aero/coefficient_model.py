@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from wingbeat._jax.config import jax
+from wingbeat._jax.config import in_own_settings, jax
 from wingbeat.errors import Fault, FaultList, InvalidInputError
 
 if TYPE_CHECKING:
@@ -63,6 +63,7 @@ def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:
     return remainder - 2 * math.pi * np.round(remainder / (2 * math.pi))
 
 
+@in_own_settings
 def at_angles(function: Any, numbers: Any, angles: NDArray[np.float64]) -> Any:
     """Return the values of a compiled function of `numbers` and angles, as NumPy arrays; angles have any shape.
 

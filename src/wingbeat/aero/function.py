@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from jax.extend.core import jaxpr_as_fun
 
-from wingbeat._jax.config import jax, jnp, unchecked
+from wingbeat._jax.config import in_own_settings, jax, jnp, unchecked
 from wingbeat.aero.coefficient_model import CoefficientModel
 from wingbeat.errors import Fault, FaultList, InvalidInputError
 
@@ -161,6 +161,7 @@ def _of_program(program: Program) -> FunctionCoefficients:
     return unchecked(FunctionCoefficients, fields)
 
 
+@in_own_settings
 def _checked(function: Callable[[Any], Any], name: str) -> Program:
     """Return the traced function, or raise `InvalidInputError` that says why it cannot be used."""
     faults = FaultList()

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.config import in_own_settings, jax, jnp
 from wingbeat.aero.blade_element import BladeElement, StripForces, strip_forces, with_turning
 from wingbeat.aero.coefficient_model import Kernel
 from wingbeat.aero.inflow import disc_area, induced_flow
@@ -51,6 +51,7 @@ def momentum_inflow(case: StripCase, factor: float) -> tuple[float, float]:
     return float(forward), float(up)
 
 
+@in_own_settings
 def strip_loads(
     case: StripCase, motion: StripMotion, moving: StripMotion, aero: BladeElement, has_wake: bool = False
 ) -> StripLoads:

@@ -12,7 +12,7 @@ import functools
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.config import in_own_settings, jax, jnp
 from wingbeat._jax.exported import jit_soon
 from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.air_forces import AirForces, air_forces_on
@@ -133,6 +133,7 @@ def _over_axes(
     return jax.tree_util.tree_map(lambda a: a.reshape(*axes, *a.shape[1:]), found)
 
 
+@in_own_settings
 def equations_of_motion(
     model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases
 ) -> EquationsOfMotion:
@@ -164,6 +165,7 @@ def equations_of_motion(
     return _over_axes(_terms, model, wingbeat, time, q, q_dot)
 
 
+@in_own_settings
 def air_forces(
     model: FlightModel,
     wingbeat: Wingbeat,
@@ -194,6 +196,7 @@ def air_forces(
     return _over_axes(_air_forces, model, wingbeat, time, q, q_dot, *more)
 
 
+@in_own_settings
 def generalised_torques(
     model: FlightModel,
     wingbeat: Wingbeat,

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.config import in_own_settings, jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.aero.blade_element import BladeElement
 from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle
@@ -34,6 +34,7 @@ class WingLoads(NamedTuple):
     alpha: np.ndarray | None = None
 
 
+@in_own_settings
 def own_loads(motion: Motion, aero: BladeElement, phase: np.ndarray) -> WingLoads:
     """Return the air loads of our blade elements for a given motion.
 

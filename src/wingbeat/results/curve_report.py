@@ -108,7 +108,7 @@ def _refined(point: dict[str, Any]) -> bool:
 
 def _characteristic(record: dict[str, Any]) -> list[Block]:
     """Return a line for each characteristic speed, and what to minimise to get those of power."""
-    objective = record["objective"].replace("_", " ")
+    objective = in_words(record["objective"])
     lines: list[Block] = [Line(f"characteristic speeds, of the least {objective}", tone="title")]
     speeds = record["characteristic_speeds"]
     for name, found in speeds.items():

@@ -20,6 +20,7 @@ _RELATED = (
 
 # Names of the path and of the state that do not read as words.
 _CALLED = {"flap": "flap angle", "u": "initial speed forward", "w": "initial speed upward"}
+_CALLED |= {f"pitch_{part}": f"wing pitch {part}" for part in ("mean", "amplitude", "phase")}
 
 # A limit that stands for an end of a plausible range is 0.02 % inside it.
 _INSIDE = 5e-4  # relative

@@ -149,24 +149,21 @@ def test_comments_blank_rows_spaces_and_a_byte_order_mark_are_read(tmp_path):
 GOOD = "0,0,0.1\n30,1,0.5\n60,0.9,1.5\n90,0,2\n"
 HEADER = "alpha_deg,c_l,c_d\n"
 FAULTS = [
-    ("", "bad.csv row 1 = '': the file is empty"),
-    ("# nothing but a comment\n", "the file is empty"),
-    ("alpha_deg,c_l\n0,0\n", "bad.csv row 1, column c_d = 'alpha_deg,c_l': the column is missing"),
+    ("", "bad.csv row 1 = '': the file holds no table"),
+    ("# nothing but a comment\n", "the file holds no table"),
+    ("alpha_deg,c_l\n0,0\n", "bad.csv row 1, column C_D = 'alpha_deg,c_l': the column is missing"),
     (
         GOOD,
-        "row 1, column alpha_deg = '0,0,0.1': the column is missing; the first row must read",
+        "row 1 = '0,0,0.1': holds numbers, but the first row of the table must name the columns",
     ),
-    (
-        "alpha_deg,c_l,c_d,cm\n0,0,0.1,0\n",
-        "row 1, column 4 = 'cm': is not a known column; the columns are alpha_deg, c_l, c_d, x_cp",
-    ),
-    ("alpha_deg,c_l,c_d,c_d\n0,0,0.1,0\n", "row 1, column 4 = 'c_d': appears twice"),
-    (HEADER + "0,0,0.1\n30,1\n", "bad.csv row 3 = '30,1': must have 3 cells"),
+    ("alpha_deg,c_l,c_d,CD\n0,0,0.1,0\n", "row 1, column 4 = 'CD': appears twice (above as c_d)"),
+    ("alpha [rad],c_l,c_d\n0,0,0.1\n", "row 1, column 1 = 'rad': is not the expected unit, [deg]"),
+    (HEADER + "0,0,0.1\n30,1\n", "bad.csv row 3 = '30,1': has 2 cells, but the header names 3 columns"),
     (HEADER + GOOD.replace("0.5", "half"), "row 3, column c_d = 'half': is not a number"),
     (HEADER + GOOD.replace("0.5", " "), "row 3, column c_d = '': is empty"),
-    (HEADER + GOOD.replace("0.9", "nan"), "row 4, column c_l = nan: must be finite"),
+    (HEADER + GOOD.replace("0.9", "nan"), "row 4, column c_l = 'nan': has no value"),
     (HEADER + GOOD.replace("0.9", "-inf"), "row 4, column c_l = -inf: must be finite"),
-    (HEADER + GOOD.replace("60", "30"), "row 4, column alpha_deg = 30.0: must be above the 30 before it"),
+    (HEADER + GOOD.replace("60", "30"), "row 3, column alpha_deg = 30.0: also stands in row 4, and a model needs one curve (1 of 3 angles repeats)"),
     (
         HEADER + GOOD.replace("60", "20"),
         "row 4, column alpha_deg = 20.0: must be above the 30 before it; sort",
@@ -182,8 +179,7 @@ FAULTS = [
     (HEADER + GOOD.replace("0,0,0.1", "2,0,0.1"), "row 2, column alpha_deg = 2.0: the table must begin at 0"),
     (
         HEADER + "0,0,0.1\n0.5,1,0.5\n1,0.9,1.5\n1.571,0,2\n",
-        "row 5, column alpha_deg = 1.571: is the largest angle of a column from 0 to 1.571, "
-        "which looks like radians",
+        "row 5, column alpha_deg = 1.571: is the largest of 4 angles, which looks like a sweep in radians",
     ),
     (
         HEADER + "-20,-0.5,0.4\n" + GOOD,

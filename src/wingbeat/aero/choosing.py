@@ -12,6 +12,8 @@ from wingbeat.aero.library import LIBRARY
 from wingbeat.aero.model_file import load_model
 from wingbeat.aero.table import load_table
 from wingbeat.errors import FaultList, suggest
+from wingbeat.files import read_text
+from wingbeat.sheets import seems_to_be
 
 
 def coefficients_of(given: Any) -> CoefficientModel:
@@ -74,6 +76,13 @@ def load_coefficients(
     if name not in LIBRARY:
         guess = suggest(name.lower(), LIBRARY, most=2, otherwise="")
         faults = FaultList()
+        if name and Path(name).is_file():
+            words = seems_to_be(read_text(name)) or "a file"
+            rule = f"seems to be {words}"
+            faults.add(
+                "coefficients", name, rule, "the name of a table ends in .csv, that of a fitted model in .toml"
+            )
+            faults.raise_if_any()
         known = f"The models are {', '.join(LIBRARY)}; a table's path ends in .csv, a fitted model's in .toml"
         faults.add("coefficients", name, "is not a known coefficient model", f"{guess} {known}".lstrip())
         faults.raise_if_any()

@@ -25,7 +25,10 @@ class FittedCurve(NamedTuple):
 
 
 class FittedModel(NamedTuple):
-    """A fit of formulas to one side of a wing; `centre` is None if no centre of pressure was measured."""
+    """A fit of formulas to one side of a wing; `centre` is None if no centre of pressure was measured.
+
+    `notes` are the warnings of the fit.
+    """
 
     name: str
     citation: str
@@ -35,6 +38,7 @@ class FittedModel(NamedTuple):
     drag: FittedCurve
     centre: FittedCurve | None
     aspect_ratio: float | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def curves(self) -> dict[str, FittedCurve]:
@@ -65,7 +69,10 @@ class FittedModel(NamedTuple):
 
 
 class FittedWing(NamedTuple):
-    """A fit of a cambered wing; `wing` holds all its terms and the joint covariance of lift and drag."""
+    """A fit of a cambered wing; `wing` holds all its terms and the joint covariance of lift and drag.
+
+    `notes` are the warnings of the fit.
+    """
 
     name: str
     citation: str
@@ -74,6 +81,7 @@ class FittedWing(NamedTuple):
     reynolds_range: tuple[float, float] | None
     wing: FittedCurve
     aspect_ratio: float | None = None
+    notes: tuple[str, ...] = ()
 
     @property
     def curves(self) -> dict[str, FittedCurve]:

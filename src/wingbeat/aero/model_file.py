@@ -29,7 +29,7 @@ _TABLES: dict[str, tuple[type[FormulaTerms] | type[CentreTerms] | type[CamberedT
     "centre": (CentreTerms, ("constant", "power_amplitude", "exponent", "decay_amplitude", "decay_rate")),
     "wing": (CamberedTerms, tuple(field.name for field in fields(CamberedTerms))),
 }
-_HEAD = ("kind", "name", "citation", "form", "made_by", "reynolds_range", "aspect_ratio")
+_HEAD = ("kind", "name", "citation", "form", "made_by", "reynolds_range", "aspect_ratio", "notes")
 _ONE_SIDE = (*_HEAD, "alpha_range_deg", "lift", "drag", "centre")
 _TWO_SIDES = (*_HEAD, "low_join_deg", "high_join_deg", "wing")
 _FIT = ("free", "covariance", "r_squared", "aicc", "points")
@@ -60,6 +60,10 @@ def read_model(path: str | Path) -> Fitted:
     check_aspect_ratio(faults, f"{file}: aspect_ratio", aspect_ratio)
     if not texts["name"] and "name" in raw:
         faults.add(f"{file}: name", raw["name"], "must not be empty")
+    notes = raw.get("notes", [])
+    if not isinstance(notes, list) or not all(isinstance(note, str) for note in notes):
+        faults.add(f"{file}: notes", notes, "must be a list of texts", "write each in quotes")
+        notes = []
     named = texts["name"], texts["citation"] or file
     if cambered:
         low, high = (_pair(faults, file, raw, key, -90.0, 90.0) for key in ("low_join_deg", "high_join_deg"))
@@ -68,7 +72,7 @@ def read_model(path: str | Path) -> Fitted:
         assert low is not None  # or a fault was noted
         assert high is not None
         assert wing is not None
-        return FittedWing(*named, low, high, reynolds, wing, aspect_ratio)
+        return FittedWing(*named, low, high, reynolds, wing, aspect_ratio, tuple(notes))
     alpha = _pair(faults, file, raw, "alpha_range_deg", -180.0, 180.0)
     lift, drag = (_curve(faults, file, raw, key) for key in ("lift", "drag"))
     centre = _curve(faults, file, raw, "centre") if "centre" in raw else None
@@ -76,7 +80,7 @@ def read_model(path: str | Path) -> Fitted:
     assert alpha is not None  # or a fault was noted
     assert lift is not None
     assert drag is not None
-    return FittedModel(*named, alpha, reynolds, lift, drag, centre, aspect_ratio)
+    return FittedModel(*named, alpha, reynolds, lift, drag, centre, aspect_ratio, tuple(notes))
 
 
 def load_model(

@@ -230,18 +230,18 @@ def refuse_several(faults: FaultList, path: str | Path, polar: PolarSheet) -> No
         return
     row = int(first[np.argmax(count > 1)])
     again = int(np.flatnonzero(np.round(polar.columns["alpha_deg"], 6) == angles[np.argmax(count > 1)])[1])
-    stream = reynolds_groups(polar.columns.get("reynolds"))
+    groups = reynolds_groups(polar.columns.get("reynolds"))
     share = f"{twice} of {len(angles)} angles repeat{'s' * (twice == 1)}"
     rule = f"also stands in row {polar.sheet.rows[again][0]}, and a model needs one curve ({share})"
-    fit = f"wingbeat fit {shlex.quote(str(path))}"
-    fix = f"fit a curve through repeats ({fit} ..); of two branches, such as sweeps up and down, keep one"
-    if len(stream) > 1:
-        values = ", ".join(
-            f"{group[0]:.0f}" if group[0] == group[1] else f"{group[0]:.0f}-{group[1]:.0f}" for group in stream
-        )
+    fix = f"keep one branch if these are two (sweeps up and down); if not, fit a curve: {fitting(path, polar)}"
+    if len(groups) > 1:
+        known = polar.columns["reynolds"]
+        rows = [(known >= low) & (known <= high) for low, high in groups]
+        most = int(np.argmax([part.sum() for part in rows]))
+        values = ", ".join(f"{low:.0f}" + f" to {high:.0f}" * (high > low) for low, high in groups)
         rule = f"repeats, and the table holds several Reynolds numbers ({values}); a model needs one curve"
-        low, high = stream[-1]
-        fix = f"fit one range: {fit} --reynolds-range {low:.0f} {high:.0f} .., or keep the rows of one"
+        chosen = f" --reynolds-range {math.floor(groups[most][0])} {math.ceil(groups[most][1])}"
+        fix = f"keep the rows of one, or fit one range: {fitting(path, polar, rows[most], chosen)}"
     faults.add(polar.where(row, "alpha_deg"), float(angles[np.argmax(count > 1)]), rule, fix)
 
 
@@ -262,26 +262,28 @@ def reynolds_groups(reynolds: NDArray[np.float64] | None) -> list[tuple[float, f
     return [(float(part[0]), float(part[-1])) for part in np.split(known, ends) if len(part)]
 
 
-def completing(path: str | Path, polar: PolarSheet) -> str:
-    """Return advice that makes a model of all angles of a table of some: the command, or what to measure.
+def fitting(
+    path: str | Path, polar: PolarSheet, rows: NDArray[np.bool_] | slice = slice(None), more: str = ""
+) -> str:
+    """Return the command that fits a model of all angles to a table, or what to measure if no form can be fitted.
 
     Parameters
     ----------
     path : of the table, as the user gave it.
     polar : its content.
+    rows : those that are fitted, shape (rows,); all if not given.
+    more : options that choose these rows.
     """
-    alpha, lift = polar.columns["alpha_deg"], polar.columns["C_L"]
+    alpha, lift = polar.columns["alpha_deg"][rows], polar.columns["C_L"][rows]
     low, high = float(alpha.min()), float(alpha.max())
     sides = [len(np.unique(alpha[sign * lift > 0])) >= 3 for sign in (-1, 1)]
-    form, ends = "cambered", ""
-    if low >= 0 and high > 60:
-        form = "su-fan"
-    elif max(-low, high) > 60:
-        ends = " --alpha-min=-60 --alpha-max=60"
+    form = "su-fan" if low >= 0 and high > 60 else "cambered"
+    if form == "cambered" and max(-low, high) > 60:
+        more += " --alpha-min=-60 --alpha-max=60"
     if form == "cambered" and not all(sides) and not (low >= 0 and zero_lift(alpha, lift) is not None):
-        return "measure on both sides of zero lift, at three angles or more each; no form can complete this table"
+        return "no form fits one side of a cambered wing; measure three angles or more on each side of zero lift"
     model = shlex.quote(str(Path(path).with_suffix(".toml").name))
-    return f"complete it: wingbeat fit {shlex.quote(str(path))} --form {form}{ends} -o {model}, and give {model}"
+    return f"wingbeat fit {shlex.quote(str(path))} --form {form}{more} -o {model} (then give {model})"
 
 
 # Lift at 0 degrees up to which a wing is taken as symmetric, from a line through the rows up to this angle [deg].

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import csv
 import math
-import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -16,6 +14,8 @@ from wingbeat._jax.elementary import horner
 from wingbeat.aero.blends import Jet
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspect_ratio
 from wingbeat.aero.extension import check_drag_of_joins, check_extension, extend
+from wingbeat.aero.polar_sheet import REQUIRED as REQUIRED_IN_FILE
+from wingbeat.aero.polar_sheet import PolarSheet, fitting, read_polar, refuse_several
 from wingbeat.aero.table_checks import (
     OPTIONAL,
     REQUIRED,
@@ -25,7 +25,7 @@ from wingbeat.aero.table_checks import (
     numbers,
 )
 from wingbeat.errors import FaultList
-from wingbeat.files import read_text
+from wingbeat.sheets import Sheet, same_name
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Angles, Knots, Spline
@@ -92,6 +92,7 @@ class TableCoefficients(CoefficientModel):
     extension : how the table is extended to all angles (`wingbeat.aero.extension`).
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
     aspect_ratio : of the wing that was measured [-], infinite for a section, None if not stated.
+    notes : what a reader of the table's file should know, such as columns that are not used.
 
     Raises
     ------
@@ -116,6 +117,7 @@ class TableCoefficients(CoefficientModel):
     extension: str = "mirrored"
     blend_width_deg: float = 1.0
     aspect_ratio: float | None = None
+    notes: tuple[str, ...] = field(default=(), compare=False)
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -192,48 +194,41 @@ class TableCoefficients(CoefficientModel):
         return PPoly(wrapped.c[:, 1:-1], knots)
 
 
-_ASPECT_RATIO = re.compile(r"#\s*aspect_ratio\s*=\s*(.*)")
-
-
-def _stated_aspect_ratio(faults: FaultList, path: Path) -> float | None:
+def _stated_aspect_ratio(faults: FaultList, sheet: Sheet) -> float | None:
     """Return the aspect ratio that a comment of the file states, such as ``# aspect_ratio = 6``."""
-    stated = None
-    for i, line in enumerate(read_text(path).splitlines(), start=1):
-        if found := _ASPECT_RATIO.match(line.strip()):
-            where = f"{path.name} row {i}, aspect_ratio"
-            text = found[1].strip()
+    for key, (row, text) in sheet.constants.items():
+        if same_name(key) == "aspectratio":
+            where = f"{sheet.file} row {row}, aspect_ratio"
             stated = math.inf if text == "inf" else numbers(faults, [text], lambda _, where=where: where)[0]
             if not math.isnan(stated):
                 check_aspect_ratio(faults, where, stated)
-    return stated
+            return stated
+    return None
 
 
-def _read_rows(path: Path) -> list[tuple[int, list[str]]]:
-    """Return the row number in the file and the cells of each row that is neither blank nor a # comment."""
-    lines = enumerate(csv.reader(read_text(path).splitlines()), start=1)
-    return [(i, [cell.strip() for cell in row]) for i, row in lines if any(row) and not row[0].startswith("#")]
-
-
-def _check_header(faults: FaultList, file: str, row: int, header: list[str]) -> None:
-    """Note columns that are missing, unknown or given twice."""
-    known = (*REQUIRED, *OPTIONAL)
-    for column in REQUIRED:
-        if column not in header:
-            fix = "the first row must read alpha_deg,c_l,c_d or alpha_deg,c_l,c_d,x_cp"
-            faults.add(f"{file} row {row}, column {column}", ",".join(header), "the column is missing", fix)
-    for i, column in enumerate(header):
-        where = f"{file} row {row}, column {i + 1}"
-        if column not in known:
-            faults.add(where, column, "is not a known column", f"the columns are {', '.join(known)}")
-        elif column in header[:i]:
-            faults.add(where, column, "appears twice", "keep one")
+def _whole_centre(polar: PolarSheet) -> tuple[list[float] | None, tuple[str, ...]]:
+    """Return x_cp in every row, and notes; empty cells, where there is no force, are filled from neighbours."""
+    given = polar.columns.get("x_cp")
+    if given is None:
+        return None, ()
+    known = np.isfinite(given)
+    if known.sum() < 2:
+        return None, ("x_cp: no two rows have a value, so the model has no centre of pressure",)
+    if known.all():
+        return given.tolist(), ()
+    alpha = polar.columns["alpha_deg"]
+    filled = np.interp(alpha, alpha[known], given[known])
+    angles = ", ".join(f"{angle:g}" for angle in alpha[~known][:8]) + ", ..." * ((~known).sum() > 8)
+    return filled.tolist(), (f"x_cp is empty at {angles} degrees and is filled from the neighbouring rows",)
 
 
 def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0) -> TableCoefficients:
-    """Read a coefficient table from a CSV file with the columns alpha_deg, c_l, c_d and, if known, x_cp.
+    """Read a coefficient table from a CSV file with the columns alpha_deg, C_L, C_D and, if known, x_cp, reynolds.
 
-    Blank rows and rows that begin with # are skipped. One such row may state the wing's aspect ratio, for example
-    ``# aspect_ratio = 6``, or ``inf`` for a section; the model of induced flow needs it.
+    Columns may have any order and spelling (alpha, c_l, CL, Cd, Re), with or without a unit in brackets. Others are
+    ignored; the model's `notes` name them. Blank rows and rows that begin with # are skipped. One such row may
+    state the wing's aspect ratio, for example ``# aspect_ratio = 6``, or ``inf`` for a section; the model of
+    induced flow needs it.
 
     Parameters
     ----------
@@ -243,44 +238,50 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : inputs that `TableCoefficients` refuses, each fault with its row and column.
+    InvalidInputError : inputs that `TableCoefficients` refuses, each fault with its row and column; a table that is
+        not one curve from 0 to at least 90 degrees, with the command that makes a curve of it.
     """
-    path = Path(path)
-    rows = _read_rows(path)
     faults = FaultList()
     check_extension(faults, extension, blend_width_deg)
-    if not rows:
-        fix = "the first row must read alpha_deg,c_l,c_d or alpha_deg,c_l,c_d,x_cp"
-        faults.add(f"{path.name} row 1", "", "the file is empty", fix)
+    polar = read_polar(path, faults)
+    aspect_ratio = _stated_aspect_ratio(faults, polar.sheet)
+    columns = {name.lower(): polar.columns[name].tolist() for name in REQUIRED_IN_FILE}
+    if not faults.faults:
+        refuse_several(faults, path, polar)
         faults.raise_if_any()
-    (header_row, header), *body = rows
-    earlier = len(faults.faults)
-    _check_header(faults, path.name, header_row, header)
-    for i, cells in body:
-        if len(cells) != len(header):
-            rule = f"must have {len(header)} cells, one for each column"
-            faults.add(f"{path.name} row {i}", ",".join(cells), rule, "write decimal points, not commas")
-    if len(faults.faults) > earlier:
-        faults.raise_if_any()  # what is in which column cannot be told
+    centre, notes = _whole_centre(polar)
+    if centre is not None:
+        columns["x_cp"] = centre
 
-    def where(i: int, column: str) -> str:
-        row = body[i][0] if i < len(body) else header_row
-        return f"{path.name} row {row}, column {column}"
+    def where(row: int, name: str) -> str:
+        return polar.where(row, {"c_l": "C_L", "c_d": "C_D"}.get(name, name))
 
-    cells_of = {name: [cells[k] for _, cells in body] for k, name in enumerate(header)}
-    aspect_ratio = _stated_aspect_ratio(faults, path)
-    columns = {name: numbers(faults, cells_of[name], lambda i, name=name: where(i, name)) for name in header}
-    check_columns(faults, columns, where)
+    shape = FaultList()
+    check_columns(shape, columns, where)
+    if not (faults.faults or shape.faults):
+        if columns["alpha_deg"][-1] < 90:
+            rule = "the table must reach at least 90 degrees"
+            last = len(polar.sheet.rows) - 1
+            fix = f"a fit completes it: {fitting(path, polar)}"
+            faults.add(where(last, "alpha_deg"), columns["alpha_deg"][last], rule, fix)
+        else:
+            check_coverage(shape, columns, extension, where)
+    noted = {fault.where for fault in faults.faults}
+    turned = any(fault.where.endswith(f"column {polar.headings['alpha_deg']}") for fault in faults.faults)
+    faults.faults += [
+        fault for fault in shape.faults if fault.where not in noted and not (turned and "alpha" in fault.where)
+    ]
     faults.raise_if_any()
-    check_coverage(faults, columns, extension, where)
-    faults.raise_if_any()
-    values = {name: tuple(column) for name, column in columns.items()}
+    stream = polar.columns.get("reynolds", np.empty(0))
+    stream = stream[np.isfinite(stream)]
     return TableCoefficients(
-        path.stem,
-        *(values[name] for name in REQUIRED),
-        x_cp=values.get("x_cp"),
-        citation=path.name,
+        Path(path).stem,
+        *(tuple(columns[name]) for name in REQUIRED),
+        x_cp=None if centre is None else tuple(centre),
+        citation=polar.sheet.file,
+        reynolds_range=(float(stream.min()), float(stream.max())) if len(stream) else None,
         extension=extension,
         blend_width_deg=blend_width_deg,
         aspect_ratio=aspect_ratio,
+        notes=(*polar.notes, *notes),
     )

@@ -12,9 +12,11 @@ from cyclopts import Parameter
 
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.cli.answer import answer
+from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import check_files, check_outputs
 from wingbeat.errors import FaultList
 from wingbeat.experiment import WingFit, fit_wing, load_measurements
+from wingbeat.nomenclature import written_range
 from wingbeat.plots import fit_page, save_figure
 
 
@@ -33,9 +35,17 @@ def fit(
     ] = None,
     alpha_min: Annotated[float, Parameter(help="Leave out angles below this [deg].")] = -180.0,
     alpha_max: Annotated[float, Parameter(help="Leave out angles above this [deg].")] = 180.0,
+    reynolds_range: Annotated[
+        tuple[float, float] | None,
+        Parameter(help="Use only rows from one Reynolds number to another: LOW HIGH; needs a column reynolds."),
+    ] = None,
     json: Annotated[bool, Parameter(negative="", help="Print one JSON object.")] = False,
-) -> None:
+) -> int:
     """Fit lift, drag and centre of pressure, and print every parameter with its 95 % interval.
+
+    The residuals are judged. Warnings say whether they depend on the Reynolds number, whether the rows form two
+    branches (such as sweeps up and down through a stall), and which row does not fit the others. If the curve
+    misses the data, or gives what no wing has, the fit failed: no file is written, and the exit code is 3.
 
     Use the form cambered for a wing whose upper and lower sides differ; it needs data at positive and negative
     angles. The other forms mirror the data of one side. The model file works wherever a coefficient model is
@@ -52,11 +62,17 @@ def fit(
     bounds = [faults.number(f"--alpha-{end}", value) for end, value in (("min", alpha_min), ("max", alpha_max))]
     if all(bounds) and alpha_min > alpha_max:
         faults.add("--alpha-min", alpha_min, f"is above --alpha-max {alpha_max:g}", "exchange them")
+    for value in reynolds_range or ():
+        faults.number(
+            "--reynolds-range", value, at_least=1, fix="write the lowest and the highest, such as 50e3 70e3"
+        )
+    if reynolds_range is not None and reynolds_range[0] > reynolds_range[1]:
+        faults.add("--reynolds-range", list(reynolds_range), "has the highest first", "exchange them")
     faults.raise_if_any()
     check_outputs(output, plot)
     table = load_measurements(coefficients)
-    if alpha_min > -180 or alpha_max < 180:
-        table = table.between(alpha_min, alpha_max)
+    if alpha_min > -180 or alpha_max < 180 or reynolds_range is not None:
+        table = table.between(alpha_min, alpha_max, reynolds=reynolds_range)
     called = name or (output.stem if output is not None else coefficients.stem)
     found = fit_wing(table, form, called, citation or f"fitted to {coefficients.name}", aspect_ratio)
     with answer() as given:
@@ -64,10 +80,19 @@ def fit(
             given.show(lambda: print(json_format.dumps(_summary(found), indent=2, allow_nan=False)))
         else:
             given.show(lambda: _print_table(found))
-        for note in found.notes:
-            print(f"warning: {note}", file=sys.stderr)
-        given.save(output, found.save, named=True)
+        for kind, notes in (
+            ("note", table.notes),
+            ("warning", found.notes),
+            ("error: the fit failed", found.failures),
+        ):
+            for note in notes:
+                print(f"{kind}: {note}", file=sys.stderr)
+        if not found.failures:
+            given.save(output, found.save, named=True)
+        elif output is not None:
+            print(f"{output} was not written", file=sys.stderr)
         given.save(plot, lambda path: save_figure(fit_page(found), path), named=True)
+    return EXIT_NOT_CERTIFIED if found.failures else EXIT_GOOD
 
 
 def _summary(found: WingFit) -> dict[str, Any]:
@@ -91,7 +116,9 @@ def _summary(found: WingFit) -> dict[str, Any]:
         "reynolds_range": None if found.reynolds_range is None else list(found.reynolds_range),
         "aspect_ratio": None if found.aspect_ratio is None else _finite(found.aspect_ratio) or "inf",
         **{label: curve(label) for label in found.curves},
+        "notes": list(found.table.notes),
         "warnings": list(found.notes),
+        "failures": list(found.failures),
     }
 
 
@@ -111,15 +138,15 @@ def _print_table(found: WingFit) -> None:
     # As Text, for rich would take [deg] in a plain string for markup.
     caption = "angles in degrees; parameters as in wingbeat.aero's formulas"
     table = Table(title=Text(title), caption=Text(caption))
-    for heading in ("curve", "parameter", "value", "95 % interval", "R-squared", "AICc"):
+    for heading in ("curve", "parameter", "value (95 % interval)", "R-squared", "AICc"):
         table.add_column(Text(heading), justify="left" if heading in ("curve", "parameter") else "right")
     for label, curve in found.curves.items():
         limits = curve.interval()
         for i, (parameter, value) in enumerate(curve.parameters.items()):
-            interval = f"{limits[parameter][0]:.4g} to {limits[parameter][1]:.4g}"
+            shown = written_range(*limits[parameter], value=value)
             # Cut, not rounded: 0.99996 is not 1.
             r_squared = math.floor(curve.r_squared * 1e5) / 1e5 if math.isfinite(curve.r_squared) else math.nan
             whole = (label, f"{r_squared:.5f}", f"{curve.aicc:.1f}") if i == 0 else ("", "", "")
-            table.add_row(whole[0], parameter, f"{value:.5g}", interval, *whole[1:], end_section=False)
+            table.add_row(whole[0], parameter, shown, *whole[1:], end_section=False)
         table.add_section()
     Console().print(table)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import sys
 from dataclasses import dataclass, fields
 from typing import Annotated, Any
 
@@ -141,9 +142,18 @@ class ModelOptions:
         found: dict[str, Any] = {}
         if self.aero is not None or self.extension is not None or self.blend_width_deg is not None:
             found["coefficients"] = load_coefficients(self.aero or own.coefficients.name, *reach)
+            say_notes(self.aero, found["coefficients"])
         if self.hand is not None:
             found["hand"] = load_hand(self.hand, *reach)
+            say_notes(self.hand, found["hand"])
         return found
+
+
+def say_notes(given: str | None, coefficients: object) -> None:
+    """Print what a table's file or a fit says about itself on standard error."""
+    fit = read_model(given) if given is not None and given.lower().endswith(".toml") else coefficients
+    for note in getattr(fit, "notes", ()):
+        print(f"note: {given}: {note}", file=sys.stderr)
 
 
 DEFAULT_MODEL = ModelOptions()

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from wingbeat.aero import CoefficientModel, load_coefficients, thin_aerofoil_lift, thin_aerofoil_moment
 from wingbeat.cli.answer import answer
+from wingbeat.cli.model_options import say_notes
 from wingbeat.cli.options import check_outputs
 from wingbeat.cli.ranges import parse_range
 from wingbeat.errors import FaultList, InvalidInputError
@@ -49,7 +50,8 @@ def polar(
 
     Models: su-fan, dickinson, wang, whitney-wood, parslew-crowther, byl. Models of animal wings: feathered,
     feathered-revolving, feathered-flapping, membrane; --extension has no effect on these. A table has the columns
-    alpha_deg, c_l, c_d and, if known, x_cp; a fitted model is what `wingbeat fit` wrote.
+    alpha_deg, C_L, C_D and, if known, x_cp and reynolds, as `polar --csv` and `reduce` write them; usual other
+    spellings are read too. A fitted model is what `wingbeat fit` wrote.
     """
     faults = FaultList()
     if csv and json:
@@ -62,6 +64,7 @@ def polar(
     faults.raise_if_any()
 
     check_outputs(output)
+    say_notes(model, coefficients)
     columns = polar_columns(coefficients, angles, about)
     with answer() as given:
         if json:

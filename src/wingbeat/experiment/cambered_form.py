@@ -184,7 +184,9 @@ def with_lift(drag: CurveFit, lift: CurveFit) -> DragFit:
     return dataclasses.replace(found, notes=distrust(found))
 
 
-def fit_drag(form: DragForm, lift: CurveFit, values: Array, sigma: Array | None, label: str) -> DragFit:
+def fit_drag(
+    form: DragForm, lift: CurveFit, values: Array, sigma: Array | None, label: str, copies: int = 1
+) -> DragFit:
     """Fit the drag of a cambered wing, given its fitted lift.
 
     Parameters
@@ -193,12 +195,14 @@ def fit_drag(form: DragForm, lift: CurveFit, values: Array, sigma: Array | None,
     lift : fit of C_L to the same table.
     values, sigma : C_D and its standard errors, or None, shape (n,).
     label : name of the quantity in messages.
+    copies : how often each measurement is among the values: 2 if half of them are a mirror image.
 
     Raises
     ------
     InvalidInputError : inputs that `fit_curve` refuses.
     """
-    return with_lift(fit_curve(lift.alpha_deg, values, form.beside(lift), sigma, label), lift)
+    alone = fit_curve(lift.alpha_deg, values, form.beside(lift), sigma, label)
+    return with_lift(dataclasses.replace(alone, covariance=copies * alone.covariance), lift)
 
 
 _LIFT_HELD = {"lift_rounding": _BENDS["lift_rounding"]} | dict.fromkeys(_DRAG, 0.0) | {"onset_rounding_deg": 1.0}

@@ -160,7 +160,7 @@ class CurveForm:
         del values, label
         if self.only_positive and len(alpha_deg) and alpha_deg.min() < 0:
             rule = f"is below 0, where the formula {self.formula} does not hold"
-            fix = "fit from 0 up (--alpha-min 0), or choose the form dickinson"
+            fix = "choose the form cambered for both sides of a wing, or fit from 0 up (--alpha-min 0)"
             faults.add("alpha_deg", float(alpha_deg.min()), rule, fix)
 
 

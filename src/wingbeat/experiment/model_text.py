@@ -55,6 +55,8 @@ def model_text(model: Fitted, form: str, curves: dict[str, CurveFit]) -> str:
         lines.append(f"reynolds_range = {_row(model.reynolds_range)}")
     if model.aspect_ratio is not None:
         lines.append(f"aspect_ratio = {float(model.aspect_ratio)!r}")
+    if model.notes:
+        lines += ["notes = [", *(f"  {_quoted(note)}," for note in model.notes), "]"]
     for key, (part, own) in sections.items():
         lines += ["", *_section(key, part, own)]
     return "\n".join(lines) + "\n"

@@ -16,6 +16,8 @@ from wingbeat.experiment.forms import CurveForm
 Array = NDArray[np.float64]
 # Above this condition number, the scaled Jacobian loses half of its digits.
 ILL_CONDITIONED = 1e4
+# Parts of drag that a wing may not have, such as a section without induced drag: 0 is a value like others.
+_MAY_VANISH = ("drag_induced", "low_rise", "high_rise")
 
 
 class FitRangeWarning(UserWarning):
@@ -317,12 +319,13 @@ def _tidy(parameters: dict[str, float]) -> dict[str, float]:
 def distrust(fit: CurveFit) -> tuple[str, ...]:
     """Return notes that name the parameters that the data do not determine."""
     notes = []
-    for name, value in fit.parameters.items():
+    determined = {n: v for n, v in fit.parameters.items() if n not in _MAY_VANISH or v > 1e-9}
+    for name, value in determined.items():
         ends = fit.form.lowest.get(name, -math.inf), fit.form.highest.get(name, math.inf)
         if any(math.isclose(value, end, abs_tol=1e-9) for end in ends):
             notes.append(f"{fit.label}: {name} reached its limit in the fit, {value:g}; choose another form")
     limits = fit.interval()
-    loose = [name for name, value in fit.parameters.items() if limits[name][1] - value > _room(fit, name)]
+    loose = [name for name, value in determined.items() if limits[name][1] - value > _room(fit, name)]
     if loose:
         text = f"{fit.label}: too uncertain to be meaningful: {', '.join(loose)}"
         notes.append(f"{text}; the data do not determine this form; use the curve only where it was measured")

@@ -120,6 +120,22 @@ class CoefficientTable:
         mean, sd, se = kept(self.mean), kept(self.sd), kept(self.se)
         return CoefficientTable(self.alpha_deg[keep], mean, sd, se, stream, runs, self.notes)
 
+    def with_mirror_image(self) -> CoefficientTable:
+        """Return the table with each row above 0 degrees again at the opposite angle, as on a symmetric wing.
+
+        Lift and moment change their sign there; drag, centre of pressure and errors do not.
+        """
+        above = self.alpha_deg > 0
+
+        def doubled(group: Columns, odd: tuple[str, ...] = ()) -> Columns:
+            return {n: np.concatenate([c, (-1.0 if n in odd else 1.0) * c[above]]) for n, c in group.items()}
+
+        stream = None if self.reynolds is None else np.concatenate([self.reynolds, self.reynolds[above]])
+        runs = None if self.runs is None else np.concatenate([self.runs, self.runs[above]])
+        mean, sd, se = doubled(self.mean, ("C_L", "C_M")), doubled(self.sd), doubled(self.se)
+        alpha = np.concatenate([self.alpha_deg, -self.alpha_deg[above]])
+        return CoefficientTable(alpha, mean, sd, se, stream, runs, self.notes)
+
     def save(self, path: str | Path) -> None:
         """Write the table as CSV, with notes as # lines above it; cells of undefined quantities are empty.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,9 +13,11 @@ from numpy.typing import NDArray
 from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.aero.fitted import Fitted, FittedCurve, FittedModel, FittedWing
+from wingbeat.aero.polar_sheet import zero_lift
 from wingbeat.errors import FaultList, InvalidInputError
-from wingbeat.experiment.cambered_form import DragFit, DragForm, fit_drag, stall_notes
+from wingbeat.experiment.cambered_form import DragFit, DragForm, LiftForm, fit_drag, stall_notes
 from wingbeat.experiment.forms import BoxForm, CurveForm
+from wingbeat.experiment.judgement import failures, judge, model_failures
 from wingbeat.experiment.model_text import model_text
 from wingbeat.experiment.regression import CurveFit, fit_curve
 from wingbeat.experiment.table import CoefficientTable
@@ -40,8 +43,9 @@ class WingFit:
     lift, drag : fits of C_L and C_D.
     centre : fit of the centre of pressure; None if it was not measured, or if the form has no curve for it.
     table : the measurements.
-    notes : notes for the reader.
+    notes : warnings: what the data do not determine, and what the residuals show (`wingbeat.experiment.judgement`).
     aspect_ratio : of the measured wing [-], infinite for a section, None if not stated.
+    failures : why the fit is useless, and cannot be saved; empty if it is not.
     """
 
     name: str
@@ -53,6 +57,7 @@ class WingFit:
     table: CoefficientTable
     notes: tuple[str, ...]
     aspect_ratio: float | None = None
+    failures: tuple[str, ...] = ()
 
     @property
     def curves(self) -> dict[str, CurveFit]:
@@ -69,7 +74,7 @@ class WingFit:
     def reynolds_range(self) -> tuple[float, float] | None:
         """Lowest and highest Reynolds number of the data, or None if it is not known."""
         known = self.table.reynolds
-        return None if known is None else (float(known.min()), float(known.max()))
+        return None if known is None else (float(np.nanmin(known)), float(np.nanmax(known)))
 
     def moment(self, alpha_deg: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return ``C_M = (C_L cos a + C_D sin a)(1/2 - x_cp)`` about mid-chord, shape (n,).
@@ -109,10 +114,12 @@ class WingFit:
             (low, high), beyond = self.alpha_range_deg, _JOIN_DEG
             joins = (min(-_PLATE_FROM_DEG, low - beyond), low), (high, max(_PLATE_FROM_DEG, high + beyond))
             wing = FittedCurve(drag.terms, self.drag.joint_names, self.drag.joint)
-            return FittedWing(self.name, self.citation, *joins, self.reynolds_range, wing, self.aspect_ratio)
+            ranges = *joins, self.reynolds_range
+            return FittedWing(self.name, self.citation, *ranges, wing, self.aspect_ratio, self.notes)
         centre = None if self.centre is None else _fitted(self.centre)
         ranges = self.alpha_range_deg, self.reynolds_range
-        return FittedModel(self.name, self.citation, *ranges, _fitted(self.lift), drag, centre, self.aspect_ratio)
+        curves = _fitted(self.lift), drag, centre
+        return FittedModel(self.name, self.citation, *ranges, *curves, self.aspect_ratio, self.notes)
 
     def coefficients(
         self, extension: str = "mirrored", blend_width_deg: float = 1.0
@@ -140,12 +147,14 @@ class WingFit:
         Raises
         ------
         FileError : the file cannot be written.
-        InvalidInputError : another ending, a form of the user's own as .toml, or a table that does not cover
-            0 to 90 degrees or whose drag is negative.
+        InvalidInputError : a fit that failed, another ending, a form of the user's own as .toml, or a table that
+            does not cover 0 to 90 degrees or whose drag is negative.
         """
         ending = Path(path).suffix.lower()
         faults = FaultList()
         faults.choice("path", ending, (".toml", ".csv"))
+        for failure in self.failures:
+            faults.add(self.name, self.form, f"the fit failed: {failure}")
         faults.raise_if_any()
         text = model_text(self.model(), self.form, self.curves) if ending == ".toml" else self._as_table()
         write_atomically(path, text)
@@ -205,9 +214,18 @@ def fit_wing(
     faults.raise_if_any()
     chosen = FORMS[form] if isinstance(form, str) else form
     notes: list[str] = []
+    measured, copies = table, 1
+    one_side = isinstance(chosen.lift, LiftForm) and table.alpha_deg.min() >= 0
+    if one_side and zero_lift(table.alpha_deg, table.mean["C_L"]) is not None:
+        table, copies = table.with_mirror_image(), 2
+        notes.append(
+            "one side was measured, and its lift at 0 degrees is 0: the other is taken as its mirror image"
+        )
     lift = _fit(table, "C_L", chosen.lift)
+    # A mirror image adds no information, so the variance stays that of the rows that were measured.
+    lift = dataclasses.replace(lift, covariance=copies * lift.covariance)
     if isinstance(chosen.drag, DragForm):
-        drag = fit_drag(chosen.drag, lift, table.mean["C_D"], _sigma(table, "C_D"), "C_D")
+        drag = fit_drag(chosen.drag, lift, table.mean["C_D"], _sigma(table, "C_D"), "C_D", copies)
         notes += stall_notes(lift)
     else:
         drag = _fit(table, "C_D", chosen.drag)
@@ -227,7 +245,15 @@ def fit_wing(
                 notes.append(f"x_cp: {known.sum() - usable.sum()} rows at negative angles were left out")
     for curve in (lift, drag, centre):
         notes += curve.notes if curve is not None else ()
-    return WingFit(name, chosen.name, citation, lift, drag, centre, table, tuple(notes), aspect_ratio)
+    failed = [text for curve in (lift, drag, centre) if curve is not None for text in failures(curve)]
+    own = slice(len(measured.alpha_deg))
+    for curve in (lift, drag):
+        rows = {name: getattr(curve, name)[own] for name in ("alpha_deg", "values", "sigma")}
+        notes += judge(dataclasses.replace(curve, **rows), measured.reynolds)
+    found = WingFit(name, chosen.name, citation, lift, drag, centre, table, tuple(notes), aspect_ratio)
+    if not failed and all(isinstance(curve.form, BoxForm) for curve in found.curves.values()):
+        failed += model_failures(found.coefficients(), found.alpha_range_deg)
+    return dataclasses.replace(found, failures=tuple(failed))
 
 
 def _fit(

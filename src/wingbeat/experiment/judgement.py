@@ -1,0 +1,289 @@
+"""What the residuals of a fit say: a dependence on Reynolds number, two branches, a wrong row, a useless curve.
+
+Every judgement needs both significance and size: noise alone causes it in less than one of a hundred tables, and a
+difference below `LEAST_SHARE` of the quantity's range is not mentioned.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wingbeat.aero.polar_sheet import reynolds_groups
+from wingbeat.aero.table_checks import MAX_DRAG, MAX_LIFT
+from wingbeat.errors import InvalidInputError
+from wingbeat.experiment.branches import Branches, two_branches
+from wingbeat.experiment.regression import CurveFit, fit_curve
+
+if TYPE_CHECKING:
+    from wingbeat.aero import CoefficientModel
+
+Array = NDArray[np.float64]
+
+# Least difference worth a warning, as a share of the range of the measured values. Repeated tests of one wing in
+# one tunnel differ by some per cent.
+LEAST_SHARE = 0.06
+# Chance at which the F test says that residuals depend on a group.
+_CHANCE = 1e-4
+# Hat functions over the angle: for what all groups share, and for how one group differs.
+_COMMON, _OWN = 12, 5
+# Fewest rows of a group, and of the others beside it, that can show a difference.
+_FEW = 4
+# A row is wrong if it lies this many standard deviations from the curve through the others, and if its neighbours
+# lie closer by this factor. In normal noise 6 happens once in 10^9 rows.
+_OUTLYING, _ALONE = 6.0, 0.4
+# A curve that leaves half of the variance is no fit, unless the scatter is small beside the values themselves:
+# drag near its minimum hardly varies.
+LEAST_R_SQUARED, SMALL_SCATTER = 0.5, 0.1
+# Most sweeps to compare one by one; more of them are compared as all that rise with all that fall.
+_SWEEPS = 6
+
+
+class Difference(NamedTuple):
+    """How one group of rows differs from the others: where most [deg], by how much, and the chance of noise."""
+
+    at_deg: float
+    size: float
+    chance: float
+
+
+def judge(curve: CurveFit, reynolds: Array | None) -> tuple[str, ...]:
+    """Return warnings on the residuals of a fit, in words with numbers.
+
+    Parameters
+    ----------
+    curve : the fit.
+    reynolds : chord Reynolds number of each measurement, shape (n,), or None.
+    """
+    least = LEAST_SHARE * float(np.ptp(curve.values))
+    if least <= 0:
+        return ()
+    groups = reynolds_groups(reynolds)
+    notes: list[str] = []
+    parts = [np.arange(len(curve.values))]
+    if reynolds is not None and len(groups) > 1:
+        members = [np.flatnonzero((reynolds >= low) & (reynolds <= high)) for low, high in groups]
+        notes += _of_reynolds(curve, groups, members, least)
+        parts = members if notes else [*members, *parts]
+    for rows in parts:
+        found = _branches(curve, rows, least)
+        if found is not None:
+            notes.append(_branch_words(curve, found))
+            break
+    return (*notes, *_wrong_rows(curve, least))
+
+
+def _of_reynolds(
+    curve: CurveFit, groups: list[tuple[float, float]], members: list[NDArray[np.intp]], least: float
+) -> list[str]:
+    words = []
+    for (low, high), rows in zip(groups, members, strict=True):
+        inside = np.zeros(len(curve.values), dtype=bool)
+        inside[rows] = True
+        found = group_difference(curve.alpha_deg, curve.residuals, inside)
+        if found is not None and found.chance < _CHANCE / len(groups) and abs(found.size) > least:
+            name = f"{low:.0f}" if low == high else f"{low:.0f} to {high:.0f}"
+            way = "below" if found.size < 0 else "above"
+            words.append(
+                f"at Re {name} it lies {abs(found.size):.2g} {way} the other rows near {found.at_deg:.3g} deg"
+            )
+    if not words:
+        return []
+    low, high = groups[int(np.argmax([len(rows) for rows in members]))]
+    advice = f"fit one range of Re, for example --reynolds-range {math.floor(low)} {math.ceil(high)}"
+    return [f"{curve.label}: the residuals depend on Re: {'; '.join(words)}; {advice}"]
+
+
+def group_difference(alpha_deg: Array, residuals: Array, inside: NDArray[np.bool_]) -> Difference | None:
+    """Return how the residuals of a group of rows differ from those of the others, by an F test.
+
+    Over the angles that both have, the residuals are fitted by hat functions of the angle, once the same for all
+    rows, once with further hats for the group. ``F = ((S1 - S2)/(n1 - n2))/(S2/n2)`` with the sums of squares S and
+    their degrees of freedom n has Snedecor's distribution if the group does not differ.
+
+    Parameters
+    ----------
+    alpha_deg, residuals : angles [deg] and residuals, shape (n,).
+    inside : which rows are the group, shape (n,).
+
+    Returns
+    -------
+    The difference, or None if group and others share too few rows.
+
+    >>> a, wave = np.tile(np.arange(10.0), 2), np.tile([0.01, -0.01], 10)
+    >>> found = group_difference(a, wave + np.repeat([0.0, 0.3], 10), np.repeat([False, True], 10))
+    >>> round(found.size, 1), found.chance < 1e-9
+    (0.3, True)
+    """
+    from scipy.stats import f
+
+    if min(inside.sum(), (~inside).sum()) < _FEW:
+        return None
+    low = max(alpha_deg[inside].min(), alpha_deg[~inside].min()) - 1e-9
+    high = min(alpha_deg[inside].max(), alpha_deg[~inside].max()) + 1e-9
+    shared = (alpha_deg >= low) & (alpha_deg <= high)
+    a, y, own = alpha_deg[shared], residuals[shared], inside[shared]
+    few = int(min(own.sum(), (~own).sum()))
+    if few < _FEW:
+        return None
+    angles = len(np.unique(np.round(a, 2)))
+    common = _hats(a, min(_COMMON, max(angles // 2, 2)))
+    extra = _hats(a, max(min(_OWN, few // 3, angles // 2), 1))
+    full = np.column_stack([common, extra * own[:, None]])
+    factors, _, rank, _ = np.linalg.lstsq(full, y)
+    _, _, rank_common, _ = np.linalg.lstsq(common, y)
+    left = float(((y - full @ factors) ** 2).sum())
+    alone = float(((y - common @ np.linalg.lstsq(common, y)[0]) ** 2).sum())
+    free, more = len(y) - int(rank), int(rank) - int(rank_common)
+    if free < 3 or more < 1:
+        return None
+    effect = factors[common.shape[1] :]
+    # At a knot without rows of both, the difference is an extrapolation.
+    support = np.minimum(extra[own].sum(axis=0), extra[~own].sum(axis=0)) >= 1.0
+    knots = extra.T @ a / np.maximum(extra.sum(axis=0), 1e-12)
+    if not support.any():
+        return None
+    worst = int(np.argmax(np.where(support, np.abs(effect), -1.0)))
+    noise = max(left, 1e-24 * max(alone, 1e-24)) / free
+    chance = float(f.sf((alone - left) / more / noise, more, free)) if alone > left else 1.0
+    return Difference(float(knots[worst]), float(effect[worst]), chance)
+
+
+def _hats(a: Array, count: int) -> Array:
+    """Return hat functions (linear B-splines) with `count` knots over the angles, shape (n, count)."""
+    if count < 2:
+        return np.ones((len(a), 1))
+    knots = np.linspace(a.min(), a.max(), count)
+    return np.column_stack([np.interp(a, knots, row) for row in np.eye(count)])
+
+
+def _branches(curve: CurveFit, rows: NDArray[np.intp], least: float) -> Branches | None:
+    """Return two branches among rows: sweeps in the order of the file that differ, or else two clusters."""
+    a, left = curve.alpha_deg[rows], curve.residuals[rows]
+    sweeps = _sweeps(a)
+    if len(sweeps) > _SWEEPS:
+        way = [np.sign(a[part[-1]] - a[part[0]]) for part in sweeps]
+        sweeps = [np.concatenate([s for s, w in zip(sweeps, way, strict=True) if w == sign]) for sign in set(way)]
+    found: list[tuple[float, NDArray[np.bool_]]] = []
+    for part in sweeps if len(sweeps) > 1 else ():
+        inside = np.zeros(len(a), dtype=bool)
+        inside[part] = True
+        one = group_difference(a, left, inside)
+        if one is not None and one.chance < _CHANCE / len(sweeps) and abs(one.size) > least:
+            found.append((abs(one.size), inside))
+    if found:
+        inside = max(found, key=lambda pair: pair[0])[1]
+        return Branches.between(a, left, inside)
+    return two_branches(a, left, least)
+
+
+def _sweeps(a: Array) -> list[NDArray[np.intp]]:
+    """Return the rows of each sweep: angles that rise, or fall, over a third of the range in five rows or more."""
+    steps = np.sign(np.diff(a))
+    sweeps, first = [], 0
+    for i in range(1, len(a) + 1):
+        if i == len(a) or (i - 1 > first and steps[i - 1] * steps[i - 2] < 0) or steps[i - 1] == 0:
+            part = np.arange(first, i)
+            if len(part) >= 5 and np.ptp(a[part]) > np.ptp(a) / 3:
+                sweeps.append(part)
+            first = i
+    return sweeps
+
+
+def _branch_words(curve: CurveFit, found: Branches) -> str:
+    middle = float(curve.form.value(np.array([found.at_deg]), curve.parameters)[0])
+    upper, lower = middle + found.upper, middle + found.lower
+    return (
+        f"{curve.label}: the rows form two branches from {found.from_deg:.3g} to {found.to_deg:.3g} deg: "
+        f"{upper:.2g} and {lower:.2g} at {found.at_deg:.3g} deg, and the curve lies between them; are they sweeps "
+        "up and down, two wings or two Reynolds numbers? Keep the rows of one branch and fit them alone"
+    )
+
+
+def _wrong_rows(curve: CurveFit, least: float) -> list[str]:
+    """Return a warning for a row that lies far from the curve through all others, while its neighbours do not."""
+    left = curve.residuals
+    scatter = float(np.sqrt((left**2).sum() / curve.freedom))
+    row = int(np.argmax(np.abs(left) / curve.sigma))
+    others = np.arange(len(left)) != row
+    if abs(left[row]) < max(2.5 * scatter, least):
+        return []
+    try:
+        without = fit_curve(
+            curve.alpha_deg[others],
+            curve.values[others],
+            curve.form,
+            curve.sigma[others] if curve.weighted else None,
+            curve.label,
+        )
+    except InvalidInputError:  # too few rows without it
+        return []
+    misses = curve.values - without.form.value(curve.alpha_deg, without.parameters)
+    near = np.argsort(np.abs(curve.alpha_deg - curve.alpha_deg[row]))[1:5]
+    spread = float(np.sqrt((misses[others] ** 2).sum() / without.freedom))
+    size = abs(misses[row])
+    if size < max(_OUTLYING * spread, least) or np.abs(misses[near]).max() > _ALONE * size:
+        return []
+    value, wanted = float(curve.values[row]), float(curve.values[row] - misses[row])
+    ratio = wanted / value if value else math.inf
+    slipped = any(0.7 < ratio / factor < 1.4 for factor in (10.0, 0.1))
+    guess = (
+        "a slipped decimal point?" if slipped else "a wrong sign?" if -1.3 < ratio < -0.7 else "is it a mistake?"
+    )
+    return [
+        f"{curve.label}: row {row + 1} of the table ({curve.alpha_deg[row]:g} deg) is {value:.4g}, but the curve "
+        f"through the other rows gives {wanted:.3g} with a scatter of {spread:.2g}: {guess}"
+    ]
+
+
+def failures(curve: CurveFit) -> tuple[str, ...]:
+    """Return why a fitted curve is useless: it misses the data, or it gives what no wing has where they were taken.
+
+    A curve fails if R^2 is below 0, or below 0.5 with a scatter of more than a tenth of the largest value; and if
+    |C_L| exceeds 5, or C_D is not above 0 and at most 5, within the measured angles.
+
+    Parameters
+    ----------
+    curve : the fit.
+    """
+    found = []
+    share = float(np.sqrt((curve.residuals**2).mean()) / max(np.abs(curve.values).max(), 1e-12))
+    low = curve.r_squared < LEAST_R_SQUARED
+    if low and (share > SMALL_SCATTER or curve.r_squared < 0):
+        found.append(
+            f"{curve.label}: the curve does not fit: R-squared is {curve.r_squared:.2f}, and the residuals scatter "
+            f"by {100 * share:.0f} % of the largest value; try another --form, or look at the rows with --plot"
+        )
+    angles = np.linspace(curve.alpha_deg.min(), curve.alpha_deg.max(), 361)
+    return (*found, *_impossible(curve.label, angles, curve.form.value(angles, curve.parameters)))
+
+
+def model_failures(model: CoefficientModel, measured_deg: tuple[float, float]) -> tuple[str, ...]:
+    """Return why the model that follows from a fit is useless: what no wing has, at any angle of attack.
+
+    Parameters
+    ----------
+    model : as flights use it, at all angles.
+    measured_deg : lowest and highest measured angle [deg].
+    """
+    angles = np.arange(-180.0, 180.5)
+    alpha = np.deg2rad(angles)
+    columns = {"C_L": np.asarray(model.lift(alpha)), "C_D": np.asarray(model.drag(alpha))}
+    low, high = measured_deg
+    beyond = f"beyond the measured {low:g} to {high:g} deg; measure farther, or choose the form cambered"
+    return tuple(f"{text} {beyond}" for name, c in columns.items() for text in _impossible(name, angles, c))
+
+
+def _impossible(label: str, angles: Array, values: Array) -> list[str]:
+    limits = {"C_L": (-MAX_LIFT, MAX_LIFT), "C_D": (0.0, MAX_DRAG)}
+    if label not in limits:
+        return []
+    low, high = limits[label]
+    over = np.maximum(values - high, low - values)
+    row = int(np.argmax(np.where(np.isfinite(over), over, np.inf)))
+    if over[row] < 0 or (over[row] == 0 and label == "C_L"):
+        return []
+    return [f"{label}: the curve gives {values[row]:.3g} at {angles[row]:g} deg, which no wing has,"]

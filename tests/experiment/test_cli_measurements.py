@@ -127,7 +127,10 @@ BAD_RUNS = {
         GOOD.replace("\n0.2,", "\n0.05,", 1),
         ["run.csv row 9, column time = 0.05: must be above the time before it, 0.1 s"],
     ),
-    "tare value": ("# tare_moment = 0.1, nan\n" + GOOD, ["run.csv, tare", "finite"]),
+    "tare value": (
+        "# tare_moment = 0.1, nan\n" + GOOD,
+        ["run.csv row 1, tare_moment = '0.1, nan': must be finite; give the reading in N m"],
+    ),
     "ragged": (
         GOOD.replace("1.03,0.2", "1,03,0.2", 1),
         ["run.csv row 10", "has 6 cells, but the header names 5 columns"],
@@ -166,7 +169,10 @@ BAD_TABLES = {
     "turn": (TABLE.replace("90,0.9", "290,0.9"), ["row 11, column alpha_deg = 290.0: must lie between"]),
     "still": (
         TABLE.replace("C_D\n", "C_D,reynolds\n").replace("\n0,0.0,0.1\n", "\n0,0,0.1,0\n"),
-        ["row 2, column reynolds = 0.0: must be >= 1; was the stream at rest?", "has 3 cells, but the header names 4 columns"],
+        [
+            "row 2, column reynolds = 0.0: must be >= 1; was the stream at rest?",
+            "has 3 cells, but the header names 4 columns",
+        ],
     ),
     "error": (
         "alpha_deg,C_L,C_D,C_L_se\n" + "".join(f"{a},{a / 90},{0.1 + a / 90},-1\n" for a in range(0, 90, 10)),

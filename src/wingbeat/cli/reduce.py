@@ -24,6 +24,14 @@ def reduce(
         float,
         Parameter(help="Length of the steady part at the end of each record [s]; only this part is averaged."),
     ] = 20.0,
+    rest: Annotated[
+        list[str] | None,
+        Parameter(
+            consume_multiple=True,
+            negative="",
+            help="When the fluid is at rest [s], such as 0:5 35:40; the zero is the mean there.",
+        ),
+    ] = None,
 ) -> None:
     """Turn load-cell records into coefficients with errors; repeated runs of one point are pooled.
 
@@ -31,9 +39,12 @@ def reduce(
     nose-up positive) and alpha_deg. Lines above them, such as "# speed = ...", give speed, density, viscosity
     (kinematic), chord and span in SI units. Thickness and channel_width are optional. Readings in still fluid
     before and after the run are optional, too: "# tare_normal_force = before, after" and so on. Between these two
-    readings the zero is taken to drift linearly, and is subtracted.
+    readings the zero is taken to drift linearly, and is subtracted. If the records themselves begin or end at rest,
+    --rest gives the zero instead, and the steady part ends where the last rest begins. Coefficients that no plate
+    has are refused, such as those of forces in mN.
 
-    Example: wingbeat reduce run*.csv -o coefficients.csv --last 20
+    Examples: wingbeat reduce run*.csv -o coefficients.csv --last 20;
+    wingbeat reduce run*.csv -o coefficients.csv --rest 0:5 35:40
     """
     faults = FaultList()
     if output.suffix.lower() != ".csv":
@@ -43,15 +54,26 @@ def reduce(
         faults.add("RUNS", "none", "there is nothing to reduce", "name the CSV files of the runs")
     if output in runs:
         faults.add("--output", str(output), "is one of the runs", "choose another name")
+    spans = [_interval(faults, text) for text in rest or []]
     faults.raise_if_any()
     check_outputs(output)
-    table = reduce_runs(_read_all(runs), last)
+    table = reduce_runs(_read_all(runs), last, spans)
     table.save(output)
     for note in table.notes[:MAX_NOTES]:
         print(f"note: {note}", file=sys.stderr)
     if len(table.notes) > MAX_NOTES:
         print(f"note: {len(table.notes) - MAX_NOTES} more notes are in {output}", file=sys.stderr)
     print(f"wrote {output}: {len(runs)} runs, {len(table.alpha_deg)} points", file=sys.stderr)
+
+
+def _interval(faults: FaultList, text: str) -> tuple[float, float]:
+    """Return start and end of an interval such as 0:5."""
+    try:
+        start, end = map(float, text.split(":"))
+    except ValueError:
+        faults.add("--rest", text, "is not an interval", "write start:end in seconds, such as 0:5")
+        return 0.0, 1.0
+    return start, end
 
 
 def _read_all(paths: list[Path]) -> list[LoadCellRun]:

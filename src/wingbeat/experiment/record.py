@@ -8,21 +8,25 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from wingbeat.aero.polar_sheet import check_radians
 from wingbeat.errors import FaultList, InvalidInputError
+from wingbeat.experiment.possible import check_constants
 from wingbeat.nomenclature import plain_unit
-from wingbeat.sheets import Sheet, check_unit, parse_numbers, read_sheet, split_unit
+from wingbeat.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
 
 MIN_SAMPLES = 32
 # If the angle spreads more than this within one record, the plate was still turning.
 MAX_TURN_DEG = 1.0
+# A load cell that is read less often is in other units: milliseconds, or numbers of samples [s].
+SLOWEST_STEP = 1.0
 CHANNELS = ("normal_force", "tangential_force", "moment")
 COLUMN_UNITS = {name: plain_unit(name) for name in ("time", *CHANNELS, "alpha_deg")}
 CONSTANT_UNITS = {name: plain_unit(name) for name in ("speed", "density", "viscosity", "chord", "span")}
 OPTIONAL_UNITS = {name: plain_unit(name) for name in ("thickness", "channel_width")}
 TARE_UNITS = {f"tare_{name}": COLUMN_UNITS[name] for name in CHANNELS}
+_SPELLINGS = {same_name(name): name for name in CONSTANT_UNITS | OPTIONAL_UNITS | TARE_UNITS}
 
 
 @dataclass(frozen=True)
@@ -40,12 +44,14 @@ class LoadCellRun:
     chord, span : of the plate [m].
     thickness : of the plate [m]; 0 if not known.
     channel_width : width of the channel across the span [m], or None.
-    tare : readings of each channel in still fluid before and after the run [N, N, N m], shape (3, 2).
+    tare : readings of each channel in still fluid before and after the run [N, N, N m], shape (3, 2); NaN, or None
+        for all channels, where there is none.
 
     Raises
     ------
-    InvalidInputError : a constant that is not positive, fewer than 32 samples, columns of different length, values
-        that are not finite, times that do not rise, an angle that moves by over a degree or exceeds half a turn.
+    InvalidInputError : a constant that no stream and no plate has, a viscosity that no fluid of this density has, a
+        Reynolds number below 1, fewer than 32 samples, columns of different length, values that are not finite,
+        times that do not rise or are a second apart, an angle that moves by over a degree or exceeds half a turn.
     """
 
     name: str
@@ -61,7 +67,7 @@ class LoadCellRun:
     span: float
     thickness: float = 0.0
     channel_width: float | None = None
-    tare: ArrayLike = ((0.0, 0.0), (0.0, 0.0), (0.0, 0.0))
+    tare: Any = None
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -72,12 +78,16 @@ class LoadCellRun:
         faults.number(f"{self.name}, thickness", self.thickness, at_least=0, unit="m")
         if self.channel_width is not None:
             faults.number(f"{self.name}, channel_width", self.channel_width, above=0, unit="m")
-        for name in (*COLUMN_UNITS, "tare"):
+        for name in COLUMN_UNITS:
             object.__setattr__(self, name, np.asarray(getattr(self, name), dtype=np.float64))
-        if np.shape(self.tare) != (3, 2) or not np.isfinite(self.tare).all():
+        tare = np.full((3, 2), np.nan) if self.tare is None else np.asarray(self.tare, dtype=np.float64)
+        object.__setattr__(self, "tare", tare)
+        if tare.shape != (3, 2) or np.isinf(tare).any():
             rule = "must be three pairs of finite numbers"
             faults.add(f"{self.name}, tare", self.tare, rule, "give the readings before and after the run")
         object.__setattr__(self, "alpha_deg", np.broadcast_to(self.alpha_deg, np.shape(self.time)))
+        if not faults.faults:
+            check_constants(faults, self)
         _check_series(faults, self)
         faults.raise_if_any()
 
@@ -112,6 +122,12 @@ def _check_series(faults: FaultList, run: LoadCellRun) -> None:
         first = int(np.argmin(steps > 0)) + 1
         rule = f"must be above the time before it, {run.time[first - 1]:g} s"
         faults.add(f"{run.name}, time[{first}]", float(run.time[first]), rule, "sort by time, drop duplicates")
+    elif (step := float(np.median(steps))) >= SLOWEST_STEP:
+        counts = step == 1.0 and np.array_equal(run.time, np.round(run.time))
+        rule = (
+            f"has samples {step:.4g} s apart; the times seem to {'count samples' if counts else 'be milliseconds'}"
+        )
+        faults.add(f"{run.name}, time", f"{run.time[0]:g} to {run.time[-1]:g}", rule, "give seconds")
     alpha = np.asarray(run.alpha_deg)
     if np.abs(alpha).max() > 180:
         worst = float(alpha[np.argmax(np.abs(alpha))])
@@ -149,7 +165,7 @@ def read_run(path: str | Path) -> LoadCellRun:
     faults.raise_if_any()
     series: dict[str, Any] = {name: numbers[:, k].copy() for name, k in place.items()}
     single: dict[str, Any] = {name: values[0] for name, values in constants.items() if name not in TARE_UNITS}
-    tare = [constants.get(key, (0.0, 0.0)) for key in TARE_UNITS]
+    tare = [constants.get(key, (np.nan, np.nan)) for key in TARE_UNITS]
     try:
         return LoadCellRun(sheet.file, **series, **single, tare=tare)
     except InvalidInputError as error:
@@ -161,7 +177,7 @@ def _in_sheet(where: str, sheet: Sheet) -> str:
     """Return where in the file a run's fault is: a constant, a sample, or a whole column."""
     name, _, index = where.removeprefix(f"{sheet.file}, ").removesuffix("]").partition("[")
     for key, (row, _) in sheet.constants.items():
-        if split_unit(key).name == name:
+        if _SPELLINGS.get(same_name(key)) == name:
             return f"{sheet.file} row {row}, {name}"
     if name not in COLUMN_UNITS:
         return where
@@ -197,7 +213,7 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
     found: dict[str, tuple[float, ...]] = {}
     units = CONSTANT_UNITS | OPTIONAL_UNITS | TARE_UNITS
     for key, (row, text) in sheet.constants.items():
-        name, unit = split_unit(key)
+        name, unit = _SPELLINGS.get(same_name(key), ""), split_unit(key).unit
         if name not in units:
             continue
         where = f"{sheet.file} row {row}, {name}"
@@ -210,6 +226,9 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
             values = tuple(float(cell) for cell in cells)
         except ValueError:
             values = ()
+        if values and not np.isfinite(values).all():
+            faults.add(where, text, "must be finite", f"give the reading in {units[name]}, or leave the line out")
+            continue
         if len(values) != wanted:
             rule = "must be two numbers, before and after the run" if wanted == 2 else "must be one number"
             fix = f"give only numbers, in {units[name]}; the unit goes in brackets before the ="
@@ -217,7 +236,7 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
             continue
         found[name] = values
     for name, unit in CONSTANT_UNITS.items():
-        if not any(split_unit(key).name == name for key in sheet.constants):
+        if not any(_SPELLINGS.get(same_name(key)) == name for key in sheet.constants):
             faults.add(f"{sheet.file}, {name}", "", "is missing", f"add the line '# {name} [{unit}] = ...'")
     return found
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -10,10 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat.errors import FaultList
+from wingbeat.experiment.possible import check_coefficients, coefficient_notes, constant_notes
 from wingbeat.experiment.record import CHANNELS, MIN_SAMPLES, LoadCellRun, refuse_radians
 from wingbeat.experiment.statistics import added_variance, standard_error
+from wingbeat.experiment.steadiness import refuse_rest, signal_notes, stated_rest, unsteady, zero_notes
 from wingbeat.experiment.table import QUANTITIES, CoefficientTable
 
+Intervals = Sequence[tuple[float, float]]
 LAST_SECONDS = 20.0
 # Repeats of one point: a positioning stage returns within a quarter degree, a stream within some per cent.
 SAME_ALPHA_DEG = 0.5
@@ -22,8 +26,6 @@ SAME_REYNOLDS = 1.05
 # or less than CENTRE_FLOOR, because an error of the moment then has a large effect.
 CENTRE_SIGNAL = 5.0
 CENTRE_FLOOR = 0.02
-# Student's t with 14 degrees of freedom passes 7 by chance once in 150 000 records.
-_TREND_BLOCKS, _TREND_LIMIT = 16, 7.0
 _BLOCKED = 0.05
 # Number of samples that are reduced together; ten copies of them take some 20 MB.
 _AT_A_TIME = 1 << 18
@@ -54,70 +56,133 @@ class RunMeans(NamedTuple):
     notes: tuple[str, ...]
 
 
-def reduce_run(run: LoadCellRun, last: float = LAST_SECONDS) -> RunMeans:
+def reduce_run(run: LoadCellRun, last: float = LAST_SECONDS, rest: Intervals = ()) -> RunMeans:
     """Return the coefficients of one run from the last seconds of its record.
 
     ``L = F_N cos a - F_T sin a``, ``D = F_N sin a + F_T cos a``; ``C_L = L/(q c h)``, ``C_D = D/(q c h)``,
     ``C_M = M/(q c^2 h)`` with ``q = rho U^2 / 2``, and ``x_cp = 1/2 - M/(F_N c)`` from the means. From each channel
-    we subtract a zero that drifts linearly from the still-fluid reading before the run to that after the run.
-    Standard errors come from block means (`wingbeat.experiment.statistics`); the error of the ratio x_cp is to
-    first order.
+    we subtract a zero that drifts linearly from the still-fluid reading before the run to that after it, or from
+    the mean in one stated interval of rest to that in the next. Standard errors come from block means
+    (`wingbeat.experiment.statistics`), in the window and in the rest; the error of the ratio x_cp is to first
+    order.
 
     Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602.
 
     Parameters
     ----------
-    last : length of the window at the end of the record [s]; everything before it counts as transient.
     run : the record.
+    last : length of the window [s], at the end of the record or of the part before the last rest; everything before
+        it counts as transient.
+    rest : start and end of each interval in which the fluid is at rest [s], in the record's time.
 
     Raises
     ------
-    InvalidInputError : `last` not positive or longer than the record, or a window of fewer than 32 samples.
+    InvalidInputError : `last` not positive or longer than the record, a window of fewer than 32 samples or at
+        rest, intervals of rest that are not in the record, move or come with zero readings, and coefficients that
+        no plate has: C_L beyond -5 to 5, C_D above 5 or below 0 by more than its error, less than friction alone.
     """
-    return _reduced([run], last)[0]
+    means = _reduced([run], last, rest)[0]
+    return means._replace(notes=(*([] if rest else zero_notes([run])), *means.notes))
 
 
-def _reduced(runs: Sequence[LoadCellRun], last: float) -> list[RunMeans]:
+def _reduced(runs: Sequence[LoadCellRun], last: float, rest: Intervals) -> list[RunMeans]:
     """Return the coefficients of each run; runs are reduced together, because each NumPy call is slow."""
-    steady = [_steady(run, last) for run in runs]
+    faults = FaultList()
+    spans = _spans(faults, rest)
+    faults.raise_if_any()
+    steady = [_steady(faults, run, last, spans) for run in runs]
+    faults.raise_if_any()
     alike: dict[int, list[int]] = {}
-    for place, (_, loads) in enumerate(steady):
-        alike.setdefault(loads.shape[1], []).append(place)
+    for place, part in enumerate(steady):
+        alike.setdefault(part.loads.shape[1], []).append(place)
     found: dict[int, RunMeans] = {}
     for size, places in alike.items():
         most = max(_AT_A_TIME // size, 1)
         for first in range(0, len(places), most):
             some = places[first : first + most]
-            loads = np.stack([steady[place][1] for place in some], axis=1)
-            means = _means([runs[place] for place in some], [steady[place][0] for place in some], loads)
+            means = _means([runs[place] for place in some], [steady[place] for place in some], bool(spans))
             found.update(zip(some, means, strict=True))
+    for place, run in enumerate(runs):
+        check_coefficients(faults, run, found[place])
+    faults.raise_if_any()
     return [found[place] for place in range(len(runs))]
 
 
-def _steady(run: LoadCellRun, last: float) -> tuple[float, NDArray[np.float64]]:
-    """Return a run's angle [deg], and C_N, C_T and C_M in the window at its end, shape (3, n)."""
-    keep = _window(run, last)
-    share = (run.time[keep] - run.time[0]) / (run.time[-1] - run.time[0])
-    tare = np.asarray(run.tare)
-    raw = np.stack([getattr(run, name)[keep] for name in CHANNELS])
-    normal, tangential, moment = raw - tare[:, :1] - (tare[:, 1:] - tare[:, :1]) * share
-    alpha_deg = float(np.mean(np.asarray(run.alpha_deg)[keep]))
+class _Steady(NamedTuple):
+    """The window of a run: its times [s], mean angle [deg], C_N, C_T, C_M, shape (3, n), and notes.
+
+    `zero_se` holds the standard errors of the zero at the middle of the window, as coefficients, shape (3,).
+    """
+
+    time: NDArray[np.float64]
+    alpha_deg: float
+    loads: NDArray[np.float64]
+    zero_se: NDArray[np.float64]
+    notes: list[str]
+
+
+def _spans(faults: FaultList, rest: Intervals) -> list[tuple[float, float]]:
+    """Return the intervals of rest in the order of time; note those that end before they start, or overlap."""
+    spans = sorted((float(start), float(end)) for start, end in rest)
+    for start, end in spans:
+        if not (math.isfinite(start) and math.isfinite(end) and start < end):
+            faults.add("rest", f"{start:g}:{end:g}", "must be a start and a later end", "such as 0:5, in seconds")
+    for (_, end), (start, _) in itertools.pairwise(spans):
+        if start <= end:
+            faults.add("rest", f"{start:g}", f"overlaps the interval that ends at {end:g} s", "join the two")
+    return spans
+
+
+def _steady(faults: FaultList, run: LoadCellRun, last: float, spans: list[tuple[float, float]]) -> _Steady:
+    """Return the window of a run without the zero; note a window at rest, and rest that is none."""
+    raw = np.stack([getattr(run, name) for name in CHANNELS])
     force = 0.5 * run.density * run.speed**2 * run.chord * run.span
-    return alpha_deg, np.stack([normal / force, tangential / force, moment / (force * run.chord)])
+    unit = np.array([force, force, force * run.chord])
+    keep, zero_se = _window(run, last, spans), np.zeros(3)
+    tare = np.asarray(run.tare)
+    if spans:
+        if np.isfinite(tare).any():
+            rule = "is stated, and the record has zero readings too"
+            faults.add(f"{run.name}, rest", "", rule, "leave out one of the two")
+        found, middle = stated_rest(faults, run, spans, raw), float(run.time[keep].mean())
+        centres = np.array([0.5 * (start + end) for start, end in spans])
+        shares = np.array([np.interp(middle, centres, one) for one in np.eye(len(spans))])
+        zero_se = np.sqrt(shares**2 @ found.zero_se**2) / unit
+        zero = np.stack([np.interp(run.time, centres, readings) for readings in found.zero.T])
+    else:
+        share = (run.time - run.time[0]) / (run.time[-1] - run.time[0])
+        before, after = np.nan_to_num(tare.T)[..., None]
+        zero = before + (after - before) * share
+    loads = raw - zero
+    refuse_rest(faults, run, loads[:2], keep)
+    notes = [*constant_notes(run), *signal_notes(run, keep, raw[:, keep])]
+    alpha_deg = float(np.mean(np.asarray(run.alpha_deg)[keep]))
+    return _Steady(run.time[keep], alpha_deg, loads[:, keep] / unit[:, None], zero_se, notes)
 
 
-def _means(runs: list[LoadCellRun], alpha_deg: list[float], loads: NDArray[np.float64]) -> list[RunMeans]:
-    """Return the coefficients of runs from their angles [deg] and their C_N, C_T, C_M, shape (3, runs, n)."""
-    c_n, c_t, c_m = loads
+def _means(runs: list[LoadCellRun], steady: list[_Steady], zeroed: bool) -> list[RunMeans]:
+    """Return the coefficients of runs whose windows have the same number of samples."""
+    c_n, c_t, c_m = np.stack([part.loads for part in steady], axis=1)
+    alpha_deg = [part.alpha_deg for part in steady]
     turns = [math.radians(angle) for angle in alpha_deg]
     cos, sin = (np.array([[function(turn)] for turn in turns]) for function in (math.cos, math.sin))
     mean_n, mean_m = c_n.mean(axis=1, keepdims=True), c_m.mean(axis=1, keepdims=True)
     # Change of the ratio with force and moment, to first order; not used where the ratio is undefined.
     some = np.where(mean_n == 0, 1.0, mean_n)
-    lever = np.where(mean_n == 0, 0.0, -(c_m - mean_m / some * c_n) / some)
+    lever_slope = mean_m / some
+    lever = np.where(mean_n == 0, 0.0, -(c_m - lever_slope * c_n) / some)
     series = np.stack([c_n * cos - c_t * sin, c_n * sin + c_t * cos, c_m, lever, c_n], axis=1)
     mean, sd, se = series.mean(axis=2), series.std(axis=2, ddof=1), standard_error(series)
-    notes = _unsteady([run.name for run in runs], series[:, :3])
+    # The error of the zero: of C_L and C_D from those of C_N and C_T; of the lever, through force and moment.
+    of_n, of_t, of_m = np.stack([part.zero_se for part in steady], axis=1)[..., None]
+    of_lever = np.hypot(of_m, lever_slope * of_n) / np.abs(some)
+    se = np.hypot(
+        se,
+        np.stack(
+            [np.hypot(of_n * cos, of_t * sin), np.hypot(of_n * sin, of_t * cos), of_m, of_lever, of_n], axis=1
+        )[..., 0],
+    )
+    notes = unsteady(runs, [part.time for part in steady], series[:, :3], zeroed)
     means = []
     for i, run in enumerate(runs):
         found = np.stack([mean[i], sd[i], se[i]])[:, :4]
@@ -125,24 +190,37 @@ def _means(runs: list[LoadCellRun], alpha_deg: list[float], loads: NDArray[np.fl
         found[:, 3] = _centre(normal, float(mean_m[i, 0]), normal_se, sd[i, 3], se[i, 3])
         blockage = _blockage(run, float(cos[i, 0]), float(sin[i, 0]))
         rows = found[0], found[1], found[2]
-        means.append(RunMeans(alpha_deg[i], run.reynolds, *rows, normal, normal_se, blockage, notes[i]))
+        one = RunMeans(alpha_deg[i], run.reynolds, *rows, normal, normal_se, blockage, ())
+        said = (*notes[i], *steady[i].notes, *coefficient_notes(run, one))
+        means.append(one._replace(notes=said))
     return means
 
 
-def _window(run: LoadCellRun, last: float) -> NDArray[np.bool_]:
+def _window(run: LoadCellRun, last: float, spans: list[tuple[float, float]]) -> NDArray[np.bool_]:
+    """Return which samples are in the window: the last seconds of the part before, between or after the rest."""
+    moving = np.ones(run.time.size, dtype=bool)
+    for start, end in spans:
+        moving &= (run.time < start) | (run.time > end)
     faults = FaultList()
+    if not moving.any():
+        rule = "covers the whole record"
+        faults.add(f"{run.name}, rest", f"{spans[0][0]:g}:{spans[-1][1]:g}", rule, "state only the rest")
+        faults.raise_if_any()
+    until = float(run.time[moving][-1])
+    since = max((end for _, end in spans if end < until), default=float(run.time[0]))
+    step = run.duration / len(run.time)
     fix = "give the length of the steady part at the end of the record"
     if faults.number("last", last, above=0, unit="s", fix=fix):
-        step = run.duration / len(run.time)
-        if last > run.duration + step:
-            rule = f"is longer than the record of {run.name}, {run.duration:.4g} s"
+        if last > until - since + 2 * step:
+            rest = " between the stated rest" if spans else ""
+            rule = f"is longer than the record of {run.name}{rest}, {until - since + (0 if spans else step):.4g} s"
             faults.add("last", last, rule, "give a smaller --last, or record longer")
         elif last / step < MIN_SAMPLES - 0.5:
             rule = f"leaves fewer than {MIN_SAMPLES} samples of {run.name}"
             faults.add("last", last, rule, "give a larger --last, or sample faster")
     faults.raise_if_any()
     # Half a sample of tolerance; otherwise rounding decides whether the first sample is in the window.
-    return run.time > run.time[-1] - last + 0.5 * run.duration / len(run.time)
+    return moving & (run.time > until - last + 0.5 * step)
 
 
 def _centre(normal: float, moment: float, normal_se: float, sd: float, se: float) -> tuple[float, float, float]:
@@ -152,23 +230,6 @@ def _centre(normal: float, moment: float, normal_se: float, sd: float, se: float
     return 0.5 - moment / normal, sd, se
 
 
-def _unsteady(names: list[str], series: NDArray[np.float64]) -> list[tuple[str, ...]]:
-    """Return a note that names the coefficients whose drift in the window exceeds their block means' scatter."""
-    size = series.shape[2] // _TREND_BLOCKS
-    blocks = series[..., : size * _TREND_BLOCKS].reshape(*series.shape[:2], _TREND_BLOCKS, size).mean(axis=3)
-    place = np.linspace(-1.0, 1.0, _TREND_BLOCKS)
-    slope = blocks @ place / (place @ place)
-    left = blocks - blocks.mean(axis=2, keepdims=True) - slope[..., None] * place
-    error = np.sqrt((left**2).sum(axis=2) / (_TREND_BLOCKS - 2) / (place @ place))
-    drifts = np.abs(slope) > np.maximum(_TREND_LIMIT * error, 1e-9)
-    notes: list[tuple[str, ...]] = []
-    for name, row in zip(names, drifts, strict=True):
-        moved = [label for label, drifting in zip(QUANTITIES, row, strict=False) if drifting]
-        text = f"{name}: still drifting within the window: {', '.join(moved)}; give a smaller --last"
-        notes.append((text,) if moved else ())
-    return notes
-
-
 def _blockage(run: LoadCellRun, cos: float, sin: float) -> float:
     """Return the plate's width across the stream divided by the channel's width; 0 if that is not given."""
     if run.channel_width is None:
@@ -176,7 +237,7 @@ def _blockage(run: LoadCellRun, cos: float, sin: float) -> float:
     return (run.chord * abs(sin) + run.thickness * abs(cos)) / run.channel_width
 
 
-def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS) -> CoefficientTable:
+def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS, rest: Intervals = ()) -> CoefficientTable:
     """Return the coefficients of a campaign: one row for each angle and Reynolds number; repeated runs are pooled.
 
     Runs within half a degree and 5 per cent in Reynolds number are repeats of one point. A row's mean is the mean
@@ -188,7 +249,7 @@ def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS) -> Coef
     Parameters
     ----------
     runs : the records.
-    last : length of the window at the end of each record [s].
+    last, rest : window and intervals of rest of each record, see `reduce_run`.
 
     Raises
     ------
@@ -198,7 +259,7 @@ def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS) -> Coef
         faults = FaultList()
         faults.add("runs", "none", "there is nothing to reduce", "name at least one run")
         faults.raise_if_any()
-    means = _reduced(runs, last)
+    means = _reduced(runs, last, rest)
     alpha = np.array([one.alpha_deg for one in means])
     refuse_radians("alpha_deg of the runs", alpha)
     stream = _clusters(np.log([one.reynolds for one in means]), math.log(SAME_REYNOLDS))
@@ -206,7 +267,7 @@ def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS) -> Coef
     for k in range(stream.max() + 1):
         here = stream == k
         point[here] = _clusters(alpha[here], SAME_ALPHA_DEG) + (point.max() + 1 if k else 0)
-    return _pooled(means, stream, point)
+    return _pooled(means, stream, point, [] if rest else zero_notes(runs))
 
 
 def _clusters(values: NDArray[np.float64], gap: float) -> NDArray[np.intp]:
@@ -218,7 +279,9 @@ def _clusters(values: NDArray[np.float64], gap: float) -> NDArray[np.intp]:
     return clusters
 
 
-def _pooled(means: list[RunMeans], stream: NDArray[np.intp], point: NDArray[np.intp]) -> CoefficientTable:
+def _pooled(
+    means: list[RunMeans], stream: NDArray[np.intp], point: NDArray[np.intp], notes: list[str]
+) -> CoefficientTable:
     count = np.bincount(point)
 
     def average(values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -257,7 +320,7 @@ def _pooled(means: list[RunMeans], stream: NDArray[np.intp], point: NDArray[np.i
         sd=spread,
         se=error,
         runs=count,
-        notes=_notes(means),
+        notes=(*notes, *_notes(means)),
     )
 
 

@@ -104,7 +104,7 @@ def test_no_speed_is_given_beside_a_jump_or_a_gap():
         assert (found["status"], found["speed"], found["interval"]) == ("beside_jump", None, None)
         assert found["lowest"] == 5.0
         assert next_speeds(line, TOLERANCE) == []
-        assert "none is given: the best wingbeat changes branch there" in speed_in_words(found)
+        assert "none is given, because the best wingbeat changes branch there" in speed_in_words(found)
     farther = line_of(speed, valley, "frequency", (0, 3))
     assert characteristic_speeds(farther)["minimum_frequency"]["status"] == "found"
     gap = line_of(speed, np.where(speed == 6.0, np.nan, valley), "frequency")

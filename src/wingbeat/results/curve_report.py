@@ -151,9 +151,9 @@ def speed_in_words(found: dict[str, Any] | None) -> str:
         where = "in hover" if end == 0 else f"{found['status'].replace('_', ' ')} {end:g} m/s"
         return f"{where}, where the curve {'begins' if end == 0 else 'ends'}"
     return {
-        "beside_jump": "none is given: the best wingbeat changes branch there",
-        "beside_gap": "none is given: a speed without an orbit is beside it",
-        "set_by_limit": "none is given: the limit has set the minimised quantity",
+        "beside_jump": "none is given, because the best wingbeat changes branch there",
+        "beside_gap": "none is given, because a speed without an orbit is beside it",
+        "set_by_limit": "none is given, because the limit has set the minimised quantity",
     }[found["status"]]
 
 
@@ -192,7 +192,11 @@ def _told(found: dict[str, Any] | None, quantity: str, objective: str) -> str:
     value = written(factor * found["value"], unit=unit)
     if "lowest" not in found:
         return f"{text}, {value}" if found["status"] == "found" else text
-    text += f", {value}" if found["status"] == "found" else f"; {value} at {found['lowest']:g} m/s"
+    text += (
+        f", {value}"
+        if found["status"] == "found"
+        else f"; the least computed is {value} at {found['lowest']:g} m/s"
+    )
     if found["status"] in ("found", "at_or_below", "at_or_above"):
         low, high = found["within_2_percent"]
         text += f"; {quantity} is within 2 % of its minimum from {written_range(low, high, 'm/s')}"

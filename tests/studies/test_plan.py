@@ -290,13 +290,6 @@ def test_a_form_may_hold_what_python_holds():
     assert form.vary["speed"].values == [6.0, 7.0, 8.0]
 
 
-def test_the_estimate_counts_the_searches_that_will_be_made(tmp_path):
-    def seconds(**form):
-        return wb.plan_study({"species": "bat", "speed": 9.0} | form, store=tmp_path / "x.study.sqlite").estimate()
-
-    assert seconds(minimise="peak_power") > seconds(minimise="mean_power") > seconds() == seconds(starts=6)
-
-
 @pytest.mark.parametrize("source", [5, b"wings.toml", ["wings.toml"]])
 def test_what_is_no_study_is_refused(source):
     with pytest.raises(

@@ -21,13 +21,15 @@ if TYPE_CHECKING:
 # Where stderr is no terminal, a line tells of work that lasts so long, and again each time its duration doubles.
 # Work of the usual few seconds prints nothing.
 FIRST_LINE = 20.0  # s
+_COMPILES = "the first run also compiles programs, which takes up to two minutes"
+FIRST_POINT = "the first point takes longest, because programs are compiled for it; then the time left is known"
 
 
 @contextlib.contextmanager
 def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
     """Yield a function that shows (done, in all) on stderr: in a bar, or in a few lines outside a terminal."""
     if not sys.stderr.isatty():
-        with _Lines(what) as lines:
+        with _Lines(what, _COMPILES) as lines:
             yield lines.update
         return
     from rich.console import Console
@@ -46,8 +48,9 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
 class _Lines:
     """Plain lines on stderr that tell how far long work is, for a log or another program."""
 
-    def __init__(self, what: str) -> None:
-        self._what, self._done, self._total = what, 0, 0
+    def __init__(self, what: str, hint: str) -> None:
+        self._what, self._hint, self._done, self._total = what, hint, 0, 0
+        self._left: float | None = None
         self._ended = threading.Event()
         # A thread, because the first programs compile for a minute before the work calls `update`.
         self._teller = threading.Thread(target=self._tell, daemon=True)
@@ -60,15 +63,16 @@ class _Lines:
         self._ended.set()
         self._teller.join()
 
-    def update(self, done: int, total: int) -> None:
-        self._done, self._total = done, total
+    def update(self, done: int, total: int, left: float | None = None) -> None:
+        """Note how much is done, of how much, and the seconds that are left, if known; then the hint is over."""
+        self._done, self._total, self._left = done, total, left
 
     def _tell(self) -> None:
-        began, due = time.monotonic(), FIRST_LINE
-        hint = "; the first run also compiles programs, which takes up to two minutes"
+        began, due, hint = time.monotonic(), FIRST_LINE, f"; {self._hint}"
         while not self._ended.wait(began + due - time.monotonic()):
             counted = f"{self._done} of {self._total} done" if self._total else "still working"
-            say(f"{self._what}: {counted} after {duration(due)}{hint}")
+            left = hint if self._left is None else f"; about {duration(self._left)} left"
+            say(f"{self._what}: {counted} after {duration(due)}{left}")
             due, hint = 2.0 * due, ""
 
 
@@ -78,10 +82,11 @@ def _show_cursor() -> None:
 
 
 @contextlib.contextmanager
-def study_bar() -> Iterator[Callable[[Tally], None] | None]:
-    """Yield a function that shows a study's tally on stderr; None if stderr is not a terminal."""
+def study_bar() -> Iterator[Callable[[Tally], None]]:
+    """Yield a function that shows a study's tally on stderr: in a bar, or in a few lines outside a terminal."""
     if not sys.stderr.isatty():
-        yield None
+        with _Lines("points", FIRST_POINT) as lines:
+            yield lambda tally: lines.update(tally.done, tally.total, tally.seconds_left)
         return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
@@ -95,8 +100,9 @@ def study_bar() -> Iterator[Callable[[Tally], None] | None]:
         def update(tally: Tally) -> None:
             left = tally.seconds_left
             parts = [f"{tally.count(status)} {status.replace('-', ' ')}" for status in (CERTIFIED, *UNCERTIFIED)]
-            parts += [f"{tally.failed} failed", f"{tally.rate:.1f}/s"]
-            parts += [] if left is None else [f"{duration(left)} left"]
+            parts += [f"{tally.failed} failed"]
+            parts += [FIRST_POINT] if not tally.here else [pace(tally.rate)]
+            parts += [] if left is None else [f"about {duration(left)} left"]
             bar.update(task, completed=tally.done, total=tally.total, description=", ".join(parts))
 
         yield update
@@ -111,6 +117,15 @@ def duration(seconds: float) -> str:
     if seconds < 100:
         return f"{seconds:.0f} s"
     return f"{seconds / 60:.0f} min" if seconds < 6000 else f"{seconds / 3600:.1f} h"
+
+
+def pace(rate: float) -> str:
+    """Return a rate [1/s] as points per second, or as the time of each point if that is longer than a second.
+
+    >>> pace(12.34), pace(0.02)
+    ('12.3 per second', '50 s each')
+    """
+    return f"{rate:.1f} per second" if rate >= 1.0 or rate <= 0.0 else f"{duration(1.0 / rate)} each"
 
 
 def say(words: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
@@ -12,7 +13,7 @@ from cyclopts import App, Parameter, Token
 
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import Whole, check_outputs
-from wingbeat.cli.progress import duration, exit_of, say, say_stopping, study_bar
+from wingbeat.cli.progress import FIRST_POINT, duration, exit_of, pace, say, say_stopping, study_bar
 from wingbeat.errors import FaultList, suggest
 
 if TYPE_CHECKING:
@@ -72,6 +73,7 @@ def run(
     wingbeat study run designs.toml --dask tcp://login1:8786
     """
     from wingbeat.studies.driver import listening
+    from wingbeat.studies.report import points_wait
     from wingbeat.studies.study import check_run, engine_for
     from wingbeat.studies.units import FAILED
 
@@ -87,6 +89,7 @@ def run(
         say(_told(tally))
     _print_summary(asked)
     if stop.level:
+        say(f"{points_wait(asked.status())}; to resume: wingbeat study run {shlex.quote(str(file))}")
         return exit_of(stop)
     return EXIT_GOOD if tally.certified == tally.total or allow_failures else EXIT_NOT_CERTIFIED
 
@@ -163,14 +166,19 @@ def _read(file: Path) -> Study:
 
 
 def _announcement(asked: Study, total: int, left: int, processes: int) -> str:
-    """Return how many points there are, how many of them will be solved, and about how long that will take."""
-    seconds = asked.estimate(processes, left)
+    """Return how many points there are, how many of them will be solved, and how long that will take if known."""
+    seconds = asked.estimate(processes, left) if left else 0.0
     many = "processes" if processes > 1 else "process"
-    return f"{total} points, {left} to solve: about {duration(seconds)} with {processes} {many}"
+    told = f"{total} points, {left} to solve"
+    if seconds is None:
+        return f"{told} with {processes} {many}; {FIRST_POINT}"
+    return f"{told}: about {duration(seconds)} with {processes} {many}" if left else told
 
 
 def _told(tally: Tally) -> str:
-    return f"{tally.here} points solved, {tally.rate:.1f} per second" if tally.here else "nothing left to solve"
+    if not tally.here:
+        return "no point was solved" if tally.count("waiting") else "nothing left to solve"
+    return f"{tally.here} points solved, {pace(tally.rate)}"
 
 
 def _print_summary(asked: Study) -> None:

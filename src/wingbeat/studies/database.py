@@ -29,6 +29,14 @@ CREATE TABLE points (key TEXT PRIMARY KEY, status TEXT NOT NULL, base TEXT NOT N
 CREATE INDEX points_status ON points (key, status, run_number);
 """
 
+# Mean time of the points solved first, without the first points of each worker process, because it also compiles
+# programs for them.
+_RUN = "run_number, run_worker"
+MEAN_SECONDS = f"""
+WITH some AS (SELECT run_seconds, run_finished, {_RUN} FROM points WHERE run_seconds > 0 LIMIT 1000)
+SELECT AVG(run_seconds) FROM some
+    WHERE ({_RUN}, run_finished) NOT IN (SELECT {_RUN}, MIN(run_finished) FROM some GROUP BY {_RUN})
+"""
 
 # Databases that this process has open, by device and inode, with the number of connections.
 _OPEN: Counter[tuple[int, int]] = Counter()

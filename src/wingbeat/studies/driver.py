@@ -85,12 +85,14 @@ class Tally:
     counts : number of points by status.
     here : number of points that this run has solved.
     begun : when it began, in seconds of a monotonic clock.
+    first : number of the first points that ended together, and when they ended, on the same clock.
     """
 
     total: int
     counts: dict[str, int]
     here: int = 0
     begun: float = field(default_factory=time.monotonic)
+    first: tuple[int, float] | None = None
 
     @property
     def done(self) -> int:
@@ -118,14 +120,19 @@ class Tally:
 
     @property
     def seconds_left(self) -> float | None:
-        """Seconds left at this rate; None before a point is solved."""
-        return (self.total - self.done) / self.rate if self.here else None
+        """Seconds left, from the points solved after the first ones, which also compile programs; None before."""
+        if self.first is None or self.here <= self.first[0]:
+            return None
+        each = (time.monotonic() - self.first[1]) / (self.here - self.first[0])
+        return (self.total - self.done) * each
 
     def add(self, outcomes: list[Outcome]) -> None:
         """Count new outcomes of waiting points."""
         for outcome in outcomes:
             self.counts[outcome.status] = self.counts.get(outcome.status, 0) + 1
         self.here += len(outcomes)
+        if self.first is None and self.here:
+            self.first = self.here, time.monotonic()
         self.counts["waiting"] = self.counts.get("waiting", 0) - len(outcomes)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, cast
 
 from wingbeat.reports import Block, Line, Report, Reported, Row, Table, drawn
+from wingbeat.studies.summary import Summary
 from wingbeat.studies.units import STATUSES
 
 if TYPE_CHECKING:
@@ -53,6 +54,17 @@ def study_report(study: Study) -> Report:
     if troubled > _LISTED:
         blocks.append(Line(f"... and {troubled - _LISTED} more; `wingbeat study export` lists all"))
     return blocks
+
+
+def points_wait(summary: Summary) -> str:
+    """Return the words for how many points of a study wait for a result.
+
+    >>> points_wait(Summary(3, {"converged": 1, "waiting": 2})), points_wait(Summary(1, {"waiting": 1}))
+    ('2 of 3 points wait', 'the only point waits')
+    """
+    if summary.total == 1:
+        return "the only point waits" if summary.waiting else "no point waits"
+    return f"{summary.waiting} of {summary.total} points wait{'s' if summary.waiting == 1 else ''}"
 
 
 def _in_words(row: dict[str, Any]) -> str:

@@ -16,6 +16,7 @@ from wingbeat.errors import FileError
 from wingbeat.studies.database import (
     APPLICATION,
     FORM,
+    MEAN_SECONDS,
     TABLES,
     closing,
     connect,
@@ -306,10 +307,9 @@ class Store:
             return self._connection.execute("SELECT COUNT(*) FROM points").fetchone()[0]
 
     def seconds(self) -> float | None:
-        """Return the mean time of a point in this store [s], None if there is none."""
+        """Return the mean time of a point in this store [s], without first points; None if there is none."""
         with in_words(self.path):
-            some = "SELECT run_seconds FROM points WHERE run_seconds > 0 LIMIT 1000"
-            return self._connection.execute(f"SELECT AVG(run_seconds) FROM ({some})").fetchone()[0]
+            return self._connection.execute(MEAN_SECONDS).fetchone()[0]
 
     def spent(self) -> float:
         """Return the computing time of the results of the plan's points, on one core [s]."""

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Any
 from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError
 from wingbeat.nomenclature import label_of, plain_unit
 from wingbeat.orbits.many.batch import check_processes
-from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.orbit import Orbit
 from wingbeat.species_schema import shown
 from wingbeat.studies.driver import Progress, Stop, Tally, drive, listening
@@ -22,7 +21,7 @@ from wingbeat.studies.lock import only_one, real_path
 from wingbeat.studies.objective import changed_code, named
 from wingbeat.studies.plan import Plan, make_plan
 from wingbeat.studies.recipe import MOTION
-from wingbeat.studies.report import ReportedStudy
+from wingbeat.studies.report import ReportedStudy, points_wait
 from wingbeat.studies.salvage import Salvaged, salvage
 from wingbeat.studies.store import Store
 from wingbeat.studies.summary import Summary
@@ -37,8 +36,6 @@ if TYPE_CHECKING:
 _SUFFIX = ".study.sqlite"
 # Largest time limit of a point [s], more than ten days: operating systems refuse to wait for years.
 _LONGEST = 1e6
-# Assumed seconds of a search, of its record, and of the start of a process, until this machine has solved a point.
-_SEARCH, _RECORD, _START = 0.035, 0.01, 8.0
 
 
 class Study(ReportedStudy):
@@ -65,8 +62,11 @@ class Study(ReportedStudy):
     def __len__(self) -> int:
         return len(self.plan)
 
-    def estimate(self, processes: int = 1, waiting: int | None = None) -> float:
-        """Return an estimate of how long points will take [s], from the results in the store if there are any.
+    def estimate(self, processes: int = 1, waiting: int | None = None) -> float | None:
+        """Return an estimate of how long points will take [s], from the results in the store.
+
+        It is None if the store has no results to estimate from: first points do not count, because they also
+        compile programs.
 
         Parameters
         ----------
@@ -80,10 +80,7 @@ class Study(ReportedStudy):
                 if waiting is None and store.digest == self.plan.digest:
                     waiting = store.counts().get("waiting", 0)
         waiting = len(self) if waiting is None else waiting
-        form = self.plan.form
-        starts = form.starts or [usual_starts(base.recipe.example) for base in self.plan.bases]
-        each = each or _SEARCH * sum(starts) / len(starts) + _RECORD
-        return waiting * each / processes + (_START if waiting else 0.0)
+        return None if each is None else waiting * each / processes
 
     def run(
         self,
@@ -113,14 +110,15 @@ class Study(ReportedStudy):
             wingbeat.
         FileError : the store cannot be written, is damaged, in use, or of another numerical version.
         InvalidInputError : processes or timeout out of range.
-        KeyboardInterrupt : Ctrl-C; it is raised after the results were saved.
+        KeyboardInterrupt : Ctrl-C; it is raised after the results were saved, and says how many points wait.
         """
         engine = engine_for(processes, timeout, dask, warnings.warn)
         with listening() as stop:
             self.run_on(engine, stop, retry_failed, progress)
+        summary = self.status()
         if stop.level:
-            raise KeyboardInterrupt
-        return self.status()
+            raise KeyboardInterrupt(f"{points_wait(summary)} in {str(self.store)!r}; run the study again to resume")
+        return summary
 
     def prepare(self) -> Summary:
         """Write the study's points to its store, solve none, and return how many already have a result.

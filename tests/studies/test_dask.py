@@ -3,12 +3,14 @@
 import os
 import pickle
 import re
+import shutil
 import signal
 import sqlite3
 import subprocess
 import sys
 import time
 
+import dask
 import distributed
 import pytest
 
@@ -27,7 +29,7 @@ RUN = "import sys; from distributed.cli import {0}; sys.argv[0] = '{0}'; {0}.mai
 class Cluster:
     """A scheduler and workers on this host's loopback, each a process of its own, all with a study's mark."""
 
-    def __init__(self, study, seconds=0.02, log="", **settings):
+    def __init__(self, study, seconds=0.02, log="", protocol="tcp", **settings):
         self.environment = os.environ | {
             "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path]),
             "STUDY_MARK": study.mark,
@@ -37,10 +39,10 @@ class Cluster:
         }
         self.study = study
         self.workers = []
-        words = ("--host", "127.0.0.1", "--port", "0", "--no-dashboard", "--no-show")
+        words = ("--host", "127.0.0.1", "--port", "0", "--protocol", protocol, "--no-dashboard", "--no-show")
         self.scheduler = self.start("dask_scheduler", *words, stderr=subprocess.PIPE, text=True)
         for line in self.scheduler.stderr:
-            if found := re.search(r"Scheduler at:\s+(tcp://\S+)", line):
+            if found := re.search(r"Scheduler at:\s+(\w+://\S+)", line):
                 self.address = found[1]
                 break
 
@@ -224,6 +226,15 @@ def test_what_cannot_be_used_is_explained(cheap, monkeypatch):
     code, _, err = study.run("run", study.file, "--dask", "tcp://127.0.0.1:9")
     assert code == 2
     assert "no Dask scheduler answers at tcp://127.0.0.1:9; check the address" in err
+    begun = time.monotonic()
+    code, _, err = study.run("run", study.file, "--dask", "tls://127.0.0.1:9")
+    assert code == 2
+    assert "tls://127.0.0.1:9 needs certificates, and Dask has none here; set DASK_DISTRIBUTED__COMM__" in err
+    files = dict.fromkeys(("ca-file", "client.cert", "client.key"), "missing.pem")
+    with dask.config.set({f"distributed.comm.tls.{name}": file for name, file in files.items()}):
+        code, _, err = study.run("run", study.file, "--dask", "tls://127.0.0.1:9")
+    assert (code, "cannot read the certificates for tls://127.0.0.1:9: no such file" in err) == (2, True), err
+    assert time.monotonic() - begun < 15  # Dask's client would wait for 20 s
     for wrong in ("127.0.0.1:9", "local:0", "local:", "http://127.0.0.1:9"):
         code, _, err = study.run("run", study.file, "--dask", wrong)
         assert (code, "names no Dask cluster; give tcp://HOST:PORT" in err) == (2, True), err
@@ -233,6 +244,25 @@ def test_what_cannot_be_used_is_explained(cheap, monkeypatch):
     code, _, err = study.run("run", study.file, "--dask", "local:1")
     assert (code, "pip install '.[cluster]'" in err) == (2, True), err
     assert study.points() == {}
+
+
+@pytest.mark.skipif(shutil.which("openssl") is None, reason="needs the program openssl")
+def test_a_cluster_with_the_certificates_of_the_guide(cheap, cluster, tmp_path):
+    page = (ROOT / "docs/guide/clusters.md").read_text()
+    (block,) = re.findall(r"```bash\n(TLS=.*?)```", page, re.DOTALL)
+    words = ["bash", "-ec", block + "\nenv -0"]
+    told = subprocess.check_output(words, env=os.environ | {"HOME": str(tmp_path)}, stderr=subprocess.DEVNULL)
+    settings = dict(line.split("=", 1) for line in told.decode().split("\0") if line.startswith("DASK_"))
+    study = cheap(GRID[:5])
+    machines = cluster(study, seconds=0.0, protocol="tls", **settings)
+    machines.add_worker("--no-nanny")
+    assert machines.address.startswith("tls://")
+    code, _, err = study.run("run", study.file, "--dask", machines.address)
+    assert (code, "needs certificates, and Dask has none here" in err) == (2, True), err
+    driver = study.start("run", study.file, "--dask", machines.address, env=settings)
+    _, err = driver.communicate(timeout=60)
+    assert driver.returncode == 0, err
+    assert len(study.points()) == 5
 
 
 def test_workers_with_other_numbers_are_refused(cheap, monkeypatch):

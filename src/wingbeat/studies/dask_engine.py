@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import pickle
 import queue
@@ -10,11 +11,12 @@ import time
 import uuid
 from collections import deque
 from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from wingbeat._version import NUMERICAL_VERSION
-from wingbeat.errors import ClusterError, FaultList, install_extra
+from wingbeat.errors import ClusterError, FaultList, install_extra, system_reason
 from wingbeat.studies.dask_work import Order, dismiss, greet, other_numbers, solve_batch
 from wingbeat.studies.engine import Ended, LocalProcesses
 from wingbeat.studies.units import Unit
@@ -27,6 +29,8 @@ _LOCAL, _REMOTE = re.compile(r"local:([1-9][0-9]{0,3})"), re.compile(r"(tcp|tls)
 # Seconds to wait for a scheduler's first reply; seconds between two checks of its workers; seconds to wait for an
 # answer that exists, but whose worker may just have died.
 _CONNECT, _LOOK, _FETCH = 10.0, 2.0, 5.0
+# Where Dask looks for the certificates of a client, if its configuration files name none.
+_CERTIFICATES = tuple(f"DASK_DISTRIBUTED__COMM__TLS__{name}" for name in ("CA_FILE", "CLIENT__CERT", "CLIENT__KEY"))
 # Address of a cluster of our own: no other machine can reach it. Any free port is used.
 _LOOPBACK = "127.0.0.1:0"
 
@@ -232,8 +236,38 @@ def _connect(where: str | Cluster) -> tuple[LocalCluster | None, Client]:
             memory_limit=0,
         )
         return cluster, distributed.Client(cluster, set_as_default=False)
+    if isinstance(where, str):
+        # Tried first without a client: one that cannot connect would wait for 20 s when it is deleted.
+        with ThreadPoolExecutor(1) as elsewhere:  # this thread may have an event loop, as in notebooks
+            elsewhere.submit(asyncio.run, _reach(where)).result()
     try:
         return None, distributed.Client(where, timeout=_CONNECT, set_as_default=False)
     except (OSError, TimeoutError, ValueError):
-        fix = "check the address, which `dask scheduler` prints, and that it can be reached from here"
-        raise ClusterError(f"no Dask scheduler answers at {where}; {fix}") from None
+        raise _unreached(where) from None
+
+
+async def _reach(where: str) -> None:
+    """Raise `ClusterError` unless a scheduler answers, with the certificates of Dask's configuration."""
+    from distributed import Security
+    from distributed.comm.core import connect
+
+    try:
+        settings = Security().get_connection_args("client")
+    except OSError as error:
+        what = f"cannot read the certificates for {where}: {system_reason(error)}"
+        raise ClusterError(f"{what}; check {', '.join(_CERTIFICATES)}") from None
+    if where.startswith("tls://") and settings["ssl_context"] is None:
+        fix = f"set {', '.join(_CERTIFICATES)} (see docs/guide/clusters.md)"
+        raise ClusterError(f"{where} needs certificates, and Dask has none here; {fix}")
+    try:
+        comm = await connect(where, timeout=_CONNECT, **settings)
+    except (OSError, TimeoutError, ValueError):
+        raise _unreached(where) from None
+    await comm.close()
+
+
+def _unreached(where: str | Cluster) -> ClusterError:
+    fix = "check the address, which `dask scheduler` prints, and that it can be reached from here"
+    if str(where).startswith("tls://"):
+        fix += ", and that both sides use the same certificates"
+    return ClusterError(f"no Dask scheduler answers at {where}; {fix}")

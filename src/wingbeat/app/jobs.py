@@ -22,6 +22,7 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import search_near
 from wingbeat.orbits.status import Status
+from wingbeat.results.netcdf import netcdf_bytes
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.provenance import problem_from
 from wingbeat.results.rows import orbit_groups
@@ -170,7 +171,7 @@ def _influence(what: dict[str, Any], context: Context) -> dict[str, Any]:
 def _file(what: dict[str, Any], context: Context) -> dict[str, Any]:
     """Return an orbit as the bytes of a file, in base 64."""
     dataset = orbit_again(what["of"]).dataset
-    content = bytes(dataset.to_netcdf(engine="h5netcdf")) if what["as"] == "nc" else _figure(dataset, what["as"])
+    content = netcdf_bytes(dataset) if what["as"] == "nc" else _figure(dataset, what["as"])
     return {"content": base64.b64encode(content).decode()}
 
 

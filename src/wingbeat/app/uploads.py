@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import itertools
-import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from wingbeat.app.links import from_json, to_plain
 from wingbeat.app.scenario import MOST_STARTS, Scenario, problem_of, species_from_text, species_in
@@ -13,21 +12,15 @@ from wingbeat.errors import FileError
 from wingbeat.files import read_text
 from wingbeat.models import MODELS
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.results.orbit import Orbit, load_orbit
+from wingbeat.results.orbit import Orbit, orbit_from
 from wingbeat.results.provenance import inputs_of
+from wingbeat.results.storage import load_dataset
 from wingbeat.species import species_text
 from wingbeat.studies.recipe import OF_ELEMENTS
-
-if TYPE_CHECKING:
-    import h5py
 
 MOST_BYTES = 5_000_000
 # Most bytes of all arrays of a file once they are unpacked; an orbit takes less than one million bytes.
 MOST_DECLARED = 50_000_000
-_MOST_OBJECTS = 400
-_MOST_ATTRIBUTE = 1_000_000
-# In a small file, many texts may share one place, and each of them is unpacked.
-_MOST_TEXTS = 8
 # What the parts of a problem are called on the page, where their keys would not be understood.
 _SPOKEN = {"aero": "model of the air loads", "free": "choice of free parameters"}
 _HDF5 = b"\x89HDF\r\n\x1a\n"
@@ -59,7 +52,6 @@ def read_upload(path: str, label: str) -> Orbit | dict[str, Any]:
         start = file.read(8)
     try:
         if start == _HDF5:
-            check_hdf5(path, label)
             return _checked(path, label)
         text = read_text(path)
         if text.lstrip()[:1] == "{":
@@ -70,83 +62,11 @@ def read_upload(path: str, label: str) -> Orbit | dict[str, Any]:
     return {"species": clean_label(species.name), "text": text}
 
 
-def check_hdf5(path: str, label: str) -> None:
-    """Refuse, before reading, a file with too many or too large arrays, or with links to other files.
-
-    Raises
-    ------
-    FileError : which rule it breaks.
-    """
-    import h5py
-
-    def refuse(why: str) -> FileError:
-        return FileError(f"cannot take {label!r}: {why}; give a file that `wingbeat orbit -o` wrote")
-
-    declared, objects = 0, 0
-    try:
-        with h5py.File(path, "r") as file:
-            pending: list[h5py.Group] = [file]
-            _check_attributes(file, refuse)
-            while pending:
-                group = pending.pop()
-                for name in group:
-                    objects += 1
-                    if objects > _MOST_OBJECTS:
-                        raise refuse(f"it holds more than {_MOST_OBJECTS} arrays")
-                    if not isinstance(group.get(name, getlink=True), h5py.HardLink):
-                        raise refuse("it points to other places or files")
-                    item = group[name]
-                    _check_attributes(item, refuse)
-                    if isinstance(item, h5py.Group):
-                        pending.append(item)
-                    elif isinstance(item, h5py.Dataset):
-                        declared += _declared(item, refuse)
-                    if declared > MOST_DECLARED:
-                        most = f"{MOST_DECLARED // 1_000_000} million bytes"
-                        raise refuse(f"it would take more than {most} when unpacked")
-    except FileError:
-        raise
-    except Exception as error:  # HDF5 reports damage through many kinds of exception
-        reason = str(error).split("\n")[0][:200]
-        raise FileError(f"cannot read {label!r}: it is damaged or cut short ({reason}); solve it again") from None
-
-
-def _declared(item: h5py.Dataset, refuse: Any) -> int:
-    """Return the unpacked size of an array or of one of its chunks, whichever is larger [bytes]."""
-    if item.external or item.is_virtual:
-        raise refuse("it points to other places or files")
-    count = math.prod(item.shape or (1,))
-    if item.dtype.kind == "O" and count > _MOST_TEXTS:
-        raise refuse("it holds arrays that are not numbers")
-    whole = count * item.dtype.itemsize
-    chunk = math.prod(item.chunks or (0,)) * item.dtype.itemsize
-    return max(whole, chunk)
-
-
-def _check_attributes(item: Any, refuse: Any) -> None:
-    if len(item.attrs) > _MOST_OBJECTS:
-        raise refuse(f"it holds more than {_MOST_OBJECTS} attributes at one place")
-    texts = 0
-    for name in item.attrs:
-        about = item.attrs.get_id(name)
-        count = math.prod(about.shape or (1,))
-        if count * about.dtype.itemsize > _MOST_ATTRIBUTE or (about.dtype.kind == "O" and count > _MOST_TEXTS):
-            raise refuse("it holds an attribute that is too large")
-        if about.dtype.kind == "O":
-            texts += len(str(item.attrs[name]))
-        if texts > _MOST_ATTRIBUTE:
-            raise refuse("it holds too much text")
-
-
 def _checked(path: str, label: str) -> Orbit:
     """Return the orbit in a file; refuse it if a series holds a value that is not finite."""
     import numpy as np
 
-    try:
-        orbit = load_orbit(path)
-    except (LookupError, TypeError, ValueError, AttributeError) as error:
-        reason = str(error).split("\n")[0][:200]
-        raise FileError(f"cannot read {label!r}: it is damaged ({reason}); solve it again") from None
+    orbit = orbit_from(load_dataset(path, "orbit", most=MOST_DECLARED))
     for name, values in orbit.dataset.variables.items():
         if values.dtype.kind == "f" and not np.isfinite(values.values).all():
             raise FileError(

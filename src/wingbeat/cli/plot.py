@@ -9,11 +9,11 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from wingbeat.cli.curve_report import drawn
-from wingbeat.cli.report import read_result
 from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList
 from wingbeat.plots import check_figure_name, power_page, save_figure, wingbeat_page
-from wingbeat.results.curve import curve_from
+from wingbeat.results.curve import Curve
+from wingbeat.results.storage import load_dataset
 
 
 def plot(
@@ -31,10 +31,10 @@ def plot(
     faults = FaultList()
     check_figure_name(faults, "--output", output)
     faults.raise_if_any()
-    dataset = read_result(file)
+    dataset = load_dataset(file)
     if power:
         page = power_page(dataset)
     else:
-        page = drawn(curve_from(dataset, file)) if dataset.attrs[KIND] == "curve" else wingbeat_page(dataset)
+        page = drawn(Curve(dataset)) if dataset.attrs[KIND] == "curve" else wingbeat_page(dataset)
     save_figure(page, output)
     print(f"wrote {output}", file=sys.stderr)

@@ -3,37 +3,19 @@
 from __future__ import annotations
 
 import json
-import os
-from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from wingbeat.cli.printing import print_report
-from wingbeat.datasets import KIND, STATE_NAMES
-from wingbeat.errors import FileError
+from wingbeat.datasets import STATE_NAMES
 from wingbeat.reports import grouped
 from wingbeat.results.orbit_report import orbit_report, status_line
 from wingbeat.results.rows import power_rows, state_rows, wingbeat_rows
-from wingbeat.results.storage import load_dataset
 
 if TYPE_CHECKING:
     import xarray as xr
     from rich.console import Console
-
-
-def read_result(path: str | PathLike[str]) -> xr.Dataset:
-    """Return the dataset of a file that `orbit -o`, `simulate -o` or `curve -o` wrote.
-
-    Raises
-    ------
-    FileError : missing, unreadable, cut short, or of another program.
-    """
-    dataset = load_dataset(path)
-    if dataset.attrs.get(KIND) not in ("orbit", "flight", "curve"):
-        ways = "give a file that `wingbeat orbit -o`, `simulate -o` or `curve -o` wrote"
-        raise FileError(f"cannot read {os.fspath(path)!r}: it holds no orbit, flight or curve of wingbeat; {ways}")
-    return dataset
 
 
 def print_orbit(record: dict[str, Any], console: Console) -> None:
@@ -41,27 +23,22 @@ def print_orbit(record: dict[str, Any], console: Console) -> None:
     print_report(orbit_report(record), console)
 
 
-def flight_summary(dataset: xr.Dataset, path: str | PathLike[str]) -> dict[str, Any]:
+def flight_summary(dataset: xr.Dataset) -> dict[str, Any]:
     """Return beats flown, vehicle, wingbeat, first and last state and mean powers; SI and radians.
 
-    Raises
-    ------
-    FileError : the file at `path`, from which the dataset was read, lacks one of these.
+    Parameters
+    ----------
+    dataset : of a flight.
     """
-    try:
-        about = {name: json.loads(dataset.attrs[name]) for name in ("vehicle", "wingbeat")}
-        lost = ~np.isfinite(dataset["hinge_power"].values + dataset["pitch_rate"].values)
-        reached = dataset.isel(phase=slice(int(lost.argmax()) if lost.any() else None))
-        phase = reached["phase"].values
-        power = {
-            name: float(np.trapezoid(reached[column].values, phase) / np.ptp(phase)) if len(phase) > 1 else None
-            for name, column in (("mean_power", "hinge_power"), ("mean_actuator_power", "actuator_power"))
-        }
-        ends = [{name: float(reached[name][i]) for name in STATE_NAMES} if len(phase) else None for i in (0, -1)]
-    except (KeyError, ValueError) as error:
-        raise FileError(
-            f"cannot read {os.fspath(path)!r} as a flight: it is damaged ({error}); run `wingbeat simulate` again"
-        ) from None
+    about = {name: json.loads(dataset.attrs[name]) for name in ("vehicle", "wingbeat")}
+    lost = ~np.isfinite(dataset["hinge_power"].values + dataset["pitch_rate"].values)
+    reached = dataset.isel(phase=slice(int(lost.argmax()) if lost.any() else None))
+    phase = reached["phase"].values
+    power = {
+        name: float(np.trapezoid(reached[column].values, phase) / np.ptp(phase)) if len(phase) > 1 else None
+        for name, column in (("mean_power", "hinge_power"), ("mean_actuator_power", "actuator_power"))
+    }
+    ends = [{name: float(reached[name][i]) for name in STATE_NAMES} if len(phase) else None for i in (0, -1)]
     beats = float(phase[-1]) if len(phase) else 0.0
     return {"completed": not lost.any(), "beats": beats, **about, "start": ends[0], "end": ends[1], **power}
 

@@ -9,12 +9,12 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from wingbeat.cli.curve_report import print_curve
-from wingbeat.cli.report import flight_summary, print_flight, print_orbit, read_result
+from wingbeat.cli.report import flight_summary, print_flight, print_orbit
 from wingbeat.cli.streams import plain_console
 from wingbeat.datasets import KIND
-from wingbeat.results.curve import curve_from
+from wingbeat.results.curve import Curve
 from wingbeat.results.power import power_account
-from wingbeat.results.storage import parse_attributes
+from wingbeat.results.storage import load_dataset, parse_attributes
 
 
 def show(
@@ -27,15 +27,15 @@ def show(
 
     Angles are printed in degrees; with --json in radians, as everywhere in files.
     """
-    dataset = read_result(file)
+    dataset = load_dataset(file)
     account = power_account(dataset) if power else None
     if dataset.attrs[KIND] == "curve":
-        curve = curve_from(dataset, file)
+        curve = Curve(dataset)
         print(json_format.dumps(curve.record(), indent=2, allow_nan=False)) if json else print_curve(curve)
         return
     console = plain_console()
     is_orbit = dataset.attrs[KIND] == "orbit"
-    record = parse_attributes(dataset.attrs, file)[0] if is_orbit else flight_summary(dataset, file)
+    record = parse_attributes(dataset.attrs)[0] if is_orbit else flight_summary(dataset)
     if account is not None:
         record["power_account"] = account
     if json:

@@ -10,9 +10,9 @@ from cyclopts import Parameter
 
 from wingbeat.cli.options import Whole, check_outputs, unpacking
 from wingbeat.cli.progress import progress_bar
-from wingbeat.cli.report import read_result
 from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.results.orbit import load_orbit
+from wingbeat.results.storage import load_dataset
 from wingbeat.stability.feedback_checks import MOST_DELAY
 from wingbeat.viewer import Push, animate, write_page
 
@@ -65,7 +65,7 @@ def view(
     faults.whole("--delay", delay or 0, 0, MOST_DELAY, "beats")
     faults.raise_if_any()
     check_outputs(output)
-    flights = [(path.stem, read_result(path)) for path in (file, other) if path is not None]
+    flights = [(path.stem, load_dataset(path, "orbit", "flight")) for path in (file, other) if path is not None]
     if suffix == ".html":
         write_page(flights, output, _pushes(file, delay or 0) if push else ())
     else:

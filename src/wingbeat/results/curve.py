@@ -5,15 +5,13 @@ from __future__ import annotations
 import functools
 import itertools
 import json
-import os
 import time
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from wingbeat.datasets import KIND
-from wingbeat.errors import FaultList, FileError
+from wingbeat.errors import FaultList
 from wingbeat.orbits.many.branches import Branches, trace
 from wingbeat.orbits.many.transitions import marks_of
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
@@ -28,7 +26,7 @@ from wingbeat.results.orbit import Orbit
 from wingbeat.results.provenance import inputs_of
 from wingbeat.results.record import finite_or_none
 from wingbeat.results.saving import Saveable
-from wingbeat.results.storage import inputs_hash, load_dataset
+from wingbeat.results.storage import load_dataset
 from wingbeat.workers.affinity import core_count
 
 if TYPE_CHECKING:
@@ -233,7 +231,7 @@ def load_curve(path: str | PathLike[str]) -> Curve:
 
     Raises
     ------
-    FileError : the file is missing, unreadable, truncated, or not a curve of wingbeat.
+    FileError : the file is missing, unreadable, truncated, not a curve of wingbeat, or changed after it was saved.
 
     >>> import tempfile, pathlib, wingbeat as wb
     >>> curve = wb.solve_curve(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), [12.0, 12.5], starts=1)
@@ -243,31 +241,4 @@ def load_curve(path: str | PathLike[str]) -> Curve:
     ...     wb.load_curve(path).record() == curve.record()
     True
     """
-    return curve_from(load_dataset(path), path)
-
-
-def curve_from(dataset: xr.Dataset, path: str | PathLike[str]) -> Curve:
-    """Return the curve in a dataset that came from a file.
-
-    Parameters
-    ----------
-    dataset : from a file.
-    path : of that file, for messages.
-
-    Raises
-    ------
-    FileError : the dataset is not a curve, or is damaged.
-    """
-    shown = repr(os.fspath(path))
-    if dataset.attrs.get(KIND) != "curve":
-        raise FileError(
-            f"cannot read {shown} as a curve: it does not hold a curve; give a file that `wingbeat curve -o` wrote"
-        )
-    try:
-        curve = Curve(dataset)
-        if dataset.attrs["inputs_hash"] != inputs_hash(json.loads(dataset.attrs["inputs"])):
-            raise ValueError("the inputs do not match their hash")
-        curve.record()
-    except (LookupError, ValueError, TypeError, AttributeError) as error:
-        raise FileError(f"cannot read {shown} as a curve: it is damaged ({error}); solve the curve again") from None
-    return curve
+    return Curve(load_dataset(path, "curve"))

@@ -13,19 +13,12 @@ from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.wing_points import CORNERS, strip_corners
 from wingbeat.nomenclature import NOMENCLATURE, attributes_of
 from wingbeat.nomenclature.series import SERIES, SERIES_WHERE_ON
+from wingbeat.results.forms import SERIES_DIMS
 
 if TYPE_CHECKING:
     import xarray as xr
 
 _BLOCK = 257
-_STRIP, _VECTOR = ("phase", "station"), ("phase", "station", "axis")
-# Dimensions of each variable; a variable that is not listed has one number per phase.
-_DIMS = {
-    **{name: (name,) for name in ("station", "axis", "corner")},
-    **dict.fromkeys(("strip_position", "strip_velocity", "strip_force"), _VECTOR),
-    **dict.fromkeys(("strip_speed", "strip_reynolds", "alpha", "lift", "drag"), _STRIP),
-    "strip_corner": ("phase", "station", "corner", "axis"),
-}
 
 
 def evaluate(model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray) -> Loads:
@@ -92,7 +85,7 @@ def flight_dataset(
     }
     return xr.Dataset(
         {
-            term.name: (_DIMS.get(term.name, ("phase",)), by_name[term.name], attributes_of(term))
+            term.name: (SERIES_DIMS.get(term.name, ("phase",)), by_name[term.name], attributes_of(term))
             for term in (*SERIES, *SERIES_WHERE_ON)
             if term.name in by_name
         },

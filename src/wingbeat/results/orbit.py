@@ -278,7 +278,7 @@ def load_orbit(path: str | PathLike[str]) -> Orbit:
 
     Raises
     ------
-    FileError : the file is missing, unreadable, truncated, or not an orbit of wingbeat.
+    FileError : the file is missing, unreadable, truncated, not an orbit of wingbeat, or changed after it was saved.
 
     >>> import tempfile, pathlib, wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -288,6 +288,15 @@ def load_orbit(path: str | PathLike[str]) -> Orbit:
     ...     wb.load_orbit(path).wingbeat == orbit.wingbeat
     True
     """
-    dataset = load_dataset(path)
-    record, inputs = parse_attributes(dataset.attrs, path)
+    return orbit_from(load_dataset(path, "orbit"))
+
+
+def orbit_from(dataset: xr.Dataset) -> Orbit:
+    """Return the orbit in a dataset.
+
+    Parameters
+    ----------
+    dataset : that `load_dataset` read and checked.
+    """
+    record, inputs = parse_attributes(dataset.attrs)
     return Orbit(_summary(record), inputs, record, dataset)

@@ -54,10 +54,17 @@ def plausibility(problem: OrbitProblem, beat: Beat, record: dict[str, Any]) -> l
         "positive_power_per_mass": record["mean_positive_power"] / problem.vehicle.mass,
         **{name: float(QUANTITIES[name].of(beat).max()) for name in ("peak_force_over_weight", "mean_body_pitch")},
     }
-    return [_judged(problem, name, values[name]) for name in judged_names(problem.species, problem.free)]
+    return [judged(problem, name, values[name]) for name in judged_names(problem.species, problem.free)]
 
 
-def _judged(problem: OrbitProblem, name: str, value: float | None) -> dict[str, Any]:
+def judged(problem: OrbitProblem, name: str, value: float | None) -> dict[str, Any]:
+    """Return the judgement of one number; `plausibility` says what it holds.
+
+    Parameters
+    ----------
+    problem : gives species and speed.
+    name, value : of the number, SI and radians; None if it has no value.
+    """
     known = problem.species.plausible_range(name, problem.speed)
     low, high = known.low, known.high
     within = None

@@ -162,6 +162,10 @@ def test_a_limit_that_binds_has_a_price():
     assert slopes.error_bar("mean_positive_power").set_by_limit
     assert not slopes.error_bar("frequency").set_by_limit
     compared = wb.uncertainty_by_samples(slopes, samples=10, share=0.02)
+    panels = wb.plots.tornado_page(slopes).axes
+    assert panels[1].get_xlabel() == "mean positive power: 46 W, set by the limit"
+    assert max(abs(bar.get_width()) for bar in panels[0].patches) == pytest.approx(1.0)
+    assert max(abs(bar.get_width()) for bar in panels[1].patches) == 0.0
     assert compared["frequency"].limited.share == 0.0
     assert compared["mean_positive_power"].limited.in_words("W") == "set by the limit 46 W in 100 % of the samples"
 

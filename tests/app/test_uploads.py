@@ -113,29 +113,24 @@ def test_arrays_that_would_unpack_to_a_flood_are_refused_before_they_are_read(al
 @pytest.mark.parametrize(
     ("act", "words"),
     [
-        (lambda f: [f.create_group(f"g{i}") for i in range(500)], "more than 400 arrays"),
+        (lambda f: f.create_group("g"), "it holds more than arrays and attributes, in 'g'"),
         (lambda f: f.__setitem__("out", h5py.ExternalLink("other.nc", "/")), "points to other places or files"),
         (lambda f: f.__setitem__("soft", h5py.SoftLink("/alpha")), "points to other places or files"),
         (
             lambda f: f.create_dataset("raw", (10,), "u1", external=[("passwords", 0, 10)]),
             "points to other places or files",
         ),
-        (lambda f: f.create_dataset("texts", (1000,), h5py.string_dtype()), "arrays that are not numbers"),
-        (lambda f: f.attrs.__setitem__("many", ["x"] * 100), "an attribute that is too large"),
-        (lambda f: f["alpha"].__setitem__((0, 0), np.nan), "alpha holds values that are not numbers"),
-        (lambda f: f.attrs.__delitem__("inputs"), "damaged"),
-        (lambda f: f.attrs.__setitem__("wingbeat", '{"frequency": "<b>"}'), "damaged"),
-        (lambda f: f.attrs.__setitem__("wingbeat_kind", "cake"), "it is of kind 'cake'"),
-        (lambda f: f.__delitem__("strip_corner"), "does not hold the corners of the strips"),
-        (lambda f: f.attrs.__setitem__("message", "x" * 30_000 + "y" * 30_000), None),
+        (lambda f: f.create_dataset("texts", (1000,), h5py.string_dtype()), "more than 50 million bytes when unp"),
+        (lambda f: f.attrs.__setitem__("many", ["x"] * 100), "an attribute of many texts, 'many'"),
+        (lambda f: f["alpha"].__setitem__((0, 0), np.nan), "it was changed after wingbeat wrote it"),
+        (lambda f: f.attrs.__delitem__("inputs"), "it was changed after wingbeat wrote it"),
+        (lambda f: f.attrs.__setitem__("wingbeat_kind", "cake"), "holds another kind of result, 'cake'"),
+        (lambda f: f.__delitem__("strip_corner"), "it was changed after wingbeat wrote it"),
+        (lambda f: f.attrs.__delitem__("wingbeat_digest"), "it has no digest"),
     ],
 )
 def test_an_orbit_that_was_tampered_with(altered, act, words):
-    path = altered(act)
-    if words is None:  # a long text is only that
-        assert len(read(path)["answer"]["record"]["message"]) == 60_000
-    else:
-        assert words in refused(path)
+    assert words in refused(altered(act))
 
 
 @pytest.mark.parametrize(

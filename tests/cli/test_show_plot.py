@@ -12,6 +12,7 @@ from rich.console import Console
 import wingbeat as wb
 from wingbeat.cli import main
 from wingbeat.cli.report import flight_summary, print_flight, print_orbit
+from wingbeat.results.storage import save_dataset
 
 
 @pytest.fixture(scope="module")
@@ -44,7 +45,7 @@ BAD_FILES = [
     ("cut.nc", "it is damaged or cut short"),
     ("empty.nc", "it is not a NetCDF-4 file"),
     ("text.nc", "it is not a NetCDF-4 file"),
-    ("foreign.nc", "it holds no orbit, flight or curve of wingbeat"),
+    ("foreign.nc", "it is not from wingbeat; give a file that"),
     ("folder.nc", "is a directory"),
 ]
 
@@ -63,13 +64,13 @@ def test_bad_files_exit_with_2(files, tmp_path, capsys, command, name, reason):
 
 def test_damaged_attributes_exit_with_2(orbit, flight, tmp_path, capsys):
     path = tmp_path / "damaged.nc"
-    orbit.dataset.assign_attrs(wingbeat="{").to_netcdf(path, engine="h5netcdf")
+    save_dataset(orbit.dataset.assign_attrs(wingbeat="{"), path)
     for words in (["show", str(path)], ["plot", str(path), "-o", str(tmp_path / "page.svg")]):
         assert main(words) == 2
         assert "error: " in capsys.readouterr().err
-    flight.dataset.drop_vars("hinge_power").to_netcdf(path, engine="h5netcdf")
+    save_dataset(flight.dataset.drop_vars("hinge_power"), path)
     assert main(["show", str(path)]) == 2
-    assert "as a flight: it is damaged" in capsys.readouterr().err
+    assert "it is damaged (hinge_power is missing)" in capsys.readouterr().err
     assert [file.name for file in tmp_path.iterdir()] == ["damaged.nc"]
 
 
@@ -81,6 +82,9 @@ def test_show_prints_the_record(files, orbit, capsys):
     lines = told.out.splitlines()
     assert re.fullmatch(r"certified: closes to \de-\d\d", lines[0].rstrip())
     assert lines[1].startswith("plausible: ")
+    assert any(
+        line.startswith("set by limits, not predicted: flap amplitude 70 deg, and with it") for line in lines
+    )
     assert max(map(len, lines)) <= 80
     assert "\x1b" not in told.out
     mass = record["vehicle"]["body"]["mass"] + 2 * record["vehicle"]["wing"]["mass"]
@@ -88,8 +92,8 @@ def test_show_prints_the_record(files, orbit, capsys):
     for label, value in (
         ("species, mean speed", "pigeon at 10 m/s"),
         ("air loads", "su-fan, mirrored, quarter-chord"),
-        ("frequency", f"{record['wingbeat']['frequency']:.4g} Hz"),
-        ("flap amplitude", f"{np.degrees(record['wingbeat']['flap_amplitude']):.4g} deg"),
+        ("frequency", f"{record['wingbeat']['frequency']:.4g} Hz (follows from the limit of flap"),
+        ("flap amplitude", f"{np.degrees(record['wingbeat']['flap_amplitude']):.4g} deg (set by the limit)"),
         ("body pitch, nose up", f"{np.degrees(record['initial_state']['body_pitch']):.4g} deg"),
         ("hinges, mean", f"{power:.4g} W ({power / mass:.4g} W/kg)"),
         ("cost of transport", f"{record['cost_of_transport']:.4g}"),
@@ -123,12 +127,12 @@ def test_show_a_flight_that_was_lost(flight, tmp_path, capsys):
     lost = flight.dataset.copy(deep=True)
     for name in ("hinge_power", "actuator_power", "x", "z", "body_pitch", "u", "w", "pitch_rate"):
         lost[name].values[64:] = np.nan
-    lost.to_netcdf(tmp_path / "lost.nc", engine="h5netcdf")
+    save_dataset(lost, tmp_path / "lost.nc")
     assert main(["show", str(tmp_path / "lost.nc")]) == 0
     assert capsys.readouterr().out.startswith("not finished: 0.9844 beats, then the vehicle tumbled")
     for name in ("hinge_power", "u"):
         lost[name].values[:] = np.nan
-    lost.to_netcdf(tmp_path / "never.nc", engine="h5netcdf")
+    save_dataset(lost, tmp_path / "never.nc")
     assert main(["show", str(tmp_path / "never.nc"), "--json"]) == 0
     summary = json.loads(capsys.readouterr().out)
     assert (summary["beats"], summary["end"], summary["mean_power"]) == (0.0, None, None)
@@ -196,7 +200,7 @@ def test_time_to_double(orbit, size, words):
 
 def test_a_flight_can_be_printed_narrow(flight):
     console = Console(width=30, record=True, file=io.StringIO())
-    print_flight(flight_summary(flight.dataset, "flight.nc"), console)
+    print_flight(flight_summary(flight.dataset), console)
     assert max(map(len, console.export_text().splitlines())) <= 30
 
 

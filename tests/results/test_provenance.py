@@ -10,6 +10,7 @@ import xarray as xr
 import wingbeat as wb
 from wingbeat._jax.config import jax
 from wingbeat.nomenclature.series import SERIES
+from wingbeat.results.aero_record import aero_record
 from wingbeat.results.provenance import inputs_of, problem_from
 from wingbeat.results.storage import inputs_hash, orbit_attributes, save_dataset
 
@@ -66,7 +67,7 @@ def test_the_file_is_plain_netcdf(saved):
     record = orbit.record()
     with h5netcdf.File(path, "r") as file:
         assert {*file.variables} == {term.name for term in SERIES}
-        assert file.variables["hinge_power"].attrs["units"] == "W"
+        assert file.variables["u"].attrs["units"] == "m s-1"
         # Series and record come of two compiled programs: one equation, but on some processors another last bit.
         assert float(np.max(file.variables["hinge_power"][:])) == pytest.approx(record["peak_power"], rel=1e-12)
         assert file.attrs["Conventions"] == "CF-1.11"
@@ -132,7 +133,7 @@ def test_a_table_of_coefficients_travels_with_the_orbit(bat_orbit, tmp_path):
     aero = wb.aero.BladeElement(coefficients, 12, "centre-of-pressure")
     problem = wb.OrbitProblem(wb.load_species("bat"), speed=8.0, aero=aero)
     # The record is another orbit's: to solve this one would only prove JAX's patience.
-    record, inputs = bat_orbit.orbit.record(), inputs_of(problem, 2, 0)
+    record, inputs = bat_orbit.orbit.record() | {"aero": aero_record(aero)}, inputs_of(problem, 2, 0)
     series = bat_orbit.orbit.dataset.assign_attrs(orbit_attributes(record, inputs))
     save_dataset(series, tmp_path / "orbit.nc")
     table.unlink()

@@ -7,12 +7,13 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from wingbeat.cli.options import Whole
 from wingbeat.cli.progress import progress_bar
 
 
 def bench(
     *,
-    batch: Annotated[int, Parameter(help="Mixed problems in the batch.")] = 1024,
+    batch: Annotated[Whole, Parameter(help="Mixed problems in the batch.")] = 1024,
     json: Annotated[bool, Parameter(negative="", help="Print JSON alone.")] = False,
 ) -> None:
     """Measure how fast this machine solves orbits, on one core, in about a minute.

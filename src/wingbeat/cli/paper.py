@@ -11,6 +11,7 @@ from cyclopts import Parameter
 
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.cli.app import EXIT_GOOD
+from wingbeat.cli.options import Whole
 from wingbeat.cli.progress import exit_of, progress_bar, say, say_stopping
 from wingbeat.errors import FaultList
 from wingbeat.files import make_folder
@@ -40,13 +41,15 @@ def paper(
         Path | None,
         Parameter(help="claims.json of an earlier run: the page says what changed and why."),
     ] = None,
-    sets: Annotated[int | None, Parameter(help=f"How many sets of assumptions to sample; default {_SETS}.")] = None,
-    seed: Annotated[int | None, Parameter(help="Seed of the sample of assumptions; default 0.")] = None,
-    piece: Annotated[int | None, Parameter(help=f"How many sets each saved piece has; default {_PIECE}.")] = None,
+    sets: Annotated[
+        Whole | None, Parameter(help=f"How many sets of assumptions to sample; default {_SETS}.")
+    ] = None,
+    seed: Annotated[Whole | None, Parameter(help="Seed of the sample of assumptions; default 0.")] = None,
+    piece: Annotated[Whole | None, Parameter(help=f"How many sets each saved piece has; default {_PIECE}.")] = None,
     only: Annotated[
         str | None, Parameter(help="Pieces that this run solves, such as 1-10 or 3,5; default all.")
     ] = None,
-    processes: Annotated[int | None, Parameter(help="Worker processes; default: as many as cores.")] = None,
+    processes: Annotated[Whole | None, Parameter(help="Worker processes; default: as many as cores.")] = None,
 ) -> int:
     """Test Su et al. (arXiv 2302.09602): draw figures 1 to 8, judge every claim, and save the orbits behind them.
 

@@ -9,6 +9,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from wingbeat.cli.curve_report import drawn
+from wingbeat.cli.options import check_outputs
 from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList
 from wingbeat.plots import check_figure_name, power_page, save_figure, wingbeat_page
@@ -31,6 +32,7 @@ def plot(
     faults = FaultList()
     check_figure_name(faults, "--output", output)
     faults.raise_if_any()
+    check_outputs(output)
     dataset = load_dataset(file)
     if power:
         page = power_page(dataset)

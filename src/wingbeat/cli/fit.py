@@ -80,13 +80,11 @@ def fit(
             given.show(lambda: print(json_format.dumps(_summary(found), indent=2, allow_nan=False)))
         else:
             given.show(lambda: _print_table(found))
-        for kind, notes in (
-            ("note", table.notes),
-            ("warning", found.notes),
-            ("error: the fit failed", found.failures),
-        ):
-            for note in notes:
-                print(f"{kind}: {note}", file=sys.stderr)
+        for note in _only_notes(found):
+            print(f"note: {note}", file=sys.stderr)
+        for kind, said in (("warning", found.warnings), ("error: the fit failed", found.failures)):
+            for text in said:
+                print(f"{kind}: {text}", file=sys.stderr)
         if not found.failures:
             given.save(output, found.save, named=True)
         elif output is not None:
@@ -116,10 +114,15 @@ def _summary(found: WingFit) -> dict[str, Any]:
         "reynolds_range": None if found.reynolds_range is None else list(found.reynolds_range),
         "aspect_ratio": None if found.aspect_ratio is None else _finite(found.aspect_ratio) or "inf",
         **{label: curve(label) for label in found.curves},
-        "notes": list(found.table.notes),
-        "warnings": list(found.notes),
+        "notes": _only_notes(found),
+        "warnings": list(found.warnings),
         "failures": list(found.failures),
     }
+
+
+def _only_notes(found: WingFit) -> list[str]:
+    """Return what was noted of the table and of the fit, without the warnings."""
+    return [*found.table.notes, *(note for note in found.notes if note not in found.warnings)]
 
 
 def _finite(value: float) -> float | None:

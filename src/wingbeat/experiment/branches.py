@@ -113,10 +113,9 @@ def two_branches(alpha_deg: Array, residuals: Array, least: float) -> Branches |
 def _two_lines(a: Array, y: Array) -> tuple[float, NDArray[np.bool_]] | None:
     """Return the ratio of the sums of squares about two lines and one parabola, and the rows of the upper line."""
     x = (a - a.mean()) / max(float(np.ptp(a)), 1e-9)
-    line = np.column_stack([np.ones_like(x), x])
-    one = np.column_stack([line, x**2])
+    one = np.column_stack([np.ones_like(x), x, x**2])
     whole = float(((y - one @ np.linalg.lstsq(one, y)[0]) ** 2).sum())
-    flat = y - line @ np.linalg.lstsq(line, y)[0]
+    flat = y - _line(x, y, np.ones(len(x), dtype=bool))
     ranked = np.sort(flat)
     widest = int(np.argmax(np.diff(ranked)))
     best: tuple[float, NDArray[np.bool_]] | None = None
@@ -125,7 +124,7 @@ def _two_lines(a: Array, y: Array) -> tuple[float, NDArray[np.bool_]] | None:
         for _ in range(8):
             if min(upper.sum(), (~upper).sum()) < _BOTH:
                 break
-            high, low = (line @ np.linalg.lstsq(line[side], y[side])[0] for side in (upper, ~upper))
+            high, low = _line(x, y, upper), _line(x, y, ~upper)
             nearer = np.abs(y - high) < np.abs(y - low)
             left = float(np.minimum((y - high) ** 2, (y - low) ** 2).sum())
             if best is None or left / max(whole, 1e-300) < best[0]:
@@ -134,6 +133,13 @@ def _two_lines(a: Array, y: Array) -> tuple[float, NDArray[np.bool_]] | None:
                 break
             upper = nearer
     return best if best is not None and min(best[1].sum(), (~best[1]).sum()) >= _BOTH else None
+
+
+def _line(x: Array, y: Array, rows: NDArray[np.bool_]) -> Array:
+    """Return at all places the line of least squares through some rows."""
+    at, mean = float(x[rows].mean()), float(y[rows].mean())
+    away = x[rows] - at
+    return mean + float(away @ (y[rows] - mean)) / max(float(away @ away), 1e-300) * (x - at)
 
 
 def _mixed(a: Array, upper: NDArray[np.bool_]) -> float:

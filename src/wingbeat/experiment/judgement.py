@@ -225,6 +225,10 @@ def _wrong_rows(curve: CurveFit, least: float) -> list[str]:
     near = np.argsort(np.abs(curve.alpha_deg - curve.alpha_deg[row]))[1:5]
     spread = float(np.sqrt((misses[others] ** 2).sum() / without.freedom))
     size = abs(misses[row])
+    # Scatter is often a share of the value, as that of drag; where drag is large, so is its scatter.
+    curve_there = np.maximum(np.abs(curve.values - misses), 1e-12)
+    share = 1.4826 * float(np.median(np.abs(misses[others]) / curve_there[others]))
+    spread = max(spread, share * float(curve_there[row]))
     if size < max(_OUTLYING * spread, least) or np.abs(misses[near]).max() > _ALONE * size:
         return []
     value, wanted = float(curve.values[row]), float(curve.values[row] - misses[row])

@@ -43,8 +43,10 @@ class WingFit:
     lift, drag : fits of C_L and C_D.
     centre : fit of the centre of pressure; None if it was not measured, or if the form has no curve for it.
     table : the measurements.
-    notes : warnings: what the data do not determine, and what the residuals show (`wingbeat.experiment.judgement`).
+    notes : all that a reader should know: what the data do not determine, and the warnings.
     aspect_ratio : of the measured wing [-], infinite for a section, None if not stated.
+    warnings : those of the notes that say that the curve may be wrong where it was measured, from the residuals
+        (`wingbeat.experiment.judgement`), or beyond, because the data do not determine a mirrored form.
     failures : why the fit is useless, and cannot be saved; empty if it is not.
     """
 
@@ -57,6 +59,7 @@ class WingFit:
     table: CoefficientTable
     notes: tuple[str, ...]
     aspect_ratio: float | None = None
+    warnings: tuple[str, ...] = ()
     failures: tuple[str, ...] = ()
 
     @property
@@ -243,14 +246,18 @@ def fit_wing(
             centre = _fit(table, "x_cp", chosen.centre, usable)
             if usable.sum() < known.sum():
                 notes.append(f"x_cp: {known.sum() - usable.sum()} rows at negative angles were left out")
-    for curve in (lift, drag, centre):
-        notes += curve.notes if curve is not None else ()
-    failed = [text for curve in (lift, drag, centre) if curve is not None for text in failures(curve)]
+    fitted = [curve for curve in (lift, drag, centre) if curve is not None]
+    doubts = [note for curve in fitted for note in curve.notes]
+    # Beyond the data a cambered wing becomes a plate, whatever its terms; a mirrored form goes on as it is.
+    warnings = [] if isinstance(chosen.lift, LiftForm) else list(doubts)
     own = slice(len(measured.alpha_deg))
     for curve in (lift, drag):
         rows = {name: getattr(curve, name)[own] for name in ("alpha_deg", "values", "sigma")}
-        notes += judge(dataclasses.replace(curve, **rows), measured.reynolds)
-    found = WingFit(name, chosen.name, citation, lift, drag, centre, table, tuple(notes), aspect_ratio)
+        warnings += judge(dataclasses.replace(curve, **rows), measured.reynolds)
+    notes += [note for note in doubts if note not in warnings] + warnings
+    failed = [text for curve in fitted for text in failures(curve)]
+    said = tuple(notes), aspect_ratio, tuple(warnings)
+    found = WingFit(name, chosen.name, citation, lift, drag, centre, table, *said)
     if not failed and all(isinstance(curve.form, BoxForm) for curve in found.curves.values()):
         failed += model_failures(found.coefficients(), found.alpha_range_deg)
     return dataclasses.replace(found, failures=tuple(failed))

@@ -103,14 +103,17 @@ def test_the_table_has_the_names_of_the_record(done, tmp_path):
     assert sum(late) == 4
     done.export(tmp_path / "table.csv")
     done.export(tmp_path / "table.nc")
-    again = pd.read_csv(tmp_path / "table.csv")
+    again = pd.read_csv(tmp_path / "table.csv", comment="#")
     assert list(again.columns) == list(frame.columns)
+    head = [line for line in (tmp_path / "table.csv").read_text().splitlines() if line.startswith("# ")]
+    assert [line.split()[1] for line in head[2:]] == list(frame.columns)
+    assert "# mean_power [W] mean hinge power, both wings" in head
     pd.testing.assert_series_equal(again["mean_power"], frame["mean_power"], check_exact=True)
     with xr.open_dataset(tmp_path / "table.nc", engine="h5netcdf") as dataset:
         assert dataset["mean_power"].values.tolist() == frame["mean_power"].tolist()
         assert list(dataset["status"].values) == ["converged"] * 8
         assert (dataset.attrs["wingbeat_kind"], dataset.attrs["numerical_version"]) == ("study", NUMERICAL_VERSION)
-        assert list(dataset.attrs["varied"]) == ["speed", "wing.mass"]
+        assert json.loads(dataset.attrs["varied"]) == ["speed", "wing.mass"]
         for name, variable in dataset.variables.items():
             term, text = find(str(name)), variable.dtype.kind not in "fiub"
             assert term is not None, name

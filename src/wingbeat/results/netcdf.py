@@ -32,6 +32,9 @@ def netcdf_bytes(dataset: xr.Dataset) -> bytes:
     import h5py
 
     covered = [str(name) for name in dataset.attrs]
+    # A list of texts has no fixed length, so it becomes JSON, as everywhere in wingbeat's attributes.
+    listed = {name: json.dumps(list(v)) for name, v in dataset.attrs.items() if isinstance(v, list | tuple)}
+    dataset = dataset.assign_attrs(listed)
     signed = dataset.assign_attrs({DIGEST: digest(dataset, covered), DIGEST_OF: json.dumps(covered)})
     texts = {name: {"dtype": "S1"} for name, variable in signed.variables.items() if _is_text(variable.dtype)}
     held = io.BytesIO(bytes(signed.drop_encoding().to_netcdf(engine="h5netcdf", encoding=texts)))

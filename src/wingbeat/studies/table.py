@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 import json
 import os
@@ -15,6 +16,7 @@ from wingbeat.errors import FaultList, WingbeatError, install_extra, is_number
 from wingbeat.files import write_atomically
 from wingbeat.nomenclature import cf, label_of, plain_unit
 from wingbeat.results.columns import flat
+from wingbeat.results.netcdf import netcdf_bytes
 from wingbeat.studies.store import Row, Store
 
 if TYPE_CHECKING:
@@ -135,7 +137,7 @@ def check_table_name(faults: FaultList, where: str, path: str | PathLike[str]) -
 
 
 def save_table(frame: pd.DataFrame, about: dict[str, Any], path: str | PathLike[str]) -> None:
-    """Write a table as NetCDF-4, CSV or Parquet, by the suffix, completely or not at all.
+    """Write a table with its units as NetCDF-4, CSV or Parquet, by the suffix, completely or not at all.
 
     Raises
     ------
@@ -148,14 +150,48 @@ def save_table(frame: pd.DataFrame, about: dict[str, Any], path: str | PathLike[
     faults.raise_if_any()
     suffix = os.path.splitext(path)[1].lower()
     if suffix == ".nc":
-        write_atomically(path, bytes(to_dataset(frame, about).to_netcdf(engine="h5netcdf")))
+        write_atomically(path, netcdf_bytes(to_dataset(frame, about)))
     elif suffix == ".csv":
-        write_atomically(path, frame.to_csv(index=False))
+        write_atomically(path, _head(frame) + _rows(frame))
     else:
         check_parquet()
-        held = io.BytesIO()
-        frame.to_parquet(held, engine="pyarrow", index=False)
-        write_atomically(path, held.getvalue())
+        write_atomically(path, _parquet(frame))
+
+
+def _meanings(frame: pd.DataFrame) -> dict[str, dict[str, str]]:
+    """Return label and unit of each column."""
+    return {
+        str(name): _attributes(frame, str(name), frame[name].dtype.kind not in "fiub") for name in frame.columns
+    }
+
+
+def _head(frame: pd.DataFrame) -> str:
+    """Return the header lines of a CSV file, with unit and meaning of each column, as `results.csv_table` does."""
+    lines = ["# study, written by the package wingbeat; SI units, angles in radians; one row per point", "#"]
+    lines.append("# columns: name [unit] meaning")
+    for name, about in _meanings(frame).items():
+        unit = f" [{about['units']}]" if "units" in about else ""
+        lines.append(f"# {name}{unit} {about['long_name']}")
+    # A name from the user's file may hold a line break.
+    return "".join(" ".join(line.split()) + "\n" for line in lines)
+
+
+def _rows(frame: pd.DataFrame) -> str:
+    """Return the rows as CSV; texts are quoted if one of them holds the character that begins a comment."""
+    text = frame.to_csv(index=False)
+    return frame.to_csv(index=False, quoting=csv.QUOTE_NONNUMERIC) if "#" in text else text
+
+
+def _parquet(frame: pd.DataFrame) -> bytes:
+    """Return a table as a Parquet file whose fields hold ``units`` and ``long_name`` as metadata."""
+    import pyarrow as pa  # pyright: ignore[reportMissingImports]
+    import pyarrow.parquet as pq  # pyright: ignore[reportMissingImports]
+
+    table, meanings = pa.Table.from_pandas(frame, preserve_index=False), _meanings(frame)
+    fields = [field.with_metadata(meanings[field.name]) for field in table.schema]
+    held = io.BytesIO()
+    pq.write_table(table.cast(pa.schema(fields, table.schema.metadata)), held)
+    return held.getvalue()
 
 
 def check_parquet() -> None:

@@ -242,9 +242,12 @@ def test_the_command_flies_a_film(known, tmp_path, capsys):
     assert "--plot-kinematics" in capsys.readouterr().err
     # A film of wings that cross is flown, with a warning.
     low = dataclasses.replace(known.wingbeat, flap_mean=-0.6, flap_amplitude=1.3)
-    synthetic_film(low, 60, 1.5, seed=1).save(tmp_path / "low.csv")
-    assert main(["simulate", "pigeon", "--kinematics", str(tmp_path / "low.csv"), "--beats", "1"]) == 0
-    assert "warning: each wing passes through the plane of symmetry" in capsys.readouterr().err
+    synthetic_film(low, 60, 25.0, seed=1).save(tmp_path / "low.csv")
+    assert main(["simulate", "pigeon", "--kinematics", str(tmp_path / "low.csv"), "--beats", "1", "--json"]) == 0
+    told = capsys.readouterr()
+    for warning in ("each wing passes through the plane of symmetry", "degrees from the fitted wingbeat"):
+        assert warning in told.err
+        assert any(warning in one for one in json.loads(told.out)["warnings"])
     figure = tmp_path / "film.png"
     words = ["simulate", "pigeon", "--kinematics", str(path), "--beats", "1", "--plot-kinematics", str(figure)]
     assert main(words) == 0

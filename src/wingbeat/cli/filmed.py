@@ -61,7 +61,10 @@ def film_lines(beat: FilmedBeat) -> list[str]:
     lines, film = [], beat.film
     if film.fitted and film.frequency is not None and film.clip is not None:
         shown = written(film.frequency, film.frequency_se, "Hz")
-        lines.append(f"{film.name}: frequency {shown}, fitted to the {film.clip.beats:.2g} beats of the clip")
+        stated = f"; its file says {film.stated:.5g} Hz" if film.stated else ""
+        lines.append(
+            f"{film.name}: frequency {shown}, fitted to the {film.clip.beats:.2g} beats of the clip{stated}"
+        )
     for name, law in beat.laws.items():
         unit = f"of the {WHOLE[name]}" if name in WHOLE else "deg"
         lines.append(

@@ -21,8 +21,8 @@ _SLOWER = 0.15
 # Share of the variance that a beat explains in a film; noise of 3 degrees leaves 0.94 of a flap of 18 degrees.
 _CLEAR = 0.8
 # A change of the rate below this share of it is left alone: it moves the phase of a clip of four beats by at most
-# 0.03 beats. Of 400 steady clips (2 to 6 beats, noise of 0.3 to 3 degrees), 98 % seem to change by less than 0.045.
-_DRIFT = 0.06
+# 0.04 beats. Of 400 steady clips (2 to 6 beats, noise of 0.3 to 3 degrees), 98 % seem to change by less than 0.045.
+_DRIFT = 0.08
 # Standard errors by which two numbers differ for sure; 3.6 is the largest of 400 such clips.
 SURE = 4.5
 # At most so many points of the periodogram.

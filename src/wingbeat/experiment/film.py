@@ -63,6 +63,7 @@ class Film:
     frequency, frequency_se : wingbeat frequency, None if not known, and its standard error [Hz].
     synthetic : whether a random generator made the film.
     fitted : whether the frequency is that of the frames themselves.
+    stated : the frequency that the film's file states, None if it states none [Hz].
     read_notes, read_warnings : what the reader of the file found, see `notes` and `warnings`.
 
     Attributes
@@ -85,6 +86,7 @@ class Film:
     frequency_se: float = 0.0
     synthetic: bool = False
     fitted: bool = False
+    stated: float | None = None
     read_notes: tuple[str, ...] = ()
     read_warnings: tuple[str, ...] = ()
     clip: Clip | None = field(default=None, init=False)
@@ -146,21 +148,7 @@ class Film:
                 rule = f"must be seen in at least {_FEWEST} frames"
                 faults.add(where, f"{count} frames", rule, "film more frames")
             elif name == "flap_deg":
-                self._check_flap(faults, where, *self.seen(name))
-
-    def _check_flap(
-        self, faults: FaultList, where: str, phase: NDArray[np.float64], flap: NDArray[np.float64]
-    ) -> None:
-        """Note a flap angle in radians, and one that does not go up and down."""
-        largest = float(np.abs(flap).max())
-        if 0 < largest < _LARGEST_RADIANS:
-            rule = "is the largest flap angle: these seem to be radians, not degrees"
-            faults.add(where, largest, rule, "multiply them by 57.29578")
-        elif way := _one_way(flap[np.argsort(phase, kind="stable")]):
-            rule = (
-                f"{way} from frame to frame and never turns back: it seems to be a phase, a time or an angle that"
-            )
-            faults.add(where, f"{len(flap)} frames", f"{rule} was unwrapped", "give the flap angle, up positive")
+                check_flap(faults, where, *self.seen(name))
 
     def _check_clock(self, faults: FaultList) -> None:
         """Compare the beats of the frames with those of the phases; phases within one beat say nothing about it."""
@@ -203,7 +191,7 @@ class Film:
             rule = f"is not a fraction of the {WHOLE[name]}"
             fix = f"divide by the {WHOLE[name]} in the same unit"
             if worst > 2:
-                looks = "per cent" if worst <= 130 and values.min() > 10 else "a length or an area"
+                looks = "per cent" if 60 < worst <= 130 and values.min() > 10 else "a length or an area"
                 fix = f"the numbers seem to be {looks}; {'divide by 100' if looks == 'per cent' else fix}"
             faults.add(where, worst, rule, fix)
         return notes
@@ -226,7 +214,8 @@ class Film:
             largest = float(np.abs(values).max())
             limit = _QUIET_DEG if name in BODY else quiet
             small = COLUMNS[name] == "deg" and name != "flap_deg" and 0 < largest < _LARGEST_RADIANS
-            if small and scatter_at(phase, values, 1.0) < limit:
+            scatter = scatter_at(phase, values, 1.0) if small else math.inf
+            if scatter < min(limit, 0.5 * float(np.sqrt(np.mean(values**2)))):
                 found.append(
                     f"{where}: no angle exceeds {largest:.2g} degrees, and they scatter far less than tracked "
                     "angles do; if these are radians, multiply them by 57.29578"
@@ -270,6 +259,19 @@ class Film:
         for row in zip(self.phase, *self.columns.values(), strict=True):
             lines.append(",".join("" if math.isnan(value) else f"{value:.8g}" for value in row))
         write_atomically(path, "\n".join(lines) + "\n")
+
+
+def check_flap(faults: FaultList, where: str, clock: NDArray[np.float64], flap: NDArray[np.float64]) -> None:
+    """Note a flap angle in radians, and one that does not go up and down."""
+    largest = float(np.abs(flap).max(initial=0.0))
+    if 0 < largest < _LARGEST_RADIANS:
+        rule = "is the largest flap angle: these seem to be radians, not degrees"
+        faults.add(where, largest, rule, "multiply them by 57.29578")
+    elif way := _one_way(flap[np.argsort(clock, kind="stable")]):
+        rule = (
+            f"{way} from frame to frame and never turns back: it seems to be a phase, a time or an unwrapped angle"
+        )
+        faults.add(where, f"{len(flap)} frames", rule, "give the flap angle, up positive")
 
 
 def even_only(rate: float, columns: Mapping[str, Any]) -> bool:

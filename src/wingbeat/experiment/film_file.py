@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from wingbeat.errors import FaultList
 from wingbeat.experiment.clip import MIN_BEATS, SURE, Clip, clip_rate
-from wingbeat.experiment.film import BODY, COLUMNS, FILMED, WRAPPED, Film, even_only
+from wingbeat.experiment.film import BODY, COLUMNS, FILMED, WRAPPED, Film, check_flap, even_only
 from wingbeat.nomenclature import written
 from wingbeat.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
 
@@ -30,8 +30,9 @@ _SPELLINGS = {
     **dict.fromkeys(("fps", "framespersecond", "samplerate", "samplingrate"), "frame_rate"),
 }
 _SIDE_WORDS = {"left": "left", "l": "left", "right": "right", "r": "right"}
-# A header's frequency that differs by less than this share from the clip's own is not wrong, but rounded.
-_ROUNDED, _COARSE = 0.01, 0.05
+# A header's frequency that differs by less than this share from the clip's own may be the mean of more beats: the
+# periods of one animal scatter by about 3 %. More than the second share is wrong even if the header has few digits.
+_ROUNDED, _COARSE = 0.03, 0.05
 # What the times seem to be if the clip beats so many times too slowly.
 _TIME_UNITS = {"milliseconds": 1e3, "microseconds": 1e6, "minutes": 1 / 60}
 # Beats slower than this one are those of times in milliseconds or frames [Hz].
@@ -113,11 +114,16 @@ def read_film(path: str | Path, side: str = "both") -> Film:
         faults.raise_if_any()
     seen = {key: numbers[:, k].copy() for k, key in enumerate(sides)}
     columns, notes, warnings = _joined(faults, sheet.file, seen, side)
+    if "flap_deg" in columns:
+        there = np.isfinite(columns["flap_deg"])
+        where, at = f"{sheet.file}, column flap_deg", seen["", clocks[0]]
+        check_flap(faults, where, at[there], columns["flap_deg"][there])
     faults.raise_if_any()
     clock = _clock(faults, sheet, given, clocks[0], seen["", clocks[0]], columns)
     faults.raise_if_any()
     synthetic = any(same_name(key) == "synthetic" for key in sheet.constants)
-    return Film(sheet.file, clock.phase, columns, *clock[1:3], synthetic, clock.fitted, notes, warnings)
+    stated = given["frequency"].value if "frequency" in given else None
+    return Film(sheet.file, clock.phase, columns, *clock[1:3], synthetic, clock.fitted, stated, notes, warnings)
 
 
 def _columns(faults: FaultList, sheet: Sheet) -> list[tuple[str, str]]:
@@ -313,7 +319,8 @@ def _mean_wing(
         # How much farther one wing swings than the other: the slope of the difference over the mean of the two.
         spread = max(float(turned.std()), 1e-30)
         wider = float((apart - mean) @ turned) / (count * spread)
-        if name == "flap_deg" and wider > spread and np.corrcoef(left[both], right[both])[0, 1] < -0.5:
+        opposed = float((left[both] - left[both].mean()) @ (right[both] - right[both].mean()))
+        if name == "flap_deg" and opposed < -0.5 * count * left[both].std() * right[both].std():
             rule = "falls where the left wing's rises: it seems to have the other sign"
             faults.add(f"{where}, right", f"{len(right)} frames", rule, "count both flap angles up positive")
         shown = written(mean, error, unit)

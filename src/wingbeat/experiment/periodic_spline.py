@@ -90,7 +90,8 @@ def _smoothed(columns: Array, values: Array) -> FilmedLaw:
     orders = np.repeat(np.arange(2, HIGHEST_ORDER + 1), 2)
     penalty = np.concatenate([np.zeros(plain), orders**2 * (orders**2 - 1.0) ** 2])
     square, right = columns.T @ columns, columns.T @ values
-    rounding = count * (1e-9 * np.abs(values).max()) ** 2
+    # Not 0 where all values are 0, so that the logarithm below is finite.
+    rounding = count * (1e-9 * max(np.abs(values).max(), 1e-9)) ** 2
 
     def solved(log_weight: float) -> tuple[Array, Array, float]:
         stiff = square + np.diag(count * math.exp(log_weight) * penalty)

@@ -33,6 +33,9 @@ _ASPECT = 0.05, 100.0
 _ZERO_ERROR = 0.02
 # Lift of a thin aerofoil at an angle, 2 pi sin(alpha) (Glauert 1926), plus that of camber.
 _CAMBER_LIFT = 0.8
+# At angles whose sine is above the first number, a plate has a force coefficient of about 1.6 sin(alpha). A tenth
+# of it is less than any wing has that is not near its angle of zero lift.
+_INCLINED, _SLIGHT = 0.17, 0.16
 # Standard errors that a range is widened by.
 _SURE = 4.0
 # What makes the coefficients of a plate so many times too large.
@@ -131,9 +134,14 @@ def check_coefficients(faults: FaultList, run: LoadCellRun, means: RunMeans) -> 
         fix = "give it about mid-chord, in N m; is it in N mm?"
         faults.add(f"{where}, C_M", moment, f"must lie between {-MAX_LIFT:g} and {MAX_LIFT:g}", fix)
     # Friction on both sides of a smooth plate in laminar flow: Blasius 1908.
-    least = 0.5 * 2.656 / math.sqrt(means.reynolds)
-    if whole + _SURE * error < least:
-        rule = f"is the whole force coefficient, less than half of the friction on a smooth plate, {2 * least:.2g}"
+    friction = 2.656 / math.sqrt(means.reynolds)
+    if sine > _INCLINED and whole + _SURE * error < _SLIGHT * sine:
+        rule = (
+            f"is the whole force coefficient, less than a tenth of a plate's there, about {10 * _SLIGHT * sine:.2g}"
+        )
+        faults.add(where, whole, rule, off)
+    elif whole + _SURE * error < 0.5 * friction:
+        rule = f"is the whole force coefficient, less than half of the friction on a smooth plate, {friction:.2g}"
         faults.add(where, whole, rule, off)
 
 

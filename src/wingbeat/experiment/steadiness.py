@@ -58,16 +58,21 @@ def rest_spans(time: Array, force: Array) -> list[tuple[float, float]]:
     size = max(time.size // _REST_BLOCKS, 1)
     count = time.size // size
     level = np.hypot(*force[:, : count * size].reshape(2, count, size).mean(axis=2))
-    quiet = level < _AT_REST * np.quantile(level, 0.75)
-    starts, spans = time[: count * size : size], []
-    flowing = np.flatnonzero(~quiet)
+    flowing = np.flatnonzero(level >= _AT_REST * np.quantile(level, 0.75))
     if flowing.size == 0 or flowing[0] > 0.75 * count:
         return []
-    # One block less beside the flow, which is part of the change.
+
+    def change(block: int) -> int:
+        """Return the first sample after the step near a block: where the sum of deviations is largest."""
+        first = max(block - 2, 0) * size
+        near = np.hypot(*force[:, first : (block + 3) * size])
+        return first + int(np.abs(np.cumsum(near - near.mean())).argmax()) + 1
+
+    spans = []
     if flowing[0] > 2:
-        spans.append((float(time[0]), float(starts[flowing[0] - 1])))
+        spans.append((float(time[0]), float(time[change(int(flowing[0])) - 1])))
     if flowing[-1] < count - 3:
-        spans.append((float(starts[flowing[-1] + 2]), float(time[-1])))
+        spans.append((float(time[change(int(flowing[-1]))]), float(time[-1])))
     return spans
 
 
@@ -103,8 +108,9 @@ def _state_rest(run: LoadCellRun, force: Array) -> str:
 def unsteady(runs: list[LoadCellRun], windows: list[Array], series: Array, zeroed: bool) -> list[list[str]]:
     """Return notes on coefficients that step or drift within the window, for each run.
 
-    A step and a straight line are fitted to the means of 16 blocks; the better one is reported if its change is
-    significant by Student's t and more than 5 (step) or 3 per cent (line) of the force coefficient.
+    A step, a straight line and a parabola are fitted to the means of 16 blocks. A step is reported if it fits best,
+    a drift otherwise, if the change is significant by Student's t and more than 5 per cent (step) or 3 per cent
+    (line) of the force coefficient.
 
     Parameters
     ----------
@@ -121,6 +127,9 @@ def unsteady(runs: list[LoadCellRun], windows: list[Array], series: Array, zeroe
     place = np.linspace(-1.0, 1.0, _BLOCKS)
     slope = blocks @ place / (place @ place)
     straight = np.maximum(total - slope**2 * (place @ place), 0.0)
+    # A start that decays is closer to a parabola than to a step.
+    bow = place**2 - np.mean(place**2)
+    curved = np.maximum(straight - (blocks @ bow) ** 2 / (bow @ bow), 0.0)
     sure = np.abs(slope) > _TREND_LIMIT * np.sqrt(straight / (_BLOCKS - 2) / (place @ place))
     drifts = sure & (2 * np.abs(slope) > np.maximum(_SMALL_TREND * scale, 1e-9))
     # Sum of the first k blocks' deviations; the step after them is n/(k (n - k)) times it.
@@ -133,7 +142,7 @@ def unsteady(runs: list[LoadCellRun], windows: list[Array], series: Array, zeroe
     step = -np.take_along_axis(sums, best[..., None], 2)[..., 0] * _BLOCKS / (count * (_BLOCKS - count))
     error = np.sqrt(stepped / (_BLOCKS - 2) * _BLOCKS / (count * (_BLOCKS - count)))
     steps = (np.abs(step) > np.maximum(_STEP_LIMIT * error, np.maximum(_SMALL_STEP * scale, 1e-9))) & (
-        stepped < straight
+        stepped < curved
     )
     notes: list[list[str]] = []
     for i, (run, time) in enumerate(zip(runs, windows, strict=True)):

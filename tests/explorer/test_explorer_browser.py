@@ -204,8 +204,13 @@ def test_gauges_say_in_words_where_the_number_lies(show, answers):
     words = {one["name"]: one for one in answers["pigeon"][2]["gauges"]}
     for name, one in words.items():
         row = page.locator(f"[data-gauge={name}]")
-        assert row.locator(".wbx-word").inner_text() == ("inside" if one["inside"] else "above")
+        inside = "set by a limit" if one["limited"] else "inside"
+        assert row.locator(".wbx-word").inner_text() == (inside if one["inside"] else "above")
         assert float(gauge(page, name).get_attribute("data-exact")) == one["value"]
+    # A range that begins below 0, from -10 to 40 degrees, has its place on a bar from -20 to 80.
+    band = page.locator("[data-gauge=mean_body_pitch] .wbx-band")
+    ends = [float(end.strip("calc()%")) for end in band.evaluate("band => [band.style.left, band.style.right]")]
+    assert ends == pytest.approx([10.0, 40.0])
     row = page.locator("[data-gauge=strouhal]")
     row.locator("summary").click()
     assert "Taylor, Nudds and Thomas 2003" in row.inner_text()

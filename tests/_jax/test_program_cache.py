@@ -7,10 +7,12 @@ import shlex
 import stat
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
 
+from wingbeat._jax import program_cache
 from wingbeat._jax.program_cache import keep_program, kept_program, program_folder
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="owners and modes of POSIX")
@@ -165,3 +167,55 @@ def test_who_has_no_home_has_no_folder(monkeypatch: pytest.MonkeyPatch, caplog: 
     assert kept_program("compiled-x") is None
     (told,) = caplog.messages
     assert told.startswith(NOT_KEPT)
+
+
+def aged(folder: Path, ages: dict[str, float], size: int = 1000) -> None:
+    """Put files into a folder that were last used so many days ago."""
+    for name, days in ages.items():
+        (folder / name).write_bytes(bytes(size))
+        used = time.time() - 86400 * days
+        os.utime(folder / name, times=(used, used))
+
+
+@pytest.fixture
+def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder of an empty cache; every written program has the folder looked through."""
+    monkeypatch.setenv("WINGBEAT_CACHE", str(tmp_path))
+    monkeypatch.setattr(program_cache, "_written", iter([0] * 100))
+    folder = program_folder()
+    assert folder is not None
+    return folder
+
+
+def test_programs_that_nobody_uses_are_deleted_and_other_files_stay(cache: Path) -> None:
+    aged(
+        cache,
+        {"traced-old": 91, "compiled-old": 200, "compiled-new": 89, "notes.txt": 400, ".0123456789ab.part": 2},
+    )
+    (cache / "compiled-folder").mkdir()
+    (cache / "compiled-link").symlink_to(cache / "notes.txt")
+    os.utime(cache / "compiled-link", times=(0, 0), follow_symlinks=False)
+    keep_program("traced-now", b"program")
+    left = {"compiled-new", "notes.txt", "compiled-folder", "compiled-link", "traced-now"}
+    assert {path.name for path in cache.iterdir()} == left
+
+
+def test_a_large_cache_loses_what_was_used_longest_ago(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(program_cache, "KEPT_BYTES", 4500)
+    keep_program("traced-used", b"program")
+    aged(cache, {f"compiled-{days}": days for days in range(2, 10)})
+    os.utime(cache / "traced-used", times=(0, time.time() - 86400 * 20))
+    assert kept_program("traced-used") == b"program"  # which is noted
+    keep_program("traced-now", b"program")
+    left = {"traced-used", "traced-now", "compiled-2", "compiled-3", "compiled-4", "compiled-5"}
+    assert {path.name for path in cache.iterdir()} == left
+
+
+def test_a_program_that_is_deleted_in_use_is_made_again(tmp_path: Path) -> None:
+    """Processes fill, read and empty a cache of one byte at the same time."""
+    program = "import wingbeat._jax.program_cache as c; c.KEPT_BYTES, c._LOOKED = 1, 1" + LITTLE
+    command = [sys.executable, "-W", "error", "-c", program.replace("held() == after", "True")]
+    settings = {**os.environ, "WINGBEAT_CACHE": str(tmp_path)}
+    several = [subprocess.Popen(command, env=settings, stdout=subprocess.PIPE, text=True) for _ in range(2)]
+    assert [process.communicate(timeout=60)[0] for process in several] == [OF_LITTLE] * 2
+    assert not list(tmp_path.glob("programs-*/*"))

@@ -9,16 +9,32 @@ from __future__ import annotations
 import functools
 import hashlib
 import hmac
+import itertools
 import logging
 import os
+import re
 import secrets
 import stat
+import time
 from contextlib import suppress
 from pathlib import Path
 
 from wingbeat.errors import FileError, system_reason
 from wingbeat.files import write_atomically
 
+# How long a program is kept without being used [s], and how large all programs together may be [bytes]. The 25
+# programs of one orbit take 1.7 MB, those of all commands and tests with the changes of some months 98 MB in 2268
+# files. A new version of wingbeat, JAX or Python makes all of them anew and never uses the old ones again. To look
+# through 2268 files takes 10 to 20 ms, as long as it takes to compile the smallest program.
+KEPT_SECONDS = 90 * 86400
+KEPT_BYTES = 512 << 20
+# A use is noted once a day, so that reading a program seldom writes. The folder is looked through when a process
+# writes its first program, and after so many more.
+_NOTED_SECONDS = 86400
+_LOOKED = 100
+# Names of programs, and of what `write_atomically` leaves of one if its process is killed.
+_OWN_NAME = re.compile(r"(traced|compiled)-.*|(?P<rest>\.[0-9a-f]{12}\.part)")
+_written = itertools.count()
 _MAGIC = b"wingbeat program 1\n"
 _DIGEST = 32  # bytes
 _OTHERS_WRITE = stat.S_IWGRP | stat.S_IWOTH
@@ -56,6 +72,9 @@ def kept_program(name: str) -> bytes | None:
             if not stat.S_ISREG(found.st_mode) or not _is_own(found):
                 return None
             content = file.read()
+            if found.st_mtime < time.time() - _NOTED_SECONDS:
+                with suppress(OSError):
+                    os.utime(folder / name)
     except (OSError, ValueError):
         return None
     begin = len(_MAGIC) + _DIGEST
@@ -70,6 +89,27 @@ def keep_program(name: str, program: bytes) -> None:
     if folder is not None:
         with suppress(FileError, OSError):
             write_atomically(folder / name, _MAGIC + _digest(name, program) + program)
+            if next(_written) % _LOOKED == 0:
+                _prune(folder)
+
+
+def _prune(folder: Path) -> None:
+    """Delete programs that were not used for long, and then those used longest ago until the rest is small enough.
+
+    A process that looks for a deleted program makes it again; one that is reading it has it to its end.
+    """
+    found, now, total = [], time.time(), 0
+    with os.scandir(folder) as entries:
+        for entry in entries:
+            with suppress(OSError):  # another process has deleted it
+                held = entry.stat(follow_symlinks=False)
+                if (name := _OWN_NAME.fullmatch(entry.name)) and stat.S_ISREG(held.st_mode) and _is_own(held):
+                    found.append((held.st_mtime, held.st_size, entry.path, name["rest"]))
+    for used, size, path, rest in sorted(found, reverse=True):
+        total += size
+        if now - used > (_NOTED_SECONDS if rest else KEPT_SECONDS) or total > KEPT_BYTES:
+            with suppress(OSError):  # in use, on Windows
+                os.unlink(path)
 
 
 def _digest(name: str, program: bytes) -> bytes:

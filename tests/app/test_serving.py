@@ -1,7 +1,9 @@
 """What the explorer's server answers without a browser, and the command without what it needs."""
 
 import http.client
+import time
 
+from tests.app.program import PATIENCE, Program
 from wingbeat.cli import main
 
 
@@ -33,6 +35,25 @@ def test_an_address_cannot_choose_what_a_file_holds(served):
             line.close()
         assert answers[0][0] == 200
         assert answers[1] == answers[0]
+
+
+def test_pages_that_are_only_fetched_are_few(served, monkeypatch):
+    from nicegui import Client
+
+    program, pages = Program.__new__(Program), served.house.pages
+    program.port = int(served.address.rpartition(":")[2])
+    monkeypatch.setattr("wingbeat.app.house.MOST_WAITING", 4)
+    client, session = program.open_page()
+    with program.connect(client):  # a visitor, who stays whatever others fetch
+        until = time.monotonic() + PATIENCE
+        while pages[session].waits:
+            assert time.monotonic() < until
+            time.sleep(0.02)
+        fetched = [program.open_page()[1] for _ in range(7)]
+        assert [name for name, page in pages.items() if page.waits] == fetched[-4:]
+        assert pages[session].is_open
+        # NiceGUI, too, has forgotten them.
+        assert len(Client.instances) <= len(pages) + 1
 
 
 def test_without_the_extra_the_command_says_how_to_get_it(monkeypatch, capsys):

@@ -15,6 +15,10 @@ from wingbeat.app.page import Page
 from wingbeat.workers.fair_pool import Event, FairPool
 
 _WORK = "wingbeat.app.jobs:do"
+# Most pages that were fetched and wait for their browser to connect. Browsers connect within a second. Programs
+# that only fetch pages never do, and each page takes 3.2 MB of memory until NiceGUI drops it after a minute. A
+# browser whose page was dropped loads it again by itself.
+MOST_WAITING = 20
 
 
 class House:
@@ -52,7 +56,10 @@ class House:
         self.pool.submit("warm-up", what, go_on)
 
     def open_page(self, client: Client, query: str) -> None:
-        """Build a page for a new visitor."""
+        """Build a page for a new visitor; of pages to which nobody has connected, only the latest are kept."""
+        waiting = [page for page in self.pages.values() if page.waits]
+        for page in waiting[: max(len(waiting) - MOST_WAITING + 1, 0)]:
+            page.drop()
         name = secrets.token_urlsafe(12)
         page = self.pages[name] = Page(name, self, query)
 

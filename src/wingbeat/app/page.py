@@ -78,6 +78,15 @@ class Page:
             self.show_trouble(*self._refusals)
 
     @property
+    def waits(self) -> bool:
+        """Whether the page was fetched, but no browser has connected to it yet."""
+        return not self._asked
+
+    def drop(self) -> None:
+        """Delete the page, as if its visitor had left."""
+        self._client.delete()
+
+    @property
     def is_open(self) -> bool:
         """Whether the page's socket is connected."""
         return self._client.has_socket_connection

@@ -58,9 +58,9 @@ def reduce(
     faults.raise_if_any()
     check_outputs(output)
     table = reduce_runs(_read_all(runs), last, spans)
-    table.save(output)
     for note in table.notes[:MAX_NOTES]:
         print(f"note: {note}", file=sys.stderr)
+    table.save(output)
     if len(table.notes) > MAX_NOTES:
         print(f"note: {len(table.notes) - MAX_NOTES} more notes are in {output}", file=sys.stderr)
     print(f"wrote {output}: {len(runs)} runs, {len(table.alpha_deg)} points", file=sys.stderr)

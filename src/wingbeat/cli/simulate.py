@@ -42,6 +42,7 @@ from wingbeat.cli.winds import Gust, Turbulence, WindSeed, wind_of
 from wingbeat.errors import FaultList
 from wingbeat.experiment import FilmedBeat
 from wingbeat.kinematics import Wingbeat
+from wingbeat.mechanics.beat_by_beat import check_samples
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.orbits.problem.filmed import filmed_species
 from wingbeat.plots import film_page, save_figure
@@ -106,7 +107,10 @@ def simulate(
     check_side(faults, side, kinematics)
     if plot_kinematics is not None and kinematics is None:
         faults.add("--plot-kinematics", str(plot_kinematics), "has no film to draw", "give --kinematics")
+    check_samples(faults, beats, samples)
     faults.raise_if_any()
+    check_outputs(output, plot_kinematics)
+    wind_of(gust, turbulence, wind_seed, airspeed=1.0)  # refuses what it cannot be, before a film is fitted
     given = {"u": u, "w": w, "pitch_rate": pitch_rate}
     given["body_pitch"] = None if body_pitch_deg is None else math.radians(body_pitch_deg)
     disturbed = {name: value for name, value in given.items() if value is not None}
@@ -131,7 +135,6 @@ def simulate(
                     "--gust", gust or turbulence, "has no effect on a body that moves as filmed", "leave it out"
                 )
                 faults.raise_if_any()
-            check_outputs(output, plot_kinematics)
             flown, errors = carried(beat, animal, whole.aero, given, beats, samples)
             with answer() as told:
                 notes = _notes(flown.model, wingbeat, reach, beat)
@@ -143,7 +146,6 @@ def simulate(
         start = State(u=10.0)._replace(**disturbed)
         velocity = float(start.u), float(start.w)
         flown_by = FlightModel(animal.vehicle, whole.aero, animal.air, velocity=velocity)
-    check_outputs(output, plot_kinematics)
     wind = wind_of(gust, turbulence, wind_seed, math.hypot(start.u, start.w))
     flight = fly(flown_by, wingbeat, start, beats, samples, wind=wind, species=animal)
     rows = beat_rows(flight, samples)

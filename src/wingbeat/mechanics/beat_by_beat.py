@@ -34,6 +34,12 @@ class FlownBeats(NamedTuple):
     air: np.ndarray | None
 
 
+def check_samples(faults: FaultList, beats: int, samples: int) -> None:
+    """Note numbers of beats, and of samples in each, that no flight can have."""
+    faults.whole("beats", beats, 1, 10_000)
+    faults.whole("samples", samples, 1, 4096)
+
+
 def check_wind(faults: FaultList, wind: object) -> None:
     """Note a wind that is neither two finite velocities nor a function."""
     if isinstance(wind, tuple | list):

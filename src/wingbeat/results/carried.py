@@ -13,6 +13,7 @@ from wingbeat._version import __version__
 from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
+from wingbeat.mechanics.beat_by_beat import check_samples
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.flight.beat import mean_positive
 from wingbeat.results.dataset import evaluate_carried, flight_dataset
@@ -123,8 +124,7 @@ def carry(
     InvalidInputError : beats or samples that are not whole numbers of at least 1.
     """
     faults = FaultList()
-    for name, value, most in (("beats", beats, 10_000), ("samples", samples, 4096)):
-        faults.whole(name, value, 1, most)
+    check_samples(faults, beats, samples)
     faults.raise_if_any()
     phase = np.arange(beats * samples + 1) / samples
     return CarriedFlight(model, wingbeat, phase, path.states(phase), path.accelerations(phase), species)

@@ -15,7 +15,7 @@ from wingbeat._version import __version__
 from wingbeat.datasets import KIND
 from wingbeat.errors import FaultList
 from wingbeat.kinematics import Wingbeat
-from wingbeat.mechanics.beat_by_beat import Controller, check_wind, fly_beats
+from wingbeat.mechanics.beat_by_beat import Controller, check_samples, check_wind, fly_beats
 from wingbeat.mechanics.flight_model import FlightModel, State, state_of
 from wingbeat.mechanics.flights import fly_torque_driven
 from wingbeat.nomenclature import NOMENCLATURE, attributes_of
@@ -153,8 +153,7 @@ def simulate(
     ((129, 6), True)
     """
     faults = FaultList()
-    for name, value, most in (("beats", beats, 10_000), ("samples", samples, 4096)):
-        faults.whole(name, value, 1, most)
+    check_samples(faults, beats, samples)
     check_wind(faults, wind)
     if controller is not None and not callable(controller):
         faults.add("controller", controller, "must be a function of the beats flown and the state")

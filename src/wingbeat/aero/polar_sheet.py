@@ -32,7 +32,8 @@ _ERROR_LIKE = re.compile(r"(cl|cd|cm|xcp)\W*(e|s|u|d|std|stat|ci)", re.ASCII)
 # angles, and the least fall of lift that says that a sign is wrong.
 _ATTACHED_DEG, _LEAST_ANGLES, _LEAST_FALL = 8.0, 4, 0.15
 # No wing in a stream at Re above 100 has so much drag at small angles: a plate at Re 100 has 0.27 (Blasius).
-_SMALL_DEG, _DRAG_AT_SMALL, _VISCOUS = 5.0, 1.0, 100.0
+# In per cent it is at most 20 there; more are drag counts.
+_SMALL_DEG, _DRAG_AT_SMALL, _PER_CENT_AT_SMALL, _VISCOUS = 5.0, 1.0, 20.0, 100.0
 # Friction of a flat plate, both sides, in laminar flow: 2.656/sqrt(Re) (Blasius 1908). Drag below a quarter of it
 # says that Re is in other units: in thousands, it would be too small by a factor of 32.
 _BLASIUS, _LEAST_SHARE = 2.656, 0.25
@@ -128,7 +129,10 @@ def _names(faults: FaultList, sheet: Sheet) -> tuple[list[str], list[str]]:
 def _check_values(faults: FaultList, polar: PolarSheet) -> None:
     """Note what no table of a wing can hold: one fault for each column, at its worst row."""
     columns = polar.columns
+    per_cent = _check_per_cent(faults, polar)
     for name, column in columns.items():
+        if name == "C_D" and per_cent:
+            continue
         if name in QUANTITIES:
             check_possible(faults, name, column.tolist(), lambda i, name=name: polar.where(i, name))
         elif name in _ERRORS:
@@ -151,13 +155,19 @@ def _check_values(faults: FaultList, polar: PolarSheet) -> None:
             )
             fix = f"reverse the sign of {polar.headings['C_L']} or of {polar.headings['alpha_deg']}"
             faults.add(f"{polar.sheet.file}, column {polar.headings['C_L']}", f"{slope:.3g} per degree", rule, fix)
-    known = columns.get("reynolds", np.full(len(alpha), math.inf))
-    small = (np.abs(alpha) <= _SMALL_DEG) & (known >= _VISCOUS)
-    drag = columns["C_D"][small]
-    if len(drag) and drag.min() >= _DRAG_AT_SMALL and drag.max() <= 5:
-        rule = f"is at least {drag.min():g} at angles up to {_SMALL_DEG:g} degrees, and no wing has so much drag"
-        fix = "it looks like per cent: divide by 100"
-        faults.add(f"{polar.sheet.file}, column {polar.headings['C_D']}", float(drag.max()), rule, fix)
+
+
+def _check_per_cent(faults: FaultList, polar: PolarSheet) -> bool:
+    """Note a fault if drag at small angles is larger than any wing's, as in per cent; return whether it is."""
+    alpha, drag = polar.columns["alpha_deg"], polar.columns["C_D"]
+    known = polar.columns.get("reynolds", np.full(len(alpha), math.inf))
+    drag = drag[(np.abs(alpha) <= _SMALL_DEG) & (known >= _VISCOUS) & np.isfinite(drag)]
+    if not len(drag) or not _DRAG_AT_SMALL <= drag.min() <= _PER_CENT_AT_SMALL:
+        return False
+    rule = f"is at least {drag.min():g} at angles up to {_SMALL_DEG:g} degrees, and no wing has so much drag"
+    fix = "the column looks like per cent: divide it by 100"
+    faults.add(f"{polar.sheet.file}, column {polar.headings['C_D']}", float(drag.max()), rule, fix)
+    return True
 
 
 def fault_at(faults: FaultList, polar: PolarSheet, name: str, bad: NDArray[np.bool_], rule: str, fix: str) -> None:

@@ -218,7 +218,7 @@ def _whole_centre(polar: PolarSheet) -> tuple[list[float] | None, tuple[str, ...
         return given.tolist(), ()
     alpha = polar.columns["alpha_deg"]
     filled = np.interp(alpha, alpha[known], given[known])
-    angles = ", ".join(f"{angle:g}" for angle in alpha[~known][:8]) + ", ..." * ((~known).sum() > 8)
+    angles = ", ".join(f"{angle:g}" for angle in alpha[~known][:8]) + ", ..." * bool((~known).sum() > 8)
     return filled.tolist(), (f"x_cp is empty at {angles} degrees and is filled from the neighbouring rows",)
 
 

@@ -68,7 +68,8 @@ def check_possible(faults: FaultList, quantity: str, values: Sequence[float], wh
     else:
         rule = f"must lie between {low:g} and {high:g}: no wing has more"
         counts = name == "c_d" and usual > 2 * high
-        fix = "the column looks like drag counts: divide it by 10000" if counts else "give it without a unit"
+        fix = "give it without a unit; per cent divided by 100 are coefficients"
+        fix = "the column looks like drag counts: divide it by 10000" if counts else fix
     faults.add(where(row), worst, rule + (f" ({len(bad)} of {len(values)} rows)" if len(bad) > 1 else ""), fix)
 
 

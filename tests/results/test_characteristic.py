@@ -3,8 +3,9 @@
 import numpy as np
 import pytest
 
+from wingbeat.reports.text import text_of
 from wingbeat.results.characteristic import BestLine, characteristic_speeds, next_speeds
-from wingbeat.results.curve_report import speed_in_words
+from wingbeat.results.curve_report import curve_report, speed_in_words
 
 SPEEDS = np.arange(3.0, 21.0)
 TOLERANCE = 0.1
@@ -171,3 +172,16 @@ def test_what_a_power_limit_allows_is_enclosed_too():
     assert found["fastest_sustained"]["speed"] == pytest.approx(fastest, abs=1e-3)
     assert speed_in_words(found["fastest_sustained"]).startswith("11.3")
     assert added <= 12
+
+
+def test_the_report_gives_the_value_of_an_orbit_that_was_computed():
+    """Without added speeds the parabola's minimum may lie far from every orbit."""
+    told = []
+    for most in (0, 8):
+        found, _ = solved(lambda u: 60 / u + 0.01 * u**3, [2.0, 5.5, 9.0, 12.5], most=most)
+        record = {"objective": "mean_power", "characteristic_speeds": found, "points": [], "gaps": [], "marks": []}
+        record |= {"species": "pigeon", "climb": 0.0, "warnings": []}
+        told.append(" ".join(text_of(curve_report(record)).split()))
+    assert "m/s (2 to 10); the least computed is 12.57 W at 5.5 m/s; mean power is" in told[0]
+    assert "minimum power: 6.6" in told[1]
+    assert "), 11.96 W; mean power is within 2 %" in told[1]

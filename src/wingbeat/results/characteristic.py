@@ -239,7 +239,8 @@ def _enclosed(line: BestLine, k: int) -> tuple[float, list[float], list[float]]:
             scatter = math.sqrt(float(np.sum((smooth(shifted) - value) ** 2)) / spare)
             fine = np.linspace(shifted[0], shifted[-1], 2001)
             along = smooth(fine)
-            at = here + float(fine[along.argmin()])
+            if degree > 2:  # another parabola would be worse than that through the neighbours
+                at = here + float(fine[along.argmin()])
             near = fine[along <= along.min() + max(2.0 * scatter, PRECISION * abs(line.value[k]))]
             ends += [here + float(near[0]), here + float(near[-1])]
     rivals = _rivals(line, k)

@@ -19,6 +19,7 @@ _LABELS = {
     "slowest_sustained": "slowest within the power limit",
 }
 _HEADINGS = ("U\n[m/s]", "f\n[Hz]", "P+\n[W]", "CoT\n[-]", "flap\n[deg]", "optima", "at the limit of")
+_NEAR = 0.02  # share of a speed within which the lowest computed point stands for the minimum
 _MINIMISED_AT = 3  # column of the minimised quantity, after the power
 
 
@@ -192,11 +193,8 @@ def _told(found: dict[str, Any] | None, quantity: str, objective: str) -> str:
     value = written(factor * found["value"], unit=unit)
     if "lowest" not in found:
         return f"{text}, {value}" if found["status"] == "found" else text
-    text += (
-        f", {value}"
-        if found["status"] == "found"
-        else f"; the least computed is {value} at {found['lowest']:g} m/s"
-    )
+    near = found["speed"] is not None and abs(found["speed"] - found["lowest"]) <= _NEAR * found["speed"]
+    text += f", {value}" if near else f"; the least computed is {value} at {found['lowest']:g} m/s"
     if found["status"] in ("found", "at_or_below", "at_or_above"):
         low, high = found["within_2_percent"]
         text += f"; {quantity} is within 2 % of its minimum from {written_range(low, high, 'm/s')}"

@@ -250,7 +250,8 @@ def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS, rest: I
     Parameters
     ----------
     runs : the records.
-    last, rest : window and intervals of rest of each record, see `reduce_run`.
+    last : length of the window of each record [s].
+    rest : start and end of each interval of rest [s], see `reduce_run`.
 
     Raises
     ------

@@ -168,7 +168,7 @@ class Pieces:
             judged = _judged(rest)
             if own != number or len(judged.sets) != len(self.sample.range(number)):
                 raise ValueError("it is incomplete, or holds another piece")
-        except (KeyError, TypeError, ValueError, AttributeError) as error:
+        except (KeyError, TypeError, ValueError, AttributeError, csv.Error) as error:
             fix = "remove the file to run the piece again"
             raise FileError(f"cannot read {str(path)!r} as a piece of a sample: {error}; {fix}") from None
         _check_same(about, self.sample, path)

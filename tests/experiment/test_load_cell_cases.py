@@ -1,6 +1,7 @@
 """Records of a load cell that were reduced to wrong coefficients without a word."""
 
 import dataclasses
+import re
 from pathlib import Path
 
 import numpy as np
@@ -194,3 +195,10 @@ def test_the_dynamic_viscosity_of_air_is_noted():
     run = record(np.random.default_rng(0))
     air = dataclasses.replace(run, density=1.2, viscosity=1.82e-5, speed=run.speed * np.sqrt(run.density / 1.2))
     assert "seems to be the dynamic one of air in Pa s" in " ".join(reduce_run(air).notes)
+
+
+def test_the_example_of_the_guide_finds_the_true_force():
+    page = (ROOT / "docs/guide/load_cells.md").read_text()
+    (code,) = re.findall(r"```py\n(.*?)```", page, re.DOTALL)
+    assert "assert abs(means.normal - true) < 3 * means.normal_se" in code
+    exec(compile(code, "load_cells.md", "exec"), {})

@@ -86,6 +86,8 @@ def two_branches(alpha_deg: Array, residuals: Array, least: float) -> Branches |
     for size, (strict, loose) in _RATIOS.items():
         for first in range(0, len(a) - size + 1, max(size // 4, 1)):
             rows = np.arange(first, first + size)
+            if np.ptp(y[rows]) < least or y[rows].std() < least * np.sqrt(_BOTH / size * (1 - _BOTH / size)):
+                continue  # too close together for such a gap
             lines = _two_lines(a[rows], y[rows])
             if lines is None:
                 continue

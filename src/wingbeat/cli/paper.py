@@ -118,11 +118,12 @@ def _claims(numbers: list[int], folder: Path, quick: bool, processes: int, befor
         orbits = solve_cases(cases, 3 if quick else 6, processes, progress)
     certified = sum(orbit.status.value == "converged" for orbit in orbits.values())
     print(f"{certified} of {len(cases)} orbits certified", file=sys.stderr)
-    written = draw_figures(orbits, numbers, folder)
     claims = judge_claims(orbits, quick)
-    written += write_claims(claims, orbits, folder, earlier)
     for claim in claims:
         print(f"{claim.id}: {claim.verdict}")
+    sys.stdout.flush()
+    written = draw_figures(orbits, numbers, folder)
+    written += write_claims(claims, orbits, folder, earlier)
     print(f"wrote {len(written)} files to {folder} in {time.perf_counter() - begun:.0f} s", file=sys.stderr)
 
 

@@ -150,10 +150,10 @@ def test_a_saved_curve_comes_back(curve, tmp_path):
 def test_files_that_are_no_curves_are_refused(curve, tmp_path):
     path = tmp_path / "other.nc"
     curve.dataset.assign_attrs(marks="{").to_netcdf(path, engine="h5netcdf")
-    with pytest.raises(FileError, match="is damaged"):
+    with pytest.raises(FileError, match="as a curve: it has no digest"):
         wb.load_curve(path)
     curve.dataset.assign_attrs(wingbeat_kind="orbit").to_netcdf(path, engine="h5netcdf")
-    with pytest.raises(FileError, match="it does not hold a curve"):
+    with pytest.raises(FileError, match="as a curve: it holds another kind of result, 'orbit'"):
         wb.load_curve(path)
 
 

@@ -62,6 +62,7 @@ def change(path, random):
         ]
         name = str(random.choice(arrays))
         item, act = file[name], int(random.integers(8))
+        own = [name for name in file.attrs if not name.startswith("_")]
         if act == 0:
             values = item[...]
             place = tuple(int(random.integers(n)) for n in values.shape)
@@ -78,12 +79,12 @@ def change(path, random):
         elif act == 5:
             file["extra"] = item[...]
         elif act == 6:
-            other = str(random.choice([n for n in file.attrs if isinstance(file.attrs[n], bytes)]))
+            other = str(random.choice([n for n in own if isinstance(file.attrs[n], bytes)]))
             text = bytearray(file.attrs[other])
             text[int(random.integers(len(text)))] ^= 1
             file.attrs[other], name = np.bytes_(bytes(text)), other
         else:
-            other = str(random.choice([n for n in file.attrs if not n.startswith("_")]))
+            other = str(random.choice(own))
             del file.attrs[other]
             name = other
         return act, name

@@ -97,6 +97,9 @@ def own_content(dataset: xr.Dataset) -> xr.Dataset:
     ------
     ValueError : there is no digest, or it does not fit the content; in words for a reader.
     """
+    dataset = dataset.copy()
+    for place in (dataset, *dataset.variables.values()):
+        place.attrs = {name: _utf8(value) for name, value in place.attrs.items()}
     if DIGEST not in dataset.attrs or DIGEST_OF not in dataset.attrs:
         raise ValueError(
             "it has no digest, so another program or an older version of wingbeat wrote it; save the result again "
@@ -110,11 +113,15 @@ def own_content(dataset: xr.Dataset) -> xr.Dataset:
         good = False
     if not good:
         raise ValueError("it was changed after wingbeat wrote it: its digest does not fit; solve it again")
-    own = dataset.copy()
-    own.attrs = {name: dataset.attrs[name] for name in covered}
-    for variable in own.variables.values():
+    dataset.attrs = {name: dataset.attrs[name] for name in covered}
+    for variable in dataset.variables.values():
         variable.attrs = {name: value for name, value in variable.attrs.items() if name in _OF_VARIABLE}
-    return own
+    return dataset
+
+
+def _utf8(value: Any) -> Any:
+    """Return a text as it was written: netCDF's library declares UTF-8 as ASCII, which h5netcdf does not decode."""
+    return value.encode("utf-8", "surrogateescape").decode("utf-8", "replace") if isinstance(value, str) else value
 
 
 def _is_text(dtype: np.dtype) -> bool:

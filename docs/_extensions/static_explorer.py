@@ -27,8 +27,8 @@ SPEEDS = {
     "annas-hummingbird": (0.0, 1.0, 2.0, 4.0, 6.0, 8.0, 10.0, 12.0),
     "robofalcon2": (4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0),
 }
-# Within plausible ranges the pigeon's muscle is strong enough at these speeds; elsewhere a search takes minutes.
-WITHIN = {"pigeon": (10.5, 11.0, 11.5, 12.0, 12.5, 13.0, 13.5, 14.0)}
+# Within plausible ranges the muscle is strong enough at these speeds; elsewhere a search takes minutes.
+WITHIN = {"pigeon": (10.5, 11.0, 11.5, 12.0, 12.5, 13.0, 13.5, 14.0), "bat": (3.5, 4.0, 4.5, 5.0, 5.5, 6.0)}
 # The first flies as a live animal could; with the others, the four guided tours have what they need. All models of
 # each flyer, with gusts, would take some minutes longer.
 FLIGHTS = (

@@ -209,7 +209,7 @@ def test_gauges_say_in_words_where_the_number_lies(show, answers):
         assert float(gauge(page, name).get_attribute("data-exact")) == one["value"]
     # A range that begins below 0, from -10 to 40 degrees, has its place on a bar from -20 to 80.
     band = page.locator("[data-gauge=mean_body_pitch] .wbx-band")
-    ends = [float(end.strip("calc()%")) for end in band.evaluate("band => [band.style.left, band.style.right]")]
+    ends = [band.evaluate(f"band => Number(band.style.{end}.replace(/[^0-9.]/g, ''))") for end in ("left", "right")]
     assert ends == pytest.approx([10.0, 40.0])
     row = page.locator("[data-gauge=strouhal]")
     row.locator("summary").click()

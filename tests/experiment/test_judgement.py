@@ -145,3 +145,19 @@ def test_what_no_wing_has_beyond_the_data_is_a_failure():
     assert any("which no wing has, beyond the measured 0 to 16 deg" in one for one in found.failures), (
         found.failures
     )
+
+
+def test_reynolds_numbers_that_rise_without_gaps_are_compared_in_parts():
+    wing = Wing(np.random.default_rng(5))
+    streams = np.repeat(np.geomspace(2e4, 1e5, 20), len(wing.alpha))
+    rows = [wing.rows(wing.alpha, 0.01, top) for top in np.linspace(0.6, 1.0, 20)]
+    assert any("C_L: the residuals depend on Re: at Re 20000 to" in one for one in warned(np.hstack(rows), streams))
+    assert warned(np.hstack([wing.rows(wing.alpha, 0.01) for _ in rows]), streams) == ()
+
+
+def test_drag_below_the_friction_of_a_plate_is_doubted():
+    rows = Wing(np.random.default_rng(6)).rows(np.arange(-10.0, 17.0), 0.01)
+    assert warned(rows, np.full(27, 50e3)) == ()
+    assert any(
+        "are the Reynolds numbers in thousands or millions" in one for one in warned(rows, np.full(27, 50.0))
+    )

@@ -48,7 +48,7 @@ class PolarSheet(NamedTuple):
     sheet : the parts of the file.
     headings : the file's own names of the columns that are read, by our names.
     columns : numbers by our names, each of shape (rows,); NaN where an optional cell is empty.
-    notes : what a reader should know: columns that are not read, values that look odd.
+    notes : what a reader should know: columns that are not read.
     """
 
     sheet: Sheet
@@ -84,7 +84,7 @@ def read_polar(path: str | Path, faults: FaultList) -> PolarSheet:
     found = PolarSheet(sheet, headings, columns, ())
     if sheet.rows:
         _check_values(faults, found)
-    return found._replace(notes=(*notes, *_odd(columns)))
+    return found._replace(notes=tuple(notes))
 
 
 def _names(faults: FaultList, sheet: Sheet) -> tuple[list[str], list[str]]:
@@ -208,21 +208,26 @@ def check_radians(faults: FaultList, where: str, angles: NDArray[np.float64]) ->
     return True
 
 
-def _odd(columns: dict[str, NDArray[np.float64]]) -> list[str]:
-    """Return notes on values that are possible but odd."""
-    stream = columns.get("reynolds", np.empty(0))
-    stream = stream[np.isfinite(stream) & (stream >= 1)]
-    drag = np.sort(columns["C_D"][np.isfinite(columns["C_D"])])
+def doubtful_drag(given: NDArray[np.float64], reynolds: NDArray[np.float64] | None) -> tuple[str, ...]:
+    """Return a warning if drag is far below the friction of a flat plate at these Reynolds numbers.
+
+    >>> doubtful_drag(np.array([0.03, 0.04]), np.array([60e3, 60e3]))
+    ()
+    >>> len(doubtful_drag(np.array([0.03, 0.04]), np.array([60.0, 60.0])))
+    1
+    """
+    stream = np.empty(0) if reynolds is None else reynolds[np.isfinite(reynolds) & (reynolds >= 1)]
+    drag = np.sort(given[np.isfinite(given)])
     if not len(stream) or not len(drag):
-        return []
+        return ()
     low, least = float(np.median(stream)), float(np.median(drag[: max(len(drag) // 4, 1)]))
     friction = _BLASIUS / math.sqrt(low)
     if not 0 < least < _LEAST_SHARE * friction:
-        return []
-    return [
+        return ()
+    return (
         f"C_D is {least:.2g} at its lowest, but the friction of a flat plate at Re {low:.3g} is {friction:.2g} "
-        "(Blasius): are the Reynolds numbers in thousands or millions, or is the zero of the drag wrong?"
-    ]
+        "(Blasius): are the Reynolds numbers in thousands or millions, or is the zero of the drag wrong?",
+    )
 
 
 def refuse_several(faults: FaultList, path: str | Path, polar: PolarSheet) -> None:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat.aero.polar_sheet import reynolds_groups
+from wingbeat.aero.polar_sheet import doubtful_drag, reynolds_groups
 from wingbeat.aero.table_checks import MAX_DRAG, MAX_LIFT
 from wingbeat.errors import InvalidInputError
 from wingbeat.experiment.branches import Branches, two_branches
@@ -38,6 +38,8 @@ _OUTLYING, _ALONE = 6.0, 0.4
 # A curve that leaves half of the variance is no fit, unless the scatter is small beside the values themselves:
 # drag near its minimum hardly varies.
 LEAST_R_SQUARED, SMALL_SCATTER = 0.5, 0.1
+# Ratio of the highest to the lowest Reynolds number from which a range without gaps is compared in parts.
+_WIDE = 1.3
 # Most sweeps to compare one by one; more of them are compared as all that rise with all that fall.
 _SWEEPS = 6
 
@@ -61,7 +63,7 @@ def judge(curve: CurveFit, reynolds: Array | None) -> tuple[str, ...]:
     least = LEAST_SHARE * float(np.ptp(curve.values))
     if least <= 0:
         return ()
-    groups = reynolds_groups(reynolds)
+    groups = _groups(reynolds)
     notes: list[str] = []
     parts = [np.arange(len(curve.values))]
     if reynolds is not None and len(groups) > 1:
@@ -73,7 +75,17 @@ def judge(curve: CurveFit, reynolds: Array | None) -> tuple[str, ...]:
         if found is not None:
             notes.append(_branch_words(curve, found))
             break
-    return (*notes, *_wrong_rows(curve, least))
+    doubts = doubtful_drag(curve.values, reynolds) if curve.label == "C_D" else ()
+    return (*notes, *_wrong_rows(curve, least), *doubts)
+
+
+def _groups(reynolds: Array | None) -> list[tuple[float, float]]:
+    """Return the lowest and highest Reynolds number of each group; a wide range without gaps is cut in thirds."""
+    groups = reynolds_groups(reynolds)
+    if reynolds is None or len(groups) != 1 or groups[0][1] < _WIDE * groups[0][0]:
+        return groups
+    known = np.unique(reynolds[np.isfinite(reynolds)])
+    return [(float(part[0]), float(part[-1])) for part in np.array_split(known, 3) if len(part)]
 
 
 def _of_reynolds(

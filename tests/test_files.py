@@ -67,3 +67,18 @@ def test_text_is_read_up_to_its_limit(tmp_path: Path) -> None:
     assert read_text(path, limit=5) == "12345"
     with pytest.raises(FileError, match="more than 4 bytes"):
         read_text(path, limit=4)
+
+
+@pytest.mark.parametrize(
+    ("start", "words"),
+    [
+        (b"\x89HDF\r\n\x1a\n", "a NetCDF-4 or HDF5 file, such as a saved result"),
+        (b"MATLAB 5.0 MAT-file\xff", "a MATLAB file"),
+        (b"PK\x03\x04\xff", r"a spreadsheet \(.xlsx, .ods\)"),
+        (b"SQLite format 3\x00\xff", "a database, such as the store of a study"),
+    ],
+)
+def test_a_file_that_is_no_text_is_named(tmp_path: Path, start: bytes, words: str) -> None:
+    (tmp_path / "given.toml").write_bytes(start + b"\x00\xff" * 40)
+    with pytest.raises(FileError, match=f"cannot read .*given.toml': it is {words}.*, not a text file"):
+        read_text(tmp_path / "given.toml")

@@ -11,12 +11,27 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from wingbeat.errors import FileError
+from wingbeat.errors import FileError, control_in
 from wingbeat.workers.leftovers import Leftover
 
 # tomllib's time and memory grow with the square of a dotted key's length: a.a.a... of 200 kB fills the memory of a
 # machine.
 MAX_LINE = 4096
+# The first bytes of files that are taken for texts by mistake, and what they are.
+_BINARY = {
+    b"\x89HDF": "a NetCDF-4 or HDF5 file, such as a saved result (`wingbeat show` prints those)",
+    b"CDF": "a NetCDF-3 file",
+    b"MATLAB 5.0": "a MATLAB file",
+    b"PK": "a spreadsheet (.xlsx, .ods) or another packed file",
+    b"\xd0\xcf\x11\xe0": "an old spreadsheet (.xls)",
+    b"\x1f\x8b": "packed with gzip",
+    b"%PDF": "a PDF",
+    b"\x89PNG": "a picture",
+    b"SQLite format 3": "a database, such as the store of a study",
+    b"PAR1": "a Parquet file",
+}
+# What to do about a control character, which would change what a terminal shows.
+_PLAIN = "write plain text"
 # Characters of a path in a message.
 _SHOWN = 300
 
@@ -26,7 +41,7 @@ def read_text(path: str | os.PathLike[str], *, limit: int = 1 << 20) -> str:
 
     Raises
     ------
-    FileError : missing, a folder, a pipe or device, unreadable, too large, or not UTF-8 text.
+    FileError : missing, a folder, a pipe or device, unreadable, too large, not UTF-8, or with control characters.
     """
     try:
         # A pipe would wait for ever and a device may have no end, so the kind is looked at first.
@@ -39,11 +54,18 @@ def read_text(path: str | os.PathLike[str], *, limit: int = 1 << 20) -> str:
     if len(content) > limit:
         raise FileError(f"cannot read {_shown(path)}: it has more than {limit} bytes; is it the right file?")
     try:
-        return content.decode("utf-8-sig")  # Windows editors put a byte-order mark in front
+        text = content.decode("utf-8-sig")  # Windows editors put a byte-order mark in front
     except UnicodeDecodeError as error:
+        for start, kind in _BINARY.items():
+            if content.startswith(start):
+                raise FileError(f"cannot read {_shown(path)}: it is {kind}, not a text file") from None
         raise FileError(
             f"cannot read {_shown(path)}: byte {error.start} is not UTF-8 text; save the file as UTF-8 text"
         ) from None
+    if (control := control_in(text.replace("\r", "\n"))) is not None:
+        where = f"line {text[: text.index(control)].count(chr(10)) + 1}"
+        raise FileError(f"cannot read {_shown(path)}: {where} holds the control character {control!r}; {_PLAIN}")
+    return text
 
 
 def toml_tables(text: str, label: str) -> dict[str, Any]:
@@ -62,7 +84,11 @@ def toml_tables(text: str, label: str) -> dict[str, Any]:
             f"cannot read {label!r}: a line has {longest} characters, more than {MAX_LINE}; break it up"
         )
     try:
-        return tomllib.loads(text)
+        tables = tomllib.loads(text)
+        # TOML writes them as escapes too, so the check of `read_text` does not see them.
+        if (control := control_in(tables)) is not None:
+            raise FileError(f"cannot read {label!r}: a text holds the control character {control!r}; {_PLAIN}")
+        return tables
     except RecursionError:
         raise FileError(f"cannot read {label!r}: it is nested too deeply; is it the right file?") from None
     except ValueError as error:  # of TOML itself, or a number or date that Python cannot hold

@@ -130,4 +130,4 @@ def test_a_mode_is_flown_and_can_be_viewed(saved, tmp_path, capsys):
     assert main(["stability", saved, "--mode", "0"]) == 2
     assert "needs --output" in capsys.readouterr().err
     assert main(["stability", saved, "--mode", "9", "-o", str(flown)]) == 2
-    assert "index = 9" in capsys.readouterr().err
+    assert "--mode = 9: must be a whole number from 0 to 3" in capsys.readouterr().err

@@ -64,7 +64,10 @@ def load_species(name_or_path: str | os.PathLike[str]) -> Species:
         return _build(packaged_text(name), f"{name}.toml", name)
     if isinstance(name, str) and not (name.endswith(".toml") or any(s in name for s in _SEPARATORS)):
         known = suggest(name.lower(), species_names()).replace("?", "")
-        faults.add("species", name, "is not a built-in species", f"{known}; or give the path of a .toml file")
+        if os.path.isfile(name):
+            faults.add("species", name, "is not a species file", "its name must end in .toml, or name an animal")
+        else:
+            faults.add("species", name, "is not a built-in species", f"{known}; or give the path of a .toml file")
     elif not isinstance(name, str | os.PathLike):
         faults.add("species", name, "must be a name or a path", f"the names are {', '.join(species_names())}")
     faults.raise_if_any()

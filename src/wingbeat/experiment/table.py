@@ -181,14 +181,17 @@ def load_measurements(path: str | Path) -> CoefficientTable:
     faults.raise_if_any()
     columns, notes = dict(polar.columns), list(polar.notes)
     for name, column in polar.columns.items():
-        empty = int(np.isnan(column).sum())
+        # An error may be empty where its quantity is, such as x_cp where there is no force.
+        of = columns.get(name.removesuffix("_sd").removesuffix("_se"), column) if name not in QUANTITIES else column
+        lacks = np.isnan(column) & (np.isfinite(of) | (of is column))
+        empty = int(lacks.sum())
         if not empty or name in QUANTITIES or name == "reynolds":
             continue
         if name == "runs" or empty == len(column):
             del columns[name]
             notes.append(f"{name} is empty in {empty} of {len(column)} rows, so this column is not used")
         else:
-            columns[name] = np.where(np.isnan(column), np.nanmedian(column), column)
+            columns[name] = np.where(lacks, np.nanmedian(column), column)
             notes.append(f"{name} is empty in {empty} of {len(column)} rows, which get the median of the others")
     if "reynolds" in columns and np.isnan(columns["reynolds"]).all():
         del columns["reynolds"]

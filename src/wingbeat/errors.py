@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -151,6 +152,26 @@ def system_reason(error: Exception) -> str:
     'no such file or directory'
     """
     return (getattr(error, "strerror", None) or str(error)).lower()
+
+
+# Characters that change what a terminal shows: escapes and other controls, and marks that turn the way of writing.
+_CONTROLS = re.compile(
+    "[\x01-\x08\x0e-\x19\x1b-\x1f\x7f-\x9f\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069]|\r(?!\n)"
+)
+
+
+def control_in(value: object) -> str | None:
+    r"""Return a control character in a text, or in the texts of a list or dictionary; None if there is none.
+
+    >>> control_in({"name": ["plain\ttext", "\x1b[31mred"]}), control_in("two\nlines")
+    ('\x1b', None)
+    """
+    if isinstance(value, str):
+        found = _CONTROLS.search(value)
+        return found and found[0]
+    if isinstance(value, dict):
+        value = [*value, *value.values()]
+    return next(filter(None, map(control_in, value)), None) if isinstance(value, list | tuple) else None
 
 
 def is_number(value: object) -> TypeGuard[int | float]:

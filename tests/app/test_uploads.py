@@ -89,7 +89,7 @@ def test_a_species_file_and_a_saved_state_are_told_apart(tmp_path):
         (b'{"wingbeat_explorer": 1, "state": {"species": "dodo"}}', "is not a known choice"),
         (b"{" * 50_000, "as JSON"),
         (b"\x89HDF\r\n\x1a\n" + b"\0" * 1000, "damaged or cut short"),
-        (b"CDF\x01", "TOML"),
+        (b"CDF\x01", "line 1 holds the control character '\\x01'"),
     ],
 )
 def test_what_is_no_good_file_is_refused_in_words(content, words, tmp_path):

@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat.datasets import KIND, SHAPE
-from wingbeat.errors import is_number
+from wingbeat.errors import control_in, is_number
 from wingbeat.nomenclature.series import SERIES, SERIES_WHERE_ON
 from wingbeat.species_schema.models import KINDS
 
@@ -128,8 +128,21 @@ def check_form(dataset: xr.Dataset) -> None:
             faults.append(f"the attribute {name} is missing or of another type")
     if SHAPE in dataset.attrs and not _is_shape(dataset.attrs[SHAPE]):
         faults.append("the attribute shape is of another type")
+    texts = [v.values.ravel().tolist() for v in dataset.variables.values() if v.dtype.kind in _TEXTS]
+    held = [*texts, *(_content(value) for value in dataset.attrs.values())]
+    held += [variable.attrs for variable in dataset.variables.values()]
+    if (control := control_in(held)) is not None:
+        faults.append(f"a text holds the control character {control!r}")
     if faults:
         raise ValueError("; ".join(faults[:3]) + (f"; and {len(faults) - 3} more" if len(faults) > 3 else ""))
+
+
+def _content(value: Any) -> Any:
+    """Return what an attribute holds: the content of a JSON text, in which control characters are escapes."""
+    try:
+        return [value, json.loads(value)] if isinstance(value, str) else None
+    except (ValueError, RecursionError):
+        return value
 
 
 def _is_shape(text: Any) -> bool:

@@ -22,8 +22,8 @@ _OF_VARIABLE = ("long_name", "standard_name", "symbol", "units")
 def netcdf_bytes(dataset: xr.Dataset) -> bytes:
     """Return a dataset as the bytes of a NetCDF-4 file with a digest of its content.
 
-    Texts have a fixed length (NC_CHAR, UTF-8). By default, xarray writes texts of variable length (NC_STRING), from
-    which Octave reads no unit, R no coordinate and netCDF4's ``ncinfo`` nothing at all.
+    Texts have a fixed length (NC_CHAR, UTF-8). By default, xarray writes texts of variable length (NC_STRING), of
+    which Octave's netcdf package reads no unit and no coordinate, and ``nccopy -d`` packs no file that holds one.
 
     Parameters
     ----------

@@ -15,10 +15,12 @@ Array = NDArray[np.float64]
 # also `_GAP` times the scatter between neighbours elsewhere.
 _RATIOS = {8: (0.001, 0.014), 10: (0.010, 0.034), 12: (0.030, 0.057), 16: (0.060, 0.10), 20: (0.080, 0.13)}
 _RATIOS |= {28: (0.115, 0.18)}
-_GAP = 8.0
+_GAP = 6.0
 # Fewest rows of each branch, and least share of rows whose nearest angle is on the other branch: one half if
 # branches alternate, and nearly none where the curve jumps or bends at a stall, as repeats of an angle are alike.
 _BOTH, _MIXED = 3, 0.3
+# Branches at angles of their own: fewest changes from one angle to the next, and their least share.
+_TURNS, _ALTERNATING = 4, 0.6
 # Part of the largest gap down to which two branches count as apart.
 _APART = 0.4
 
@@ -93,7 +95,7 @@ def two_branches(alpha_deg: Array, residuals: Array, least: float) -> Branches |
                 continue
             ratio, upper = lines
             gap = float(y[rows][upper].mean() - y[rows][~upper].mean())
-            if ratio > loose or abs(gap) < least or _mixed(a[rows], upper) < _MIXED:
+            if ratio > loose or abs(gap) < least or not _mixed(a[rows], upper):
                 continue
             if ratio < strict or abs(gap) > _GAP * _scatter(y, rows):
                 found.append((ratio / strict, rows, upper))
@@ -144,12 +146,15 @@ def _line(x: Array, y: Array, rows: NDArray[np.bool_]) -> Array:
     return mean + float(away @ (y[rows] - mean)) / max(float(away @ away), 1e-300) * (x - at)
 
 
-def _mixed(a: Array, upper: NDArray[np.bool_]) -> float:
-    """Return the share of rows that are on the other branch, among the rows nearest in angle to each row."""
+def _mixed(a: Array, upper: NDArray[np.bool_]) -> bool:
+    """Return whether both branches are at the same angles, or take turns from one angle to the next."""
     apart = np.abs(a[:, None] - a)
     np.fill_diagonal(apart, np.inf)
     nearest = apart <= apart.min(axis=1, keepdims=True) + 1e-6
-    return float(((nearest & (upper[:, None] != upper)).sum(axis=1) / nearest.sum(axis=1)).mean())
+    share = (nearest & (upper[:, None] != upper)).sum(axis=1) / nearest.sum(axis=1)
+    place = np.unique(np.round(a, 3), return_inverse=True)[1]
+    turns = int(np.abs(np.diff(np.bincount(place, upper) > 0.5 * np.bincount(place))).sum())
+    return float(share.mean()) >= _MIXED or turns >= max(_TURNS, _ALTERNATING * place.max())
 
 
 def _scatter(y: Array, rows: NDArray[np.intp]) -> float:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from wingbeat.aero.table_checks import MAX_DRAG, MAX_LIFT
 from wingbeat.errors import FaultList
+from wingbeat.nomenclature import plain_unit
 
 if TYPE_CHECKING:
     from wingbeat.experiment.record import LoadCellRun
@@ -14,10 +15,10 @@ if TYPE_CHECKING:
 
 # Constants beyond these ranges are in another unit. Streams are slower than sound, mercury has 13 500 kg/m3.
 _RANGES = {
-    "speed": (1e-4, 340.0, "m/s"),
-    "density": (0.004, 2e4, "kg/m3"),
-    "chord": (1e-4, 10.0, "m"),
-    "span": (1e-4, 50.0, "m"),
+    "speed": (1e-4, 340.0),
+    "density": (0.004, 2e4),
+    "chord": (1e-4, 10.0),
+    "span": (1e-4, 50.0),
 }
 # Dynamic viscosities of gases from 100 to 3000 K, and of liquids from liquefied gas to honey [Pa s].
 _GAS, _LIQUID = (4e-6, 1e-4), (5e-5, 50.0)
@@ -59,8 +60,8 @@ def check_constants(faults: FaultList, run: LoadCellRun) -> None:
         faults.add(f"{run.name}, {name}", getattr(run, name), rule, fix)
 
     before = len(faults.faults)
-    for name, (least, most, unit) in _RANGES.items():
-        value = getattr(run, name)
+    for name, (least, most) in _RANGES.items():
+        value, unit = getattr(run, name), plain_unit(name)
         if not least <= value <= most:
             length = "; is it in mm or cm?" if value > most and unit == "m" else ""
             note(name, f"must lie between {least:g} and {most:g} {unit}", f"give it in {unit}{length}")

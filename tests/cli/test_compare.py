@@ -61,7 +61,7 @@ def test_a_flight_is_no_orbit(pigeon_orbit, tmp_path, capsys):
     flight = wb.simulate(pigeon_orbit.model, pigeon_orbit.wingbeat, pigeon_orbit.orbit.initial_state)
     flight.save(tmp_path / "flight.nc")
     assert main(["compare", str(tmp_path / "flight.nc")]) == 2
-    words = "as an orbit: it is of kind 'flight'; give a file that `wingbeat orbit -o` wrote"
+    words = "as an orbit: it holds another kind of result, 'flight'; give a file that `wingbeat orbit -o` wrote"
     assert words in capsys.readouterr().err
 
 

@@ -39,7 +39,11 @@ def swept_orbit(rigid_orbit):
 @pytest.fixture(scope="session")
 def uncertified_orbit(pigeon_orbit):
     """An orbit whose record says that it was not certified."""
-    record = pigeon_orbit.orbit.record() | {"status": "not-converged", "message": "the search ended too early"}
+    record = pigeon_orbit.orbit.record() | {
+        "status": "not-converged",
+        "message": "the search ended too early",
+        "stable": None,
+    }
     return wb.Orbit.of_record(record, pigeon_orbit.problem, starts=1)
 
 

@@ -53,7 +53,7 @@ def test_a_file_of_another_kind_gets_its_sentence(tmp_path, capsys, monkeypatch)
     flight.save("flight.nc")
     (tmp_path / "text.nc").write_text("phase,flap\n")
     for name, said in (
-        ("flight.nc", "cannot read 'flight.nc' as an orbit: it is of kind 'flight'"),
+        ("flight.nc", "cannot read 'flight.nc' as an orbit: it holds another kind of result, 'flight'"),
         ("text.nc", "it is not a NetCDF-4 file"),
         ("missing.nc", "no such file"),
     ):

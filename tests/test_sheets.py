@@ -104,3 +104,18 @@ def test_no_value_is_an_empty_cell_where_one_may_be(tmp_path, cell):
     (needed,) = refused(tmp_path, f"time,flap_deg\n0,1\n1,{cell}\n")
     assert "a.csv row 3, column flap_deg" in needed
     assert "but this column needs one in each row" in needed
+
+
+def test_rows_of_commas_are_blank_rows_and_commas_at_the_ends_are_named(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text("time,flap_deg\n0,1\n,\n1,2\n , \n,,\n")
+    assert read(path).tolist() == [[0, 1], [1, 2]]
+    (ends,) = refused(tmp_path, "time,flap_deg\n0,1,\n1,2,\n")
+    assert ends.endswith("drop the commas at the ends of the rows")
+
+
+@pytest.mark.parametrize("cell", ["1e200", "-1e308"])
+def test_a_number_whose_square_overflows_is_refused(tmp_path, cell):
+    (large,) = refused(tmp_path, f"time,flap_deg\n0,1\n1,{cell}\n")
+    assert "row 3, column flap_deg" in large
+    assert "larger than any measurement" in large

@@ -19,6 +19,8 @@ MAX_BYTES = 1 << 26
 MAX_CELL_FAULTS = 40
 # A file needs some twenty constants. More lines than these are not ours, and would fill the memory.
 MAX_CONSTANTS = 1000
+# No instrument gives larger numbers, and their squares would overflow.
+_LARGEST = 1e100
 # What programs write where there is no value, in lower case: pandas, NumPy, MATLAB, R, LabVIEW, spreadsheets.
 NO_VALUE = frozenset(
     {"", "nan", "-nan", "na", "n/a", "#n/a", "null", "none", "<na>", "1.#qnan", "-1.#ind", "nan(ind)"}
@@ -155,6 +157,8 @@ def seems_to_be(text: str) -> str | None:
 def read_sheet(path: str | Path) -> Sheet:
     """Split a CSV file into its constants (``# name = value``) and its table, without converting numbers.
 
+    Blank rows are left out, and so are rows of commas alone, which spreadsheets write for them.
+
     Raises
     ------
     FileError : the file is missing or cannot be read.
@@ -193,7 +197,7 @@ def read_sheet(path: str | Path) -> Sheet:
                 break
             else:
                 constants[name] = (row, value.strip())
-        elif text:
+        elif text.strip(", \t"):
             table.append((row, text))
     if not table and not faults.faults:
         faults.add(f"{path.name} row 1", "", "the file holds no table", "the first row names the columns")
@@ -221,15 +225,18 @@ def parse_numbers(
             numbers = np.loadtxt([text for _, text in sheet.rows], delimiter=",", ndmin=2, comments=None)
         except ValueError:
             numbers = np.empty((0, 0))
-        if numbers.shape == (len(sheet.rows), len(names)) and np.isfinite(numbers).all():
+        # Not a number compares as False.
+        if numbers.shape == (len(sheet.rows), len(names)) and (np.abs(numbers) <= _LARGEST).all():
             return numbers
     values = np.full((len(sheet.rows), len(names)), np.nan)
     widths = {len(_cells(text)) for _, text in sheet.rows[:MAX_CELL_FAULTS]}
     if len(sheet.rows) > 1 and len(widths) == 1 and (width := widths.pop()) != len(names):
         rule = f"and all others have {width} cells, but the header names {len(names)} columns"
         row, text = sheet.rows[0]
-        decimal = "write decimal points, not commas" if width == 2 * len(names) else "name every column"
-        faults.add(f"{sheet.file} row {row}", text, rule, decimal)
+        fix = "write decimal points, not commas" if width == 2 * len(names) else "name every column"
+        if all(text.endswith(",") for _, text in sheet.rows):
+            fix = "drop the commas at the ends of the rows"
+        faults.add(f"{sheet.file} row {row}", text, rule, fix)
         return values
     enough = len(faults.faults) + MAX_CELL_FAULTS
     for i, (row, text) in enumerate(sheet.rows):
@@ -278,5 +285,8 @@ def _number(faults: FaultList, where: str, cell: str) -> float:
         return np.nan
     if not np.isfinite(number):
         faults.add(where, number, "must be finite", "drop the row or give a value")
+        return np.nan
+    if abs(number) > _LARGEST:
+        faults.add(where, number, "is larger than any measurement", "drop the row or give a value")
         return np.nan
     return number

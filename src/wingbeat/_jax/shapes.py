@@ -17,9 +17,10 @@ Scalar = Float[Any, ""]
 Free = Float[Any, "free"]
 # Angles of attack, any shape.
 Angles = Float[Any, "*angles"]
-# Knots of a cubic spline, and its coefficients, constant first.
-Knots = Float[Any, "knots"]
+# Coefficients of a cubic spline, constant first; and of a table's curves, one column for each piece.
 Spline = Float[Any, "4 pieces"]
+PieceColumns = Float[Any, "numbers pieces"]
+Cells = Float[Any, "cells"]
 
 # One number at each phase, or at each instant [s].
 Phases = Float[Any, "*phases"]

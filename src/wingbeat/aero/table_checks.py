@@ -11,6 +11,8 @@ from wingbeat.errors import FaultList
 REQUIRED = ("alpha_deg", "c_l", "c_d")
 OPTIONAL = ("x_cp",)
 MIN_ROWS = 4
+# No instrument sets angles more finely, and a curve through closer rows would be a step.
+CLOSEST_DEG = 1e-3
 # What a wing can have. Sections with slotted flaps reach a lift coefficient of about 4.5, and a plate across the
 # flow has a drag coefficient of about 2. The centre of pressure is in chords from the leading edge.
 MAX_LIFT, MAX_DRAG, CENTRE_RANGE = 5.0, 5.0, (-1.0, 2.0)
@@ -80,6 +82,9 @@ def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Whe
         if i and angle <= angles[i - 1]:
             rule = f"must be above the {angles[i - 1]:g} before it"
             faults.add(where(i, "alpha_deg"), angle, rule, "sort the rows by angle and drop duplicates")
+        elif i and angle - angles[i - 1] < CLOSEST_DEG:
+            rule = f"must be at least {CLOSEST_DEG:g} degrees above the {angles[i - 1]:g} before it"
+            faults.add(where(i, "alpha_deg"), angle, rule, "merge the two rows")
         if abs(angle) > 180:
             faults.add(where(i, "alpha_deg"), angle, "must lie between -180 and 180 degrees", "wrap the angle")
     for name, column in columns.items():

@@ -200,3 +200,29 @@ def test_a_fit_that_failed_writes_nothing_and_ends_with_3(capsys):
     assert "error: the fit failed: C_L: the curve does not fit: R-squared is 0." in err
     assert "wing.toml was not written" in err
     assert not Path("wing.toml").exists()
+
+
+_TURN = np.deg2rad([a for a, _, _ in WHOLE])
+_ACROSS = "is larger than the drag at all angles from 80 to 100 degrees"
+DIRECTIONS = {
+    "lift of the other sign": ([(a, -lift, drag) for a, lift, drag in WHOLE], "it must be positive there"),
+    "lift without its sign": (
+        [(-a, lift, drag) for a, lift, drag in WHOLE[:0:-1]] + WHOLE,
+        "lift at negative angles from 20 to 70 degrees, and it must be negative",
+    ),
+    "columns exchanged": ([(a, drag, lift + 0.02) for a, lift, drag in WHOLE], _ACROSS),
+    "normal and tangential force": (
+        [(a, 2 * np.sin(t), 0.05) for (a, _, _), t in zip(WHOLE, _TURN, strict=True)],
+        _ACROSS,
+    ),
+}
+
+
+@pytest.mark.parametrize("kind", DIRECTIONS)
+@pytest.mark.parametrize("command", ["fit a.csv", "polar a.csv --extension signed"])
+def test_coarse_tables_of_other_directions_are_refused(kind, command, capsys):
+    """With a row at every fifth degree, too few lie at small angles for the slope of the lift."""
+    rows, words = DIRECTIONS[kind]
+    written("a.csv", HEADS[0], rows)
+    assert main(shlex.split(command)) == 2
+    assert words in capsys.readouterr().err

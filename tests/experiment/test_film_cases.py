@@ -209,3 +209,8 @@ def test_the_error_of_the_frequency_is_that_of_many_clips():
     assert 0.75 < np.std(off) < 1.3
     assert 0.75 < np.std(drifts) < 1.3
     assert not any(dataclasses.replace(Film("f", 8 * AT, {"flap_deg": FLAP}, 8.0)).warnings)
+
+
+def test_times_closer_together_than_any_cameras_are_refused(tmp_path):
+    """The square of so short a clip is 0, and its rate was divided by it."""
+    assert "shorter than any camera's" in refused(film(tmp_path, clock=AT * 1e-300))

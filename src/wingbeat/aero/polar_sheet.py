@@ -31,6 +31,8 @@ _ERROR_LIKE = re.compile(r"(cl|cd|cm|xcp)\W*(e|s|u|d|std|stat|ci)", re.ASCII)
 # Lift rises with the angle of attack on every wing at small angles. These are the angles [deg], the least number of
 # angles, and the least fall of lift that says that a sign is wrong.
 _ATTACHED_DEG, _LEAST_ANGLES, _LEAST_FALL = 8.0, 4, 0.15
+# At these angles [deg] every wing's lift has the sign of the angle, and at those its drag is above its lift.
+_INCLINED_DEG, _ACROSS_DEG = (20.0, 70.0), (80.0, 100.0)
 # No wing in a stream at Re above 100 has so much drag at small angles: a plate at Re 100 has 0.27 (Blasius).
 # In per cent it is at most 20 there; more are drag counts.
 _SMALL_DEG, _DRAG_AT_SMALL, _PER_CENT_AT_SMALL, _VISCOUS = 5.0, 1.0, 20.0, 100.0
@@ -144,17 +146,39 @@ def _check_values(faults: FaultList, polar: PolarSheet) -> None:
             units = "it looks like millions or thousands: multiply by 1 000 000 or 1000"
             fault_at(faults, polar, name, column < 1, "must be >= 1", units if small else "was the stream at rest?")
     _check_angles(faults, polar)
-    alpha, lift = columns["alpha_deg"], columns["C_L"]
+    _check_directions(faults, polar)
+
+
+def _check_directions(faults: FaultList, polar: PolarSheet) -> None:
+    """Note lift that falls with the angle or has the wrong sign, and lift above drag across the flow."""
+    alpha, lift, drag = (polar.columns[name] for name in REQUIRED)
+    where = f"{polar.sheet.file}, column {polar.headings['C_L']}"
+    reverse = f"reverse the sign of {polar.headings['C_L']} or of {polar.headings['alpha_deg']}"
     near = (np.abs(alpha) <= _ATTACHED_DEG) & np.isfinite(lift)
     if len(np.unique(alpha[near])) >= _LEAST_ANGLES:
         slope = float(np.polyfit(alpha[near], lift[near], 1)[0])
         fall = -slope * float(np.ptp(alpha[near]))
         if fall > _LEAST_FALL and np.corrcoef(alpha[near], lift[near])[0, 1] < -0.8:
-            rule = (
-                f"falls by {fall:.2g} from {alpha[near].min():g} to {alpha[near].max():g} degrees; lift must rise"
-            )
-            fix = f"reverse the sign of {polar.headings['C_L']} or of {polar.headings['alpha_deg']}"
-            faults.add(f"{polar.sheet.file}, column {polar.headings['C_L']}", f"{slope:.3g} per degree", rule, fix)
+            low, high = alpha[near].min(), alpha[near].max()
+            rule = f"falls by {fall:.2g} from {low:g} to {high:g} degrees; lift must rise"
+            faults.add(where, f"{slope:.3g} per degree", rule, reverse)
+            return
+    low, high = _INCLINED_DEG
+    for side, sign in (("positive", 1), ("negative", -1)):
+        there = (low <= sign * alpha) & (sign * alpha <= high)
+        if len(np.unique(alpha[there])) > 1 and (sign * lift[there]).max() < -_LEAST_FALL:
+            rule = f"is the lift at {side} angles from {low:g} to {high:g} degrees, and it must be {side} there"
+            faults.add(where, f"{lift[there].min():g} to {lift[there].max():g}", rule, "reverse its sign there")
+            return
+    low, high = _ACROSS_DEG
+    across = (low <= np.abs(alpha)) & (np.abs(alpha) <= high)
+    if across.any() and (np.abs(lift[across]) > drag[across]).all():
+        rule = f"is larger than the drag at all angles from {low:g} to {high:g} degrees, across the flow"
+        fix = (
+            "are lift and drag exchanged? If these are normal and tangential force, lift is C_N cos(alpha) - C_T "
+            "sin(alpha) and drag C_N sin(alpha) + C_T cos(alpha)"
+        )
+        faults.add(where, float(np.abs(lift[across]).max()), rule, fix)
 
 
 def _check_per_cent(faults: FaultList, polar: PolarSheet) -> bool:
@@ -166,6 +190,7 @@ def _check_per_cent(faults: FaultList, polar: PolarSheet) -> bool:
         return False
     rule = f"is at least {drag.min():g} at angles up to {_SMALL_DEG:g} degrees, and no wing has so much drag"
     fix = "the column looks like per cent: divide it by 100"
+    fix += "" if "reynolds" in polar.columns else f"; if Re is below {_VISCOUS:g}, state it in a column reynolds"
     faults.add(f"{polar.sheet.file}, column {polar.headings['C_D']}", float(drag.max()), rule, fix)
     return True
 

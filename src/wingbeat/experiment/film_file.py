@@ -37,6 +37,8 @@ _ROUNDED, _COARSE = 0.03, 0.05
 _TIME_UNITS = {"milliseconds": 1e3, "microseconds": 1e6, "minutes": 1 / 60}
 # Beats slower than this one are those of times in milliseconds or frames [Hz].
 _SLOWEST = 0.05
+# No camera takes frames closer together [s].
+_SHORTEST_STEP = 1e-9
 # Difference of the two sides that no tracking error explains [deg, or hundredths of a fraction].
 _UNEQUAL = 3.0
 # So many frames with both wings give their mean difference.
@@ -210,6 +212,10 @@ def _clock(
         faults.add(f"{sheet.file} row {sheet.rows[k][0]}, column {kind}", float(clock[k]), rule, fix)
         return _Clock(clock, frequency, frequency_se, False)
     step, counts = float(np.median(steps)) if len(steps) else 1.0, bool(np.array_equal(clock, np.round(clock)))
+    if step < _SHORTEST_STEP:
+        rule = f"is the usual step between two frames, shorter than any camera's, {_SHORTEST_STEP:g} s"
+        faults.add(f"{sheet.file}, column {kind}", step, rule, "give the times in seconds")
+        return _Clock(clock, frequency, frequency_se, False)
     rate = given.get("frame_rate")
     if rate is not None and (kind == "frame" or counts):
         clock, counts = clock / rate.value, False

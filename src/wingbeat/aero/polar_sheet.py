@@ -75,7 +75,7 @@ def read_polar(path: str | Path, faults: FaultList) -> PolarSheet:
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : it is no table, or columns are missing, given twice or in other units.
+    InvalidInputError : it is no table or has no rows, or columns are missing, given twice or in other units.
     """
     sheet = read_sheet(path)
     names, notes = _names(faults, sheet)
@@ -83,10 +83,12 @@ def read_polar(path: str | Path, faults: FaultList) -> PolarSheet:
     blank = frozenset(headings[name] for name in headings if name in MAY_BE_EMPTY)
     numbers = parse_numbers(faults, sheet, [headings.get(name, "") for name in names], blank=blank)
     columns = {name: numbers[:, k].copy() for k, name in enumerate(names) if name}
-    found = PolarSheet(sheet, headings, columns, ())
-    if sheet.rows:
-        _check_values(faults, found)
-    return found._replace(notes=tuple(notes))
+    found = PolarSheet(sheet, headings, columns, tuple(notes))
+    if not sheet.rows:
+        faults.add(f"{sheet.file} row {sheet.header_row}", "", "has no row of numbers", "add the measurements")
+        faults.raise_if_any()
+    _check_values(faults, found)
+    return found
 
 
 def _names(faults: FaultList, sheet: Sheet) -> tuple[list[str], list[str]]:

@@ -175,9 +175,6 @@ def load_measurements(path: str | Path) -> CoefficientTable:
     """
     faults = FaultList()
     polar = read_polar(path, faults)
-    if not polar.sheet.rows:
-        where = f"{polar.sheet.file} row {polar.sheet.header_row}"
-        faults.add(where, "", "has no row of numbers", "add the measurements")
     faults.raise_if_any()
     columns, notes = dict(polar.columns), list(polar.notes)
     for name, column in polar.columns.items():

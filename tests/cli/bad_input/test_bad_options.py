@@ -52,17 +52,16 @@ NAMES = {
 TABLES = {
     "missing.csv": ["missing.csv|no such file or directory; check the path"],
     "folder.csv": ["folder.csv|it is not a file|give the path"],
-    "empty.csv": ["empty.csv row 1 = '': the file is empty; the first row must read alpha_deg,c_l,c_d"],
-    "head.csv": ["must be at least 4 for a cubic spline|measure at more angles"],
+    "empty.csv": ["empty.csv row 1 = '': the file holds no table; the first row names the columns"],
+    "head.csv": ["head.csv row 1 = '': has no row of numbers; add the measurements"],
     "sorted.csv": ["sorted.csv row 4, column alpha_deg = 10.0: must be above the 20 before it; sort the rows"],
     "column.csv": [
-        "column.csv row 1, column c_d = 'alpha_deg,c_l,drag': the column is missing; the first row must read",
-        "column.csv row 1, column 3 = 'drag': is not a known column; the columns are alpha_deg, c_l, c_d, x_cp",
+        "column.csv row 1, column C_D = 'alpha_deg,c_l,drag': the column is missing; needed are alpha_deg"
     ],
     "cells.csv": [
-        "cells.csv row 4, column c_l = nan: must be finite; drop the row or give a value",
+        "cells.csv row 4, column c_l = 'nan': has no value, but this column needs one in each row",
         "cells.csv row 5, column c_d = 'x': is not a number; write one number with a decimal point",
-        "cells.csv row 3, column c_d = -1.0: must be >= 0|reverse its sign",
+        "cells.csv row 3, column c_d = -1.0: must be > 0|check the zero of the balance",
     ],
     "short.csv": ["short.csv row 5, column alpha_deg = 60.0: the table must reach at least 90 degrees"],
     "good.csv --extension signed": ["good.csv row 2, column alpha_deg = 0.0|use mirrored"],

@@ -162,7 +162,7 @@ FAULTS = [
     (HEADER + GOOD.replace("90", "190"), "row 5, column alpha_deg = 190.0: must lie between -180 and 180 degrees"),
     (HEADER + GOOD.replace("1.5", "-1.5"), "row 4, column c_d = -1.5: must be > 0: every wing has drag"),
     (HEADER + "0,0,0.1\n45,1,1\n90,0,2\n", "rows = 3: must be at least 4 for a curve"),
-    (HEADER, "rows = 0: must be at least 4 for a curve"),
+    (HEADER, "row 1 = '': has no row of numbers"),
     (
         HEADER + GOOD.replace("90", "80"),
         "row 5, column alpha_deg = 80.0: the table must reach at least 90 degrees",
@@ -233,6 +233,25 @@ def test_whole_turn_table_must_close(tmp_path):
     rows[-1, 2] += 0.01
     with pytest.raises(InvalidInputError, match=r"row 74, column c_d = 0\.2\d+: must equal the .* of -180"):
         load_table(write(tmp_path / "bad.csv", rows))
+
+
+def test_whole_turn_whose_ends_differ_by_rounding_is_closed():
+    angles = np.arange(-180, 181, 10.0)
+    alpha = np.deg2rad(angles)
+    lift, drag = np.sin(2 * alpha), 1.02 - np.cos(2 * alpha)
+    assert lift[0] != lift[-1]
+    table = TableCoefficients("plate", angles, lift, drag)
+    assert table.c_l[0] == table.c_l[-1] == lift[0]
+    either = value_slope_curvature(table, np.array([-math.pi, math.pi]))
+    np.testing.assert_allclose(*np.array(either)[..., :2].swapaxes(0, 1), rtol=0, atol=1e-10)
+
+
+def test_falling_angles_and_two_sweeps_are_one_fault():
+    rows = polar_rows(np.arange(0, 91, 5.0))
+    for order, fix in ((slice(None, None, -1), "reverse the order"), (np.r_[0:19:2, 17:0:-2], "keep one")):
+        with pytest.raises(InvalidInputError, match=fix) as caught:
+            TableCoefficients("bad", *rows[order].T)
+        assert len(caught.value.faults) == 1
 
 
 def test_files_that_cannot_be_read(tmp_path):

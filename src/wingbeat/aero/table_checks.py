@@ -13,6 +13,8 @@ OPTIONAL = ("x_cp",)
 MIN_ROWS = 4
 # No instrument sets angles more finely, and a curve through closer rows would be a step.
 CLOSEST_DEG = 1e-3
+# Coefficients that differ by less are the same but for rounding, as the sines of -180 and 180 degrees are.
+_SAME = 1e-6
 # What a wing can have. Sections with slotted flaps reach a lift coefficient of about 4.5, and a plate across the
 # flow has a drag coefficient of about 2. The centre of pressure is in chords from the leading edge.
 MAX_LIFT, MAX_DRAG, CENTRE_RANGE = 5.0, 5.0, (-1.0, 2.0)
@@ -78,11 +80,15 @@ def check_possible(faults: FaultList, quantity: str, values: Sequence[float], wh
 def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Where) -> None:
     """Note angles that do not rise, coefficients that no wing has, and too few rows."""
     angles = columns["alpha_deg"]
+    falls = [i for i in range(1, len(angles)) if angles[i] <= angles[i - 1]]
+    if falls:
+        share = f" ({len(falls)} of {len(angles)} rows)" if len(falls) > 1 else ""
+        rule = f"must be above the {angles[falls[0] - 1]:g} before it{share}"
+        fix = "sort the rows by angle and drop duplicates; of sweeps up and down, keep one"
+        fix = "the angles fall: reverse the order of the rows" if len(falls) == len(angles) - 1 else fix
+        faults.add(where(falls[0], "alpha_deg"), angles[falls[0]], rule, fix)
     for i, angle in enumerate(angles):
-        if i and angle <= angles[i - 1]:
-            rule = f"must be above the {angles[i - 1]:g} before it"
-            faults.add(where(i, "alpha_deg"), angle, rule, "sort the rows by angle and drop duplicates")
-        elif i and angle - angles[i - 1] < CLOSEST_DEG:
+        if i and 0 < angle - angles[i - 1] < CLOSEST_DEG:
             rule = f"must be at least {CLOSEST_DEG:g} degrees above the {angles[i - 1]:g} before it"
             faults.add(where(i, "alpha_deg"), angle, rule, "merge the two rows")
         if abs(angle) > 180:
@@ -95,7 +101,10 @@ def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Whe
 
 
 def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension: str, where: Where) -> None:
-    """Note a table that covers fewer angles than its extension needs, or more negative angles than it uses."""
+    """Note a table that covers fewer angles than its extension needs, or more negative angles than it uses.
+
+    A whole turn whose last row differs from its first by rounding is closed: its last row becomes its first.
+    """
     angles = columns["alpha_deg"]
     first, last = angles[0], angles[-1]
     at_first, at_last = where(0, "alpha_deg"), where(len(angles) - 1, "alpha_deg")
@@ -109,9 +118,13 @@ def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension
         faults.add(at_first, first, "the table must begin at 0 degrees or below", "add a row for 0")
     if is_whole_turn(angles):
         for name, column in columns.items():
-            if name != "alpha_deg" and column[0] != column[-1]:
+            if name == "alpha_deg":
+                continue
+            if abs(column[-1] - column[0]) > _SAME:
                 rule = f"must equal the value at -180 degrees, {column[0]:g}"
                 faults.add(where(len(angles) - 1, name), column[-1], rule, "repeat the row of -180 at 180")
+            else:
+                column[-1] = column[0]
     elif first < 0 and extension != "signed":
         rule = f"is negative, and the extension {extension} would ignore it"
         more = "use signed" if first <= -90 else "add rows down to -90 and use signed"

@@ -137,6 +137,10 @@ def halved(value):
     return value * 0.5
 
 
+def unknown(values):
+    return values * np.nan
+
+
 def with_entry(**entry):
     return lambda known: known | entry
 
@@ -177,17 +181,31 @@ FORGED = {
         "another height": series(z=lambda z: z + np.sin(np.pi * np.linspace(0, 1, z.size)) ** 2),
         "another force": series(force_z=lambda f: f * 1.1),
         "another attitude": series(alpha=halved),
+        "an active bound not listed": attributes(active_bounds=lambda _: []),
+        "a bound that is not reached": attributes(active_bounds=lambda names: [*names, "pitch_mean"]),
+        "a bound of something else": attributes(active_bounds=lambda names: [*names, "peak_power<=9"]),
+        "beyond its bounds": attributes(inputs=lambda i: i | {"bounds": i["bounds"] | {"frequency": [1.0, 2.0]}}),
+        "another span": series(span_ratio=halved),
+        "no number at the end": series(
+            alpha=lambda a: np.where(np.arange(len(a))[:, None] < len(a) - 1, a, np.nan)
+        ),
         "inputs without bounds": attributes(inputs=lambda i: i | {"bounds": {}}),
     },
     "curve": {
         "another objective": series(objective_value=halved),
         "another amplitude": series(flap_amplitude=halved),
+        "a closure that is no number": series(closure_z=unknown),
+        "a pitch that is no number": series(pitch_mean=unknown),
+        "an active bound not listed": series(active_bounds=lambda names: np.full(names.shape, "")),
         "a gap closed": series(status=lambda s: np.array(["infeasible", *s[1:]])),
         "cheaper transport": series(mean_positive_power=halved),
     },
     "flight": {
         "half the power": series(hinge_power=halved),
         "another wingbeat": attributes(wingbeat=with_entry(flap_mean=0.5)),
+        "another fold": series(fold=lambda fold: fold + 0.1),
+        "another pace": series(time=lambda time: time * 1.1),
+        "no numbers": series(lift=unknown),
     },
 }
 CASES = [(kind, name) for kind, acts in FORGED.items() for name in acts]
@@ -208,6 +226,11 @@ def test_no_forged_file_is_believed(good, tmp_path, capsys, kind, name):
 def test_a_statement_is_what_follows_from_the_numbers(good, tmp_path):
     save_dataset(good["orbit"].assign_attrs(statement_of_plausibility="plausible: yes"), tmp_path / "o.nc")
     xr.testing.assert_identical(load_dataset(tmp_path / "o.nc"), good["orbit"])
+
+
+def test_the_speeds_of_a_curve_are_what_follows_from_its_points(good, tmp_path):
+    save_dataset(good["curve"].assign_attrs(characteristic_speeds="{}"), tmp_path / "c.nc")
+    xr.testing.assert_identical(load_dataset(tmp_path / "c.nc"), good["curve"])
 
 
 def test_the_digest_is_that_of_the_content_alone(good, tmp_path):

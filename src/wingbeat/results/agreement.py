@@ -1,29 +1,36 @@
 """Whether the numbers of a saved orbit agree: record with inputs, record with series, series with Newton's laws.
 
 A digest shows that a file was changed, but everybody can compute it. These checks show that the content of a file
-is no orbit, even if its digest fits. They fly nothing again, and take 3 ms.
+is no orbit, even if its digest fits. They fly nothing again, and take some milliseconds.
 """
 
 from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterable, Mapping
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._jax.config import own_settings
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.datasets import SHAPE, STATE_NAMES
 from wingbeat.errors import is_number
-from wingbeat.kinematics import Wingbeat, stroke_phase
+from wingbeat.kinematics import Wingbeat, parameter
+from wingbeat.orbits.flight.beat import Beat
+from wingbeat.orbits.flight.stroke_distances import SYMMETRY
 from wingbeat.orbits.infeasible.relaxation import Relaxation
 from wingbeat.orbits.options.solver import DEFAULTS
+from wingbeat.orbits.problem.drive import drive_numbers
 from wingbeat.orbits.problem.plausible import judged_names
+from wingbeat.orbits.problem.problem import PATH_NAMES
+from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.status import Status
 from wingbeat.results.aero_record import OWN, aero_inputs
 from wingbeat.results.forms import from_json
-from wingbeat.results.plausibility import judged
+from wingbeat.results.plausibility import OF_BEAT, judged
 from wingbeat.results.provenance import inputs_of, problem_from
 from wingbeat.results.record import (
     alpha_range,
@@ -34,6 +41,15 @@ from wingbeat.results.record import (
     vehicle_record,
     wingbeat_record,
 )
+from wingbeat.results.series_agreement import (
+    ABSOLUTE,
+    check_finite,
+    check_newton,
+    check_series,
+    check_wings,
+    demand,
+    same,
+)
 from wingbeat.vehicle import Air
 
 if TYPE_CHECKING:
@@ -41,25 +57,14 @@ if TYPE_CHECKING:
 
     from wingbeat.species import Species
 
-# Record and series come of two compiled programs, which may differ in a number's last digits.
-_RELATIVE, _ABSOLUTE = 1e-6, 1e-9
-# Pointwise identities of the series, relative to the largest value: rounding alone, at most 3e-16 in nine orbits.
-_ROUNDING = 1e-9
-# The integral of a rate agrees with its series to this share of the series' range. Measured: 1e-5 or better in nine
-# orbits. A table of coefficients has kinks, which 256 samples resolve less well.
-_INTEGRAL = 2e-3
-# A beat of at least so many samples shows its mean and first harmonic to this share of their sum; where the half
-# strokes differ, samples are interpolated to equal ones.
-_ENOUGH, _OF_LAW = 64, 1e-3
-# Series and their rates: each series is the integral of its rate over time.
-_RATES = {
-    **{"x": "u", "z": "w", "body_pitch": "pitch_rate", "u": "u_rate", "w": "w_rate"},
-    **{"pitch_rate": "pitch_acceleration", "flap": "flap_rate", "wing_pitch": "wing_pitch_rate"},
-}
+# Quantities of an orbit keep to their limits to this share.
+_OF_LIMIT = 1e-3
+# The extremes of samples, and those between samples, which limits apply to. Measured: 6e-5.
+_OF_RANGE = 2e-2
+# An unknown is at its bound if it is closer than a tolerance; these multiples of it leave room for rounding.
+_SURELY_AT, _SURELY_NOT = 0.5, 100.0
 # What the attributes of a curve repeat of the inputs; an orbit repeats its speed too.
 REPEATED_BY_A_CURVE = ("vehicle", "air", "climb")
-_PARTS_OF_HINGE = ("aerodynamic_power", "inertial_power", "body_power")
-_PARTS_OF_AIR = ("profile_power", "induced_power", "parasite_power", "unsteady_power")
 
 
 def check_orbit(record: dict[str, Any], inputs: dict[str, Any], dataset: xr.Dataset) -> None:
@@ -82,13 +87,14 @@ def check_orbit(record: dict[str, Any], inputs: dict[str, Any], dataset: xr.Data
     _check_inputs(record, inputs, species)
     check_series(series, species.vehicle.mass * species.air.gravity)
     _check_beat(record, series)
-    flown = all(np.isfinite(series[name]).all() for name in (*STATE_NAMES, "hinge_power", "actuator_power"))
+    whole = {name for name, values in series.items() if values.dtype.kind != "f" or np.isfinite(values).all()}
+    flown = {*STATE_NAMES, "hinge_power", "actuator_power"} <= whole
     if flown:
         _check_numbers(record, species, series)
     if converged:
-        demand(flown, "a converged orbit flies the whole beat")
+        demand(whole == {*series}, "a converged orbit flies the whole beat")
         _check_certificate(record, inputs)
-        _check_newton(series, species)
+        check_newton(series, species)
     demand(record["stable"] is _stable(record["floquet_multipliers"], converged), "stable is not what follows")
     own = shape_attribute(species).get(SHAPE)
     demand(own == dataset.attrs.get(SHAPE, own), "shape is not that of the species")
@@ -114,59 +120,53 @@ def check_flight(dataset: xr.Dataset) -> None:
         demand(own == json.loads(json.dumps(found)), f"{name} is of another form")
     series = {str(name): variable.values for name, variable in dataset.variables.items()}
     check_series(series, vehicle.mass * air.gravity)
-    first = series["phase"] <= 1.0
-    check_laws(wingbeat, *(series[name][first] for name in ("phase", "flap", "wing_pitch")))
+    check_finite(series)
+    first = series["phase"] < 1.0  # a controller may change the wingbeat of the next beat
+    check_wings(wingbeat, {name: values[first] for name, values in series.items() if values.shape == first.shape})
 
 
-def check_series(series: dict[str, np.ndarray], weight: float) -> None:
-    """Check the identities that hold at every sample of a flight.
-
-    Parameters
-    ----------
-    series : all series of a flight, by name.
-    weight : of the vehicle [N].
-
-    Raises
-    ------
-    ValueError : which series do not agree.
-    """
-    phase, time = series["phase"], series["time"]
-    demand(phase.ndim == 1 and phase.size > 0 and phase[0] == 0, "phase does not begin at 0")
-    demand(bool((np.diff(phase) > 0).all() and (np.diff(time) > 0).all()), "phase or time does not increase")
-    torque = series["flap_torque"] * series["flap_rate"] + series["pitch_torque"] * series["wing_pitch_rate"]
-    sums = {
-        "hinge_power": (torque, sum(series[name] for name in _PARTS_OF_HINGE)),
-        "air_power": (-sum(series[name] for name in _PARTS_OF_AIR),),
-        "potential_energy": (weight * series["centre_of_mass_z"],),
-    }
-    for name, others in sums.items():
-        for other in others:
-            parts = np.abs(other) + np.abs(series[name])
-            wrong = np.abs(series[name] - other) > _ROUNDING * np.nanmax(parts, initial=0.0)
-            demand(not wrong.any(), f"{name} is not the sum of its parts")
-
-
-def check_laws(wingbeat: Wingbeat, phase: np.ndarray, flap: np.ndarray, pitch: np.ndarray) -> None:
-    """Check mean and first harmonic of flap and wing pitch, which no other harmonic of the wingbeat changes.
+def check_limits(
+    numbers: Mapping[str, Any], active: Iterable[str], inputs: dict[str, Any], unknown: Iterable[str]
+) -> None:
+    """Check that free parameters are within their bounds, and that all bounds that they reach are listed.
 
     Parameters
     ----------
-    wingbeat : of the flight.
-    phase, flap, pitch : samples of its first beat, shape (K,) [1, rad, rad].
+    numbers : of a certified orbit, by name; those of constraints are by the texts of these.
+    active : names of its active bounds and limits.
+    inputs : of the orbit or the curve.
+    unknown : names of what is sought beside the free parameters.
 
     Raises
     ------
-    ValueError : which angle is not that of the wingbeat.
+    ValueError : which number and its limits contradict.
     """
-    if phase.size < _ENOUGH or phase[-1] != 1.0:
-        return
-    even = np.asarray(stroke_phase(wingbeat, phase))
-    samples = np.arange(phase.size - 1) / (phase.size - 1)
-    for name, values in (("flap", flap), ("pitch", pitch)):
-        waves = np.fft.rfft(np.interp(samples, even, values)) / samples.size
-        mean, amplitude = getattr(wingbeat, f"{name}_mean"), getattr(wingbeat, f"{name}_amplitude")
-        away = max(abs(waves[0].real - mean), abs(2.0 * abs(waves[1]) - amplitude))
-        demand(away <= _OF_LAW * (abs(mean) + amplitude) + _ABSOLUTE, f"{name} is not that of the wingbeat")
+    active = set(active)
+    tolerance = inputs.get("options", {}).get("search", {}).get("bound_tolerance", DEFAULTS.search.bound_tolerance)
+    for name in {*inputs["free"]} & {*numbers}:
+        low, high = inputs["bounds"][name]
+        inside = min(numbers[name] - low, high - numbers[name]) / max(high - low, np.finfo(float).tiny)
+        demand(inside >= -tolerance, f"{name} is beyond its bounds")
+        demand(inside > _SURELY_AT * tolerance or name in active, f"{name} is at a bound that is not listed")
+        demand(inside < _SURELY_NOT * tolerance or name not in active, f"{name} is at no bound, but one is listed")
+    texts = limit_texts(inputs)
+    known = {*inputs["free"], *unknown, *PATH_NAMES, SYMMETRY, *texts}
+    demand(active <= known, "a bound is listed that the problem has not")
+    for text, asked in zip(texts, inputs["constraints"], strict=True):
+        if (value := numbers.get(text)) is not None:
+            beyond = (value - asked["limit"]) * (1.0 if asked["at_most"] else -1.0)
+            near = _OF_LIMIT * abs(asked["limit"]) + 1e-6
+            demand(beyond <= near, f"{asked['quantity']} is beyond its limit")
+            demand(beyond >= -near or text not in active, f"{text} is listed, but not reached")
+            reached = beyond >= -ABSOLUTE * abs(asked["limit"])
+            demand(not reached or text in active, f"{text} is reached, but not listed")
+
+
+def limit_texts(inputs: dict[str, Any]) -> list[str]:
+    """Return the constraints of inputs as texts, as in records."""
+    asked = inputs["constraints"]
+    names = [one["quantity"].removeprefix(f"{OWN} ") for one in asked]
+    return [f"{n}{'<=' if c['at_most'] else '>='}{c['limit']:g}" for n, c in zip(names, asked, strict=True)]
 
 
 def _check_inputs(record: dict[str, Any], inputs: dict[str, Any], species: Species) -> None:
@@ -188,9 +188,8 @@ def _check_beat(record: dict[str, Any], series: dict[str, np.ndarray]) -> None:
     """Check phases, times, and the states at both ends of the beat."""
     wingbeat, phase = Wingbeat(**record["wingbeat"]), series["phase"]
     even = np.arange(phase.size) / max(phase.size - 1, 1)
-    demand(phase.size > 2 and np.allclose(phase, even, 0.0, _ABSOLUTE), "phase is not one beat in equal steps")
-    same("time", series["time"], phase / wingbeat.frequency)
-    check_laws(wingbeat, phase, series["flap"], series["wing_pitch"])
+    demand(phase.size > 2 and np.allclose(phase, even, 0.0, ABSOLUTE), "phase is not one beat in equal steps")
+    check_wings(wingbeat, series)
     travelled = {"x": record["speed"] / wingbeat.frequency, "z": record["climb"] / wingbeat.frequency}
     for name in STATE_NAMES:
         first, last = float(series[name][0]), float(series[name][-1])
@@ -201,20 +200,30 @@ def _check_beat(record: dict[str, Any], series: dict[str, np.ndarray]) -> None:
 
 def _check_numbers(record: dict[str, Any], species: Species, series: dict[str, np.ndarray]) -> None:
     """Check the record's numbers against the series, with the functions that made the record."""
-    wingbeat = record["wingbeat"]
-    problem: Any = SimpleNamespace(vehicle=species.vehicle, air=species.air, speed=record["speed"])
-    beat: Any = SimpleNamespace(**series)
+    wingbeat, vehicle = record["wingbeat"], species.vehicle
+    weight = vehicle.mass * species.air.gravity
+    of_vehicle = {"mass": vehicle.mass, "weight": weight, "semi_span": vehicle.wing.semi_span}
+    known = {**series, **wingbeat, **record, **of_vehicle, "drive": vehicle.drive}
+    beat = Beat(**{name: known[name] for name in Beat._fields})
+    problem: Any = SimpleNamespace(vehicle=vehicle, air=species.air, speed=record["speed"])
     solution: Any = SimpleNamespace(problem=problem)
+    with own_settings():
+        driven = drive_numbers(beat)
+        of_beat = {name: float(np.max(QUANTITIES[name].of(beat))) for name in OF_BEAT}
     found = {
         **power_summary(solution, beat),
         **flight_numbers(problem, wingbeat["frequency"], wingbeat["flap_amplitude"]),
+        **driven,
         "body_pitch_range": float(np.ptp(series["body_pitch"])),
     }
     for name, value in found.items():
         same(name, record[name], value)
-    known = found | wingbeat
-    if record["objective"] in known:
-        same("objective_value", record["objective_value"], known[record["objective"]])
+    per_mass = {"positive_power_per_mass": record["mean_positive_power"] / vehicle.mass}
+    values = {**record, **wingbeat, **of_beat, **per_mass}
+    for one in record["plausibility"]:
+        same(one["name"], one["value"], values[one["name"]])
+    if (least := record["objective"]) in {*found, *wingbeat}:
+        same("objective_value", record["objective_value"], {**found, **wingbeat}[least])
     for name, station in (("alpha_quarter_span", 0.25), ("alpha_three_quarter_span", 0.75)):
         same(name, record[name], alpha_range(beat, station))
 
@@ -224,39 +233,16 @@ def _check_certificate(record: dict[str, Any], inputs: dict[str, Any]) -> None:
     tolerance = options.get("closure_tolerance", DEFAULTS.certificate.closure_tolerance)
     worst = max(map(abs, record["closure"].values()))
     demand(worst <= tolerance, f"a converged orbit does not close to {worst:.2g}")
-    for asked, value in zip(inputs["constraints"], record["constraints"].values(), strict=True):
-        beyond = (value - asked["limit"]) * (1.0 if asked["at_most"] else -1.0)
-        demand(beyond <= 1e-3 * abs(asked["limit"]) + 1e-6, f"{asked['quantity']} is beyond its limit")
-
-
-def _check_newton(series: dict[str, np.ndarray], species: Species) -> None:
-    """Check that each series is the integral of its rate, momentum that of force, and energy that of power."""
-    mass, gravity = species.vehicle.mass, species.air.gravity
-    pairs = {name: (series[name], series[rate]) for name, rate in _RATES.items()}
-    pairs |= {
-        "momentum_x": (series["momentum_x"], series["force_x"]),
-        "momentum_z": (series["momentum_z"], series["force_z"] - mass * gravity),
-        "centre_of_mass_x": (series["centre_of_mass_x"], series["momentum_x"] / mass),
-        "centre_of_mass_z": (series["centre_of_mass_z"], series["momentum_z"] / mass),
-        "energy": (
-            series["kinetic_energy"] + series["potential_energy"],
-            series["actuator_power"] + series["air_power"],
-        ),
-    }
-    for name, (values, rate) in pairs.items():
-        change = values - values[0]
-        away = np.abs(change - _integral(rate, float(series["time"][-1]))).max()
-        size = np.ptp(change) + 1e-2 * np.abs(rate).max() * series["time"][-1] + np.finfo(float).tiny
-        demand(away <= _INTEGRAL * size, f"{name} is not the integral of its rate")
-
-
-def _integral(rate: np.ndarray, period: float) -> np.ndarray:
-    """Return the integral over time of a periodic series with both ends, exact for its resolved harmonics."""
-    count = rate.size - 1
-    found = np.fft.rfft(rate[:-1]) / np.maximum(np.arange(count // 2 + 1), 1) / 2j / np.pi
-    mean, found[0] = float(rate[:-1].mean()), 0.0
-    waves = np.fft.irfft(found, count)
-    return period * (np.append(waves, waves[0]) - waves[0] + mean * np.linspace(0.0, 1.0, count + 1))
+    demand([*record["constraints"]] == limit_texts(inputs), "constraints are not those of the inputs")
+    known = {one["name"]: one["value"] for one in record["plausibility"]} | record
+    for text, asked in zip(record["constraints"], inputs["constraints"], strict=True):
+        if asked["quantity"] in known:
+            own, found = record["constraints"][text], known[asked["quantity"]]
+            near = own == found or (None not in (own, found) and math.isclose(own, found, rel_tol=_OF_RANGE))
+            demand(near, f"{text} does not agree with the series")
+    wingbeat = Wingbeat(**record["wingbeat"])
+    numbers = {name: float(parameter(wingbeat, name)) for name in inputs["free"]} | record["constraints"]
+    check_limits(numbers, record["active_bounds"], inputs, record["initial_state"])
 
 
 def _stable(multipliers: list[list[Any]], converged: bool) -> bool | None:
@@ -270,9 +256,7 @@ def _check_plausibility(record: dict[str, Any], inputs: dict[str, Any], species:
     names = judged_names(species, tuple(inputs["free"]))
     demand([one["name"] for one in record["plausibility"]] == list(names), "plausibility lacks a judgement")
     for one in record["plausibility"]:
-        name, value = one["name"], one["value"]
-        demand(value == record["wingbeat"].get(name, record.get(name, value)), f"the judged {name} is another")
-        demand(one == judged(problem, name, value), f"{name} is judged wrongly")
+        demand(one == judged(problem, one["name"], one["value"]), f"{one['name']} is judged wrongly")
 
 
 def species_of(inputs: dict[str, Any]) -> Species:
@@ -311,18 +295,3 @@ def species_of(inputs: dict[str, Any]) -> Species:
 
 def _is_plain(value: Any) -> bool:
     return is_number(value) or (isinstance(value, list | tuple) and all(map(_is_plain, value)))
-
-
-def same(name: str, own: Any, found: Any) -> None:
-    """Demand that a number or a list of numbers is the one found; None stands for a number that is unknown."""
-    if own is None or found is None:
-        demand(own is found, f"{name} does not agree with the series")
-        return
-    good = np.shape(own) == np.shape(found) and np.allclose(own, found, _RELATIVE, _ABSOLUTE)
-    demand(bool(good), f"{name} does not agree with the series")
-
-
-def demand(good: bool, otherwise: str) -> None:
-    """Raise `ValueError` with the words of the contradiction unless all is good."""
-    if not good:
-        raise ValueError(otherwise)

@@ -16,10 +16,11 @@ from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.problem.plausible import judged_names
 from wingbeat.orbits.status import Status
 from wingbeat.results.aero_record import OWN
-from wingbeat.results.agreement import REPEATED_BY_A_CURVE, demand, same, species_of
+from wingbeat.results.agreement import REPEATED_BY_A_CURVE, check_limits, species_of
 from wingbeat.results.forms import from_json
 from wingbeat.results.plausibility import judged
 from wingbeat.results.record import flight_numbers
+from wingbeat.results.series_agreement import demand, same
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,6 +28,12 @@ if TYPE_CHECKING:
     from wingbeat.species import Species
 
 _LISTS = ("marks", "constraints")
+# Numbers that every certified orbit has, moving or not.
+_ALWAYS = (
+    *(f"{part}_{name}" for part in ("initial", "closure") for name in STATE_NAMES),
+    *("mean_power", "peak_power", "mean_positive_power", "mean_actuator_power", "peak_actuator_power"),
+    *("body_pitch_range", "largest_multiplier"),
+)
 
 
 def check_curve(dataset: xr.Dataset, inputs: dict[str, Any]) -> None:
@@ -92,8 +99,12 @@ def _check_point(
             same(name, own[name] if math.isfinite(own[name]) else None, value)
         if least in own:
             same("objective_value", own["objective_value"], own[least])
+        for name in {*_ALWAYS, *PARAMETER_NAMES} & {*own}:
+            demand(math.isfinite(own[name]), f"{name} of an optimum is no number")
         worst = max(abs(own[f"closure_{name}"]) for name in STATE_NAMES)
         demand(worst <= tolerance, f"an optimum does not close to {worst:.2g}")
+        listed = filter(None, str(columns["active_bounds"][i, k]).split(", "))
+        check_limits({name: own[name] for name in {*PARAMETER_NAMES} & {*own}}, listed, inputs, STATE_NAMES)
         demand(own["mean_power"] <= own["mean_positive_power"] <= max(own["peak_power"], 0.0), "powers contradict")
         for name in PARAMETER_NAMES:
             stock = inputs["stock_wingbeat"].get(name)

@@ -108,7 +108,18 @@ def curve_dataset(
     meaning["standard_name"] = "platform_speed_wrt_air"
     axes = {"speed": ("speed", speeds, meaning), "optimum": ("optimum", np.arange(widest), _about("optimum"))}
     dataset = xr.Dataset(table.columns, axes, _attributes(problem, first, marks, inputs, seconds))
-    found = characteristic_speeds(best_line(dataset), inputs["power_limit"])
+    return with_characteristic_speeds(dataset, inputs["power_limit"])
+
+
+def with_characteristic_speeds(dataset: xr.Dataset, power_limit: float | None) -> xr.Dataset:
+    """Return the data set of a curve with the speeds that follow from it as an attribute.
+
+    Parameters
+    ----------
+    dataset : of a curve.
+    power_limit : of a minimised power [W].
+    """
+    found = characteristic_speeds(best_line(dataset), power_limit)
     return dataset.assign_attrs(characteristic_speeds=json.dumps(found))
 
 

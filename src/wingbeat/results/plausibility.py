@@ -24,7 +24,8 @@ JUDGED_NAMES = {
     "reynolds": "Reynolds number",
 }
 
-
+# Judged numbers that are not in a record, and which quantities of a beat they are.
+OF_BEAT = ("peak_force_over_weight", "mean_body_pitch")
 _KEYS = {"name", "value", "unit", "low", "high", "within", "source"}
 
 
@@ -52,7 +53,7 @@ def plausibility(problem: OrbitProblem, beat: Beat, record: dict[str, Any]) -> l
         **record,
         **record["wingbeat"],
         "positive_power_per_mass": record["mean_positive_power"] / problem.vehicle.mass,
-        **{name: float(QUANTITIES[name].of(beat).max()) for name in ("peak_force_over_weight", "mean_body_pitch")},
+        **{name: float(QUANTITIES[name].of(beat).max()) for name in OF_BEAT},
     }
     return [judged(problem, name, values[name]) for name in judged_names(problem.species, problem.free)]
 

@@ -225,9 +225,10 @@ def _kind_of(file: h5py.File) -> str | None:
 
 
 def _agreeing(dataset: xr.Dataset, kind: str) -> xr.Dataset:
-    """Check the form of a dataset and that its numbers agree, and return it with the statements that follow."""
+    """Check the form of a dataset and that its numbers agree, and return it with what follows from them."""
     from wingbeat.results.agreement import check_flight, check_orbit
     from wingbeat.results.curve_agreement import check_curve
+    from wingbeat.results.curve_dataset import with_characteristic_speeds
 
     check_form(dataset)
     if kind == "flight":
@@ -238,7 +239,7 @@ def _agreeing(dataset: xr.Dataset, kind: str) -> xr.Dataset:
         if dataset.attrs["inputs_hash"] != inputs_hash(inputs):
             raise ValueError("the inputs do not match their hash")
         check_curve(dataset, inputs)
-        return dataset
+        return with_characteristic_speeds(dataset, inputs["power_limit"])
     record, inputs = parse_attributes(dataset.attrs)
     check_orbit(record, inputs, dataset)
     return dataset.assign_attrs(_statements(record))

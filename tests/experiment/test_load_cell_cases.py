@@ -178,6 +178,18 @@ def test_faults_of_a_channel_are_said():
         assert words in " ".join(reduce_run(dataclasses.replace(run, **change)).notes), words
 
 
+def test_exchanged_forces_and_a_moment_about_the_leading_edge_are_seen():
+    run = dataclasses.replace(record(np.random.default_rng(1)), alpha_deg=45.0)
+    assert reduce_run(run).notes == ()
+    edge = np.asarray(run.moment) - 0.5 * run.chord * np.asarray(run.normal_force)
+    assert "is it about mid-chord" in " ".join(reduce_run(dataclasses.replace(run, moment=edge)).notes)
+    names, other = ("normal_force", "tangential_force"), ("tangential_force", "normal_force")
+    changes = {name: getattr(run, source) for name, source in zip(names, other, strict=True)}
+    changes["tare"] = np.asarray(run.tare)[[1, 0, 2]]
+    with pytest.raises(wb.InvalidInputError, match=r"C_T = .* are the two columns exchanged, or are they lift and"):
+        reduce_run(dataclasses.replace(run, **changes))
+
+
 def test_a_drift_is_told_with_advice_that_fits():
     run = record(np.random.default_rng(4))
     scale = abs(float(np.mean(run.normal_force)))

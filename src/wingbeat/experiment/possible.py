@@ -37,6 +37,11 @@ _CAMBER_LIFT = 0.8
 # At angles whose sine is above the first number, a plate has a force coefficient of about 1.6 sin(alpha). A tenth
 # of it is less than any wing has that is not near its angle of zero lift.
 _INCLINED, _SLIGHT = 0.17, 0.16
+# At angles whose sine is above this, the force on a plate is across it rather than along it, but for friction.
+_STEEP = 0.3
+# Largest distance of the centre of pressure from mid-chord, and moment about mid-chord that camber adds; the second
+# pair is for steep angles up to 90 degrees where the centre is behind mid-chord, as no plate's is there.
+_ARM, _ARM_BEHIND = (0.35, 0.15), (0.2, 0.1)
 # Standard errors that a range is widened by.
 _SURE = 4.0
 # What makes the coefficients of a plate so many times too large.
@@ -136,11 +141,17 @@ def check_coefficients(faults: FaultList, run: LoadCellRun, means: RunMeans) -> 
         faults.add(f"{where}, C_M", moment, f"must lie between {-MAX_LIFT:g} and {MAX_LIFT:g}", fix)
     # Friction on both sides of a smooth plate in laminar flow: Blasius 1908.
     friction = 2.656 / math.sqrt(means.reynolds)
+    turn = math.radians(means.alpha_deg)
+    tangential = drag * math.cos(turn) - lift * math.sin(turn)
     if sine > _INCLINED and whole + _SURE * error < _SLIGHT * sine:
         rule = (
             f"is the whole force coefficient, less than a tenth of a plate's there, about {10 * _SLIGHT * sine:.2g}"
         )
         faults.add(where, whole, rule, off)
+    elif sine > _STEEP and abs(tangential) - friction - _SURE * error > abs(means.normal):
+        rule = f"is the tangential force coefficient, more than that of the normal force, {means.normal:.2g}"
+        fix = "are the two columns exchanged, or are they lift and drag?"
+        faults.add(f"{where}, C_T", tangential, rule, fix)
     elif whole + _SURE * error < 0.5 * friction:
         rule = f"is the whole force coefficient, less than half of the friction on a smooth plate, {friction:.2g}"
         faults.add(where, whole, rule, off)
@@ -156,10 +167,12 @@ def coefficient_notes(run: LoadCellRun, means: RunMeans) -> list[str]:
             f"{run.name}: C_N is {means.normal:.3g} at {means.alpha_deg:.3g} degrees, more than a thin aerofoil "
             f"has (2 pi sin alpha, and {_CAMBER_LIFT:g} for camber); check units, angle and zero{angle}"
         )
-    moment, arm = abs(float(means.mean[2])), 0.75 * abs(means.normal) + 0.15
-    if moment > arm + _SURE * float(means.se[2]):
+    moment = float(means.mean[2])
+    behind = moment * means.normal < 0 and abs(means.alpha_deg) <= 90 and sine > _STEEP
+    arm, camber = _ARM_BEHIND if behind else _ARM
+    if abs(moment) > arm * abs(means.normal) + camber + _SURE * float(means.se[2]):
         notes.append(
-            f"{run.name}: the moment, C_M {means.mean[2]:.3g}, is too large for a normal force of C_N "
+            f"{run.name}: the moment, C_M {moment:.3g}, is too large for a normal force of C_N "
             f"{means.normal:.3g} on the plate: is it about mid-chord, and in N m?"
         )
     return notes

@@ -80,7 +80,7 @@ def reduce_run(run: LoadCellRun, last: float = LAST_SECONDS, rest: Intervals = (
     InvalidInputError : `last` not positive or longer than the record, a window of fewer than 32 samples or at
         rest, intervals of rest that are not in the record, move or come with zero readings, and coefficients that
         no plate has: C_L beyond -5 to 5, C_D above 5 or below 0 by more than its error, less than friction alone,
-        less than a tenth of the force of an inclined plate.
+        less than a tenth of the force of an inclined plate, more tangential than normal force on a steep one.
     """
     means = _reduced([run], last, rest)[0]
     return means._replace(notes=(*([] if rest else zero_notes([run])), *means.notes))

@@ -17,11 +17,11 @@ import scipy
 from scipy.io import loadmat, savemat
 
 print("scipy", scipy.__version__)
-with warnings.catch_warnings(record=True) as told:
+with warnings.catch_warnings(record=True) as caught:
     warnings.simplefilter("always")
     savemat("a.mat", {"name": "Größe", "unit": "°", "n" * 70: 1.0, "s": {"_kept": 2.0, "end": 3.0}}, long_field_names=True)
 read = loadmat("a.mat", simplify_cells=True)
-print("warnings:", [str(one.message) for one in told])
+print("warnings:", [str(one.message) for one in caught])
 print("a name of 70 characters is written:", "n" * 70 in read)
 print("fields:", sorted(read["s"]))
 assert "n" * 70 in read and sorted(read["s"]) == ["end"] and read["name"] == "Größe"

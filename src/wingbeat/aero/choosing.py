@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+import contextlib
+import functools
 from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from wingbeat.aero.coefficient_model import CoefficientModel
+import numpy as np
+
+from wingbeat.aero.cambered import CamberedCoefficients
+from wingbeat.aero.coefficient_model import CoefficientModel, check_curve
+from wingbeat.aero.formula import FormulaCoefficients
 from wingbeat.aero.function import FunctionCoefficients
 from wingbeat.aero.library import LIBRARY
 from wingbeat.aero.model_file import load_model
 from wingbeat.aero.table import load_table
-from wingbeat.errors import FaultList, suggest
+from wingbeat.errors import Fault, FaultList, suggest
 from wingbeat.files import read_text
 from wingbeat.sheets import seems_to_be
 
@@ -27,7 +33,8 @@ def coefficients_of(given: Any) -> CoefficientModel:
     Raises
     ------
     FileError : the file is missing or cannot be read.
-    InvalidInputError : an unknown name, a function that `FunctionCoefficients` refuses, a value of another type.
+    InvalidInputError : an unknown name, a function that `FunctionCoefficients` refuses, a model with negative drag,
+        C_D > 5 or |C_L| > 2 pi at some angle, a value of another type.
 
     >>> coefficients_of("dickinson").name, coefficients_of(LIBRARY["su-fan"]()).name
     ('dickinson', 'su-fan')
@@ -39,7 +46,7 @@ def coefficients_of(given: Any) -> CoefficientModel:
         name = getattr(given, "__name__", "?")
         faults.add("aero.coefficients", name, "is a class of coefficient models, not a model", f"call it: {name}()")
     elif hasattr(given, "kernel"):
-        return given
+        return _possible(given)
     elif callable(given):
         return FunctionCoefficients(given)
     else:
@@ -72,7 +79,7 @@ def load_coefficients(
     if name.lower().endswith(".csv"):
         return load_table(name, extension, blend_width_deg)
     if name.lower().endswith(".toml"):
-        return load_model(name, extension, blend_width_deg)
+        return _possible(load_model(name, extension, blend_width_deg))
     if name not in LIBRARY:
         guess = suggest(name.lower(), LIBRARY, most=2, otherwise="")
         faults = FaultList()
@@ -106,3 +113,26 @@ def load_hand(
     ('none', 'membrane')
     """
     return name_or_path if name_or_path == "none" else load_coefficients(name_or_path, extension, blend_width_deg)
+
+
+def _possible(model: Any) -> Any:
+    """Return a model of formulas after a check of its curve at all angles; tables and functions check their own."""
+    if isinstance(model, FormulaCoefficients | CamberedCoefficients):
+        with contextlib.suppress(
+            TypeError
+        ):  # under JAX's transformations a model holds tracers, which have no hash
+            faults = FaultList()
+            faults.faults.extend(_curve_faults(model))
+            faults.raise_if_any()
+    return model
+
+
+@functools.lru_cache(maxsize=256)
+def _curve_faults(model: FormulaCoefficients | CamberedCoefficients) -> tuple[Fault, ...]:
+    """Return what no wing has in the curve of a model of formulas; those of the library are known to be good."""
+    if any(model == maker(model.extension, model.blend_width_deg) for maker in LIBRARY.values()):
+        return ()
+    faults, degrees = FaultList(), np.arange(-180.0, 180.25, 0.5)
+    alpha = np.radians(degrees)
+    check_curve(faults, "aero.coefficients", model.name, degrees, model.lift(alpha), model.drag(alpha))
+    return tuple(faults.faults)

@@ -9,10 +9,16 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from wingbeat._jax.config import in_own_settings, jax
+from wingbeat.aero.table_checks import MAX_DRAG
 from wingbeat.errors import Fault, FaultList, InvalidInputError
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Angles
+
+# The thin aerofoil in an ideal fluid has a lift coefficient of 2 pi sin(alpha) at most. Formulas and functions may
+# state it, and a drag of 0; tables, which are measurements, may not (`wingbeat.aero.table_checks`).
+IDEAL_LIFT = 2 * math.pi
+_ROUNDING = 1e-9
 
 
 class Kernel(Protocol):
@@ -41,6 +47,27 @@ def check_aspect_ratio(faults: FaultList, where: str, given: Any) -> None:
     """Note a fault unless an aspect ratio is a positive number, infinite, or None."""
     if given is not None and given != math.inf:
         faults.number(where, given, above=0, fix="give span over mean chord, inf for a section, or none if unknown")
+
+
+def check_curve(faults: FaultList, where: str, name: str, degrees: Any, lift: Any, drag: Any) -> None:
+    """Note lift that not even an ideal fluid gives, and drag that is negative or more than any wing has.
+
+    Parameters
+    ----------
+    faults : collects the faults.
+    where, name : the input and the model's name, for the faults.
+    degrees, lift, drag : angles of attack [deg] and the coefficients there, shape (n,).
+    """
+    for label, values, low, high in (("C_L", lift, -IDEAL_LIFT, IDEAL_LIFT), ("C_D", drag, 0.0, MAX_DRAG)):
+        over = np.maximum(np.asarray(values) - high, low - np.asarray(values))
+        worst = int(np.nanargmax(over))
+        if over[worst] > _ROUNDING:
+            negative = label == "C_D" and values[worst] < 0
+            rule = f"has a {label} of {float(values[worst]):.3g} at {degrees[worst]:g} degrees, which "
+            rule += "would drive the wing forward: drag is never negative" if negative else "no wing has"
+            faults.add(
+                where, name, rule, f"{label} must lie between {low:.3g} and {high:.3g} at all angles of attack"
+            )
 
 
 def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:
@@ -114,6 +141,18 @@ class CoefficientModel:
     reynolds_range: tuple[float, float] | None
     alpha_range_deg: tuple[float, float]
     aspect_ratio: float | None
+
+    @property
+    def used_range_deg(self) -> tuple[float, float]:
+        """Lowest and highest angle [deg] where the measured coefficients are used; beyond, the extension applies.
+
+        The extension begins at 90 degrees even if the measurements went further, because a plate seen from behind
+        must be the same plate.
+        """
+        low, high = self.alpha_range_deg
+        if low <= -180 and high >= 180:
+            return low, high
+        return max(low, -90.0 if self.extension == "signed" else 0.0), min(high, 90.0)
 
     @property
     def has_centre_of_pressure(self) -> bool:

@@ -13,7 +13,7 @@ import numpy as np
 from jax.extend.core import jaxpr_as_fun
 
 from wingbeat._jax.config import in_own_settings, jax, jnp, unchecked
-from wingbeat.aero.coefficient_model import CoefficientModel
+from wingbeat.aero.coefficient_model import CoefficientModel, check_curve
 from wingbeat.errors import Fault, FaultList, InvalidInputError
 
 if TYPE_CHECKING:
@@ -115,8 +115,8 @@ class FunctionCoefficients(CoefficientModel):
 
     Raises
     ------
-    InvalidInputError : a function that JAX cannot trace, that does not return two numbers, or whose values or
-        slopes are not finite at some angle.
+    InvalidInputError : a function that JAX cannot trace, that does not return two numbers, whose values or slopes
+        are not finite at some angle, or that gives negative drag, C_D > 5 or |C_L| > 2 pi.
 
     >>> import jax.numpy as jnp
     >>> plate = FunctionCoefficients(lambda a: (1.2 * jnp.sin(2 * a), 1.4 - jnp.cos(2 * a)), "plate")
@@ -190,6 +190,8 @@ def _checked(function: Callable[[Any], Any], name: str) -> Program:
             angle = math.degrees(_SAMPLE_ANGLES[bad[0]])
             rule = f"has {what} of {float(found[bad[0]])} at {angle:g} degrees"
             faults.add(_WHERE, name, rule, "C_L and C_D must be finite and smooth from -pi to pi radians")
+    faults.raise_if_any()
+    check_curve(faults, _WHERE, name, np.degrees(_SAMPLE_ANGLES), *values)
     faults.raise_if_any()
     return program
 

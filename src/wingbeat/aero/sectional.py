@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 # within 1e-4 in the blends.
 _CELLS = 1440
 _PASSES = 10
+# A section's drag may be 0, but not negative beyond rounding.
+_ROUNDING = 1e-6
 
 
 class SectionalKernel(NamedTuple):
@@ -62,8 +64,8 @@ def sectional_kernel(model: CoefficientModel) -> Kernel:
 
     Raises
     ------
-    InvalidInputError : a model without an aspect ratio, or with one so small that two angles of the wing give
-        its sections the same angle.
+    InvalidInputError : a model without an aspect ratio, with one so small that two angles of the wing give its
+        sections the same angle, or with less drag than its ideal induced drag.
     """
     if model.aspect_ratio is None:
         rule = f"needs the aspect ratio of the wing that was measured, and {model.name} states none"
@@ -77,6 +79,12 @@ def sectional_kernel(model: CoefficientModel) -> Kernel:
     sine, cosine = np.sin(alpha - knots), np.cos(alpha - knots)
     centre = model.centre_of_pressure(alpha) if model.has_centre_of_pressure else np.full_like(alpha, np.nan)
     columns = (lift * cosine + drag * sine, drag * cosine - lift * sine, centre)
+    least = int(np.argmin(columns[1]))
+    if columns[1][least] < -_ROUNDING:
+        here = f"C_D {drag[least]:.3g} and C_L {lift[least]:.3g} at {np.degrees(alpha[least]):.1f} degrees"
+        rule = f"has {here}: less drag than the ideal induced drag of aspect ratio {model.aspect_ratio:g}"
+        fix = "check aspect_ratio; it is inf if a section was measured"
+        raise InvalidInputError([Fault("aero.coefficients", model.name, rule, fix)])
     return SectionalKernel(*(_spline(knots, column) for column in columns))
 
 

@@ -190,12 +190,15 @@ def _outside_fit(coefficients: CoefficientModel, reynolds: np.ndarray, alpha: np
                 f"Reynolds number outside the fitted {low:g} to {high:g} for {share:.0%} of strips and instants"
                 f"{where} (it runs from {reynolds.min():.0f} to {reynolds.max():.0f})"
             )
-    low, high = np.radians(coefficients.alpha_range_deg)
-    share = _outside(alpha, low, high)
+    low, high = coefficients.used_range_deg
+    degrees, measured = np.degrees(alpha), coefficients.alpha_range_deg[1]
+    share = _outside(degrees, low, high)
     if share > _MENTION:
+        also = float(np.mean((degrees > high) & (degrees <= measured)))
         notes.append(
-            f"angle of attack outside the fitted {math.degrees(low):g} to {math.degrees(high):g} degrees for "
+            f"angle of attack outside the fitted {low:g} to {high:g} degrees for "
             f"{share:.0%} of strips and instants{where}: there {_beyond(coefficients)}"
+            + (f", also from {high:g} to {measured:g} degrees, which were measured ({also:.1%})" if also else "")
         )
     return notes + guessed(coefficients)
 

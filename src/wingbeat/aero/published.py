@@ -31,7 +31,8 @@ def SuFan(extension: str = "mirrored", blend_width_deg: float = 1.0) -> FormulaC
     ``C_L = -0.44 exp(-0.47 a) + 1.19 sin(1.74 a + 20)``, ``C_D = 1.04 + sin(1.72 a - 70)``,
     ``x_cp = 0.247 + 0.016 a^0.6 + 0.026 a exp(-0.11 a)``; measured from 0 to 110 degrees on a plate of 76 mm chord
     and 8 mm thickness, whose blunt edges cause C_D(0) = 0.10. The formula's C_L(0) is -0.033; the blend at 0
-    degrees removes this.
+    degrees removes this. Beyond 90 degrees the extension applies: mirrored, C_L is -0.42 at 100 degrees, where the
+    formula gives -0.29.
 
     Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602.
 

@@ -214,3 +214,11 @@ def test_the_error_of_the_frequency_is_that_of_many_clips():
 def test_times_closer_together_than_any_cameras_are_refused(tmp_path):
     """The square of so short a clip is 0, and its rate was divided by it."""
     assert "shorter than any camera's" in refused(film(tmp_path, clock=AT * 1e-300))
+
+
+def test_few_frames_with_phases_in_radians_are_no_beat(tmp_path):
+    """Harmonics pass through all of ten frames, so there is no scatter to see it by."""
+    phase = 2 * math.pi * np.arange(10) / 10
+    path = film(tmp_path, "", phase, "phase", flap_deg=40 * np.cos(phase) + 0.5 * np.cos(9 * np.arange(10) ** 2))
+    assert "is the part of the flap that repeats once a beat" in refused(path)
+    assert fit_film(read_film(film(tmp_path, "", phase / (2 * math.pi), "phase", flap_deg=40 * np.cos(phase))))

@@ -30,6 +30,9 @@ _LARGE, _NOISE_DEG, _NOISE_SHARE = 0.2, 5.0, 0.05
 # A tracker followed another point where a frame is so many times farther from the curve than the middle frame, and
 # by more than this share of the amplitude. Normal noise reaches the former in one frame of 10^9.
 _SWAPPED, _SWAPPED_SHARE = 9.0, 0.25
+# Least share of a flap's amplitude in its first harmonic. A sawtooth has 0.64, a square wave 1.27. Frames of ten
+# phases in radians, taken for beats, have 0.06.
+_ONCE = 0.4
 # Noise alone exceeds this chi squared of four numbers in one film of a hundred.
 _CHANCE = 13.28
 
@@ -272,7 +275,8 @@ def fit_film(film: Film) -> FilmedBeat:
     Raises
     ------
     InvalidInputError : a flap angle that does not vary or has no beat (frames farther from the curve than its
-        amplitude), a span fraction that is on average above 1 or below one half.
+        amplitude, or a curve that hardly repeats once a beat), a span fraction that is on average above 1 or below
+        one half.
 
     >>> from wingbeat.experiment import synthetic_film
     >>> beat = fit_film(synthetic_film(Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3), frames=80, noise_deg=1.0))
@@ -288,11 +292,15 @@ def fit_film(film: Film) -> FilmedBeat:
         if math.hypot(flap[1], flap[2]) < 1.0:
             fix = "is the phase right, and the column in degrees?"
             faults.add(f"{film.name}, flap_deg", f"{math.hypot(flap[1], flap[2]):.2g} deg", "hardly swings", fix)
-        elif (rest := laws["flap_deg"].residual_sd) > _amplitude(laws["flap_deg"]):
-            size = _amplitude(laws["flap_deg"])
-            rule = f"is the scatter about the fitted wingbeat, more than its amplitude, {size:.2g} deg"
+        else:
+            size, rest = _amplitude(laws["flap_deg"]), laws["flap_deg"].residual_sd
             fix = "these frames are not of one wingbeat: are phases, times and frequency right?"
-            faults.add(f"{film.name}, flap_deg", f"{rest:.2g} deg", rule, fix)
+            if rest > size:
+                rule = f"is the scatter about the fitted wingbeat, more than its amplitude, {size:.2g} deg"
+                faults.add(f"{film.name}, flap_deg", f"{rest:.2g} deg", rule, fix)
+            elif (once := math.hypot(flap[1], flap[2])) < _ONCE * size:
+                rule = f"is the part of the flap that repeats once a beat, of an amplitude of {size:.2g} deg"
+                faults.add(f"{film.name}, flap_deg", f"{once:.2g} deg", rule, fix)
     if "span_fraction" in laws:
         mean, error = laws["span_fraction"].coefficients[0], math.sqrt(laws["span_fraction"].covariance[0, 0])
         if not 0.5 < mean <= 1.0 + _NOISE * error:

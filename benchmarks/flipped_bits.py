@@ -207,7 +207,7 @@ def is_refusal(said: str) -> bool:
 
 def solved(table: str) -> list[list[str]]:
     """Return a table without its bookkeeping, which tells of the run and not of the point."""
-    rows = list(csv.reader(io.StringIO(table)))
+    rows = [row for row in csv.reader(io.StringIO(table)) if not row[:1] or not row[0].startswith("#")]
     kept = [i for i, name in enumerate(rows[0]) if not name.startswith("run_")]
     return [[row[i] for i in kept] for row in rows]
 

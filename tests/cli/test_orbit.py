@@ -182,7 +182,7 @@ def test_the_table_and_a_bound_and_a_mass(run: Any, solved: Solved, tmp_path: Pa
     assert lines[1].startswith("plausible: ")
     assert max(map(len, lines)) <= 80
     assert "\x1b" not in ended.out
-    assert re.search(r"^  flap amplitude +45 deg *$", ended.out, re.MULTILINE)
+    assert re.search(r"^  flap amplitude +45 deg \(set by the limit\) *$", ended.out, re.MULTILINE)
     assert re.search(r"^  species, mean speed +pigeon at 12 m/s *$", ended.out, re.MULTILINE)
 
     record = wb.load_orbit(path).record()

@@ -136,7 +136,7 @@ BAD_RUNS = {
         ["run.csv row 10", "has 6 cells, but the header names 5 columns"],
     ),
     "short": (f"{HEAD}{COLUMNS}\n0,1,0,0,5\n", ["run.csv row 6, column time", "at least 32 samples"]),
-    "binary": ("\0\1\2", ["row 1, column time"]),
+    "binary": ("\0\1\2", ["run.csv", "control character"]),
 }
 
 

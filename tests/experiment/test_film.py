@@ -175,7 +175,7 @@ def test_times_become_phases(tmp_path):
             ["flap_rad", "write degrees", "speed", "not a known column", "no filmed column"],
         ),
         ("phase,time,flap_deg\n0,0,1\n", ["exactly one of phase, time and frame"]),
-        ("time,flap_deg\n0,1\n", ["frequency", "is missing"]),
+        ("time,flap_deg\n0,10\n", ["frequency", "is missing"]),
         (
             "# frequency = fast\ntime,flap_deg [rad]\n0,1\n",
             ["row 1, frequency", "one number", "is not the expected unit"],

@@ -148,7 +148,7 @@ FAULTS = {
         "forces.csv row 1, column 3",
         "not a known column",
     ),
-    "force cell": ("forces.csv", with_cell(FORCES, 3, "fz_n", "nan"), "forces.csv row 4", "must be finite"),
+    "force cell": ("forces.csv", with_cell(FORCES, 3, "fz_n", "nan"), "forces.csv row 4", "has no value"),
     "error": ("forces.csv", with_cell(FORCES, 3, "fz_n_se", "-0.1"), "forces.csv row 4", "standard error"),
     "no rows": ("forces.csv", "time_s,fz_n", "forces.csv", "holds no forces"),
     "wide cell": ("strips.csv", "x" * 200_000, "strips.csv row 1, column time_s", "missing"),

@@ -164,7 +164,7 @@ def test_on_a_terminal_it_shows_how_far_it_is(cheap):
     code, out, shown = on_terminal(start, columns=160)
     assert code == 3
     plain = re.sub(r"\x1b\[\d*m", "", shown)
-    says = r"(\d+)/22 (\d+) converged, (\d+) infeasible, 0 not converged, (\d+) failed, [\d.]+/s, [\d.]+ \w+ left"
+    says = r"(\d+)/22 (\d+) converged, (\d+) infeasible, 0 not converged, (\d+) failed"
     frames = re.findall(says, plain)
     assert len(frames) > 3
     for done, *parts in np.array(frames, int):

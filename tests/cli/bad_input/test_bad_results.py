@@ -150,7 +150,7 @@ REAL = [
     ("species pigeon --set wing.mass=-1", ["wing.mass = -1.0: must be > 0 kg"]),
     ("orbit pigeon --speed 9 --starts 0 -o kept.nc --plot kept.png", ["starts = 0: must be a whole number"]),
     ("orbit three.toml --speed 9", ["wing.chord = True", "pitch_inertia = 0", "frequency = -5"]),
-    ("orbit pigeon --speed 9 --aero empty.csv", ["empty.csv row 1 = '': the file is empty"]),
+    ("orbit pigeon --speed 9 --aero empty.csv", ["empty.csv row 1 = '': the file holds no table"]),
     ("orbit pigeon --speed 9 -o kept.nc/orbit.nc", ["cannot write 'kept.nc/orbit.nc': not a directory"]),
     ("show cut.nc", ["cannot read 'cut.nc': it is damaged or cut short"]),
     ("simulate pigeon --u nan -o kept.nc", ["initial_state.u = nan: must be finite"]),

@@ -106,6 +106,10 @@ def test_headline_and_rows_say_what_is_set_by_a_limit() -> None:
     least = _record("flap_amplitude", objective="frequency", objective_value=10.4)
     assert limits_in_words(least) == "flap amplitude 24.49 deg, and with it frequency 10.4 Hz"
     assert limits_in_words(_record()) == ""
+    # Rounding of a parameter that is at a limit of zero is no number.
+    still = _record("pitch_amplitude", "plane_of_symmetry")
+    still["wingbeat"]["pitch_amplitude"] = 5.6e-18
+    assert limits_in_words(still) == "wing pitch amplitude 0 deg, the wing's distance from the plane of symmetry"
 
 
 def _judged(problem: OrbitProblem, pitch_deg: float, **changes: Any) -> dict[str, dict[str, Any]]:

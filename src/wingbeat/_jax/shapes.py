@@ -21,6 +21,8 @@ Angles = Float[Any, "*angles"]
 Spline = Float[Any, "4 pieces"]
 PieceColumns = Float[Any, "numbers pieces"]
 Cells = Float[Any, "cells"]
+# Angles of a table's rows, and values at them.
+Knots = Float[Any, "knots"]
 
 # One number at each phase, or at each instant [s].
 Phases = Float[Any, "*phases"]

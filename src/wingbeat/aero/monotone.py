@@ -9,19 +9,16 @@ of order 8. With a row at every second degree of `su-fan`, no orbit of the bat a
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-    from scipy.interpolate import PPoly
-
-    Column = NDArray[np.float64]
+    from wingbeat._jax.shapes import Knots
 
 
-def monotone_curve(knots: Column, values: Column, *, periodic: bool = False) -> PPoly:
-    """Return the piecewise quintic through `values` at rising `knots`, monotone between any two of them.
+def monotone_curve(knots: Knots, values: Knots, *, periodic: bool = False) -> Any:
+    """Return SciPy's `PPoly` of the quintics through `values` at rising `knots`, monotone between any two of them.
 
     Theory: equations ``table-slope``, ``table-curvature`` and ``table-monotone``.
 
@@ -31,7 +28,7 @@ def monotone_curve(knots: Column, values: Column, *, periodic: bool = False) -> 
     periodic : whether the curve repeats itself; the last value is then the first.
     """
     # Imported here, because SciPy is slow to import and the formulas do not need it.
-    from scipy.interpolate import BPoly, CubicSpline, PPoly
+    from scipy.interpolate import BPoly, CubicSpline, PchipInterpolator, PPoly
 
     pieces = len(knots) - 1
     # The pieces before and after each row.
@@ -39,7 +36,12 @@ def monotone_curve(knots: Column, values: Column, *, periodic: bool = False) -> 
     before[0], after[-1] = (pieces - 1, 0) if periodic else (0, pieces - 1)
     steps = np.diff(knots)
     secants = np.diff(values) / steps
-    slopes = _slopes(knots, values, periodic)
+    if periodic:
+        turn = knots[-1] - knots[0]
+        around = np.concatenate([knots[-2:-1] - turn, knots, knots[1:2] + turn])
+        slopes = PchipInterpolator(around, np.concatenate([values[-2:-1], values, values[1:2]]))(knots, 1)
+    else:
+        slopes = PchipInterpolator(knots, values)(knots, 1)
     left, right, secant = np.abs(slopes[:-1]), np.abs(slopes[1:]), np.abs(secants)
     needed = np.maximum(0.4 * (left + right), (2 * (left + right) + np.maximum(left, right)) / 7)
     share = np.divide(secant, needed, out=np.ones_like(secant), where=needed > secant)
@@ -56,32 +58,14 @@ def monotone_curve(knots: Column, values: Column, *, periodic: bool = False) -> 
     while True:
         slope = np.where(limited, slopes, spline(knots, 1))
         curvature = np.where(limited, curvatures, spline(knots, 2))
-        bad = ~_is_monotone(steps, secants, slope, curvature)
-        more = (bad[before] | bad[after]) & ~limited
+        # A quintic is monotone if its control polygon is.
+        first, last = steps * slope[:-1], steps * slope[1:]
+        begin, end = steps**2 * curvature[:-1] / 20, steps**2 * curvature[1:] / 20
+        middle = steps * secants - 0.4 * (first + last) + end - begin
+        rises = np.stack([first, first / 5 + begin, middle, last / 5 - end, last])
+        good = np.where(secants == 0, (rises == 0).all(axis=0), (rises * np.sign(secants) >= 0).all(axis=0))
+        more = (~good[before] | ~good[after]) & ~limited
         if not more.any():
             jets = np.column_stack([values, slope, curvature])
             return PPoly.from_bernstein_basis(BPoly.from_derivatives(knots, jets))
         limited |= more
-
-
-def _slopes(knots: Column, values: Column, periodic: bool) -> Column:
-    """Return the slopes of Fritsch and Butland at the rows."""
-    from scipy.interpolate import PchipInterpolator
-
-    if not periodic:
-        return PchipInterpolator(knots, values)(knots, 1)
-    turn = knots[-1] - knots[0]
-    around = np.concatenate([knots[-2:-1] - turn, knots, knots[1:2] + turn])
-    return PchipInterpolator(around, np.concatenate([values[-2:-1], values, values[1:2]]))(knots, 1)
-
-
-def _is_monotone(steps: Column, secants: Column, slope: Column, curvature: Column) -> NDArray[np.bool_]:
-    """Return for each piece whether the control polygon of its quintic is monotone; then so is the quintic.
-
-    Theory: equation ``table-monotone``.
-    """
-    first, last = steps * slope[:-1], steps * slope[1:]
-    begin, end = steps**2 * curvature[:-1] / 20, steps**2 * curvature[1:] / 20
-    middle = steps * secants - 0.4 * (first + last) + end - begin
-    rises = np.stack([first, first / 5 + begin, middle, last / 5 - end, last])
-    return np.where(secants == 0, (rises == 0).all(axis=0), (rises * np.sign(secants) >= 0).all(axis=0))

@@ -33,6 +33,7 @@ _ERROR_LIKE = re.compile(r"(cl|cd|cm|xcp)\W*(e|s|u|d|std|stat|ci)", re.ASCII)
 _ATTACHED_DEG, _LEAST_ANGLES, _LEAST_FALL = 8.0, 4, 0.15
 # At these angles [deg] every wing's lift has the sign of the angle, and at those its drag is above its lift.
 _INCLINED_DEG, _ACROSS_DEG = (20.0, 70.0), (80.0, 100.0)
+_IDEAL_DRAG = 1e-3
 # No wing in a stream at Re above 100 has so much drag at small angles: a plate at Re 100 has 0.27 (Blasius).
 # In per cent it is at most 20 there; more are drag counts.
 _SMALL_DEG, _DRAG_AT_SMALL, _PER_CENT_AT_SMALL, _VISCOUS = 5.0, 1.0, 20.0, 100.0
@@ -174,7 +175,8 @@ def _check_directions(faults: FaultList, polar: PolarSheet) -> None:
             return
     low, high = _ACROSS_DEG
     across = (low <= np.abs(alpha)) & (np.abs(alpha) <= high)
-    if across.any() and (np.abs(lift[across]) > drag[across]).all():
+    # An ideal fluid has lift alone, at all angles.
+    if across.any() and drag.max() > _IDEAL_DRAG and (np.abs(lift[across]) > drag[across]).all():
         rule = f"is larger than the drag at all angles from {low:g} to {high:g} degrees, across the flow"
         fix = (
             "are lift and drag exchanged? If these are normal and tangential force, lift is C_N cos(alpha) - C_T "

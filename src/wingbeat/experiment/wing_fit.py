@@ -30,6 +30,9 @@ _STEP_DEG = 1.0
 # whichever angle is larger.
 _PLATE_FROM_DEG, _JOIN_DEG = 45.0, 20.0
 
+# Data to this angle leave nothing of a side to the form [deg].
+_WHOLE_SIDE_DEG = 85.0
+
 
 @dataclass(frozen=True)
 class WingFit:
@@ -248,8 +251,10 @@ def fit_wing(
                 notes.append(f"x_cp: {known.sum() - usable.sum()} rows at negative angles were left out")
     fitted = [curve for curve in (lift, drag, centre) if curve is not None]
     doubts = [note for curve in fitted for note in curve.notes]
-    # Beyond the data a cambered wing becomes a plate, whatever its terms; a mirrored form goes on as it is.
-    warnings = [] if isinstance(chosen.lift, LiftForm) else list(doubts)
+    # Beyond the data a cambered wing becomes a plate, whatever its terms. A mirrored form goes on to 90 degrees as it
+    # is, so its uncertain terms change the answer if the data end before.
+    goes_on = not isinstance(chosen.lift, LiftForm) and np.abs(table.alpha_deg).max() < _WHOLE_SIDE_DEG
+    warnings = list(doubts) if goes_on else []
     own = slice(len(measured.alpha_deg))
     for curve in (lift, drag):
         rows = {name: getattr(curve, name)[own] for name in ("alpha_deg", "values", "sigma")}

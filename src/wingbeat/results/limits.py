@@ -19,7 +19,8 @@ _RELATED = (
 )
 
 # Names of the path and of the state that do not read as words.
-_CALLED = {"flap": "flap angle", "u": "initial speed forward", "w": "initial speed upward"}
+_CALLED = {"flap": "flap angle", "plane_of_symmetry": "the wing's distance from the plane of symmetry"}
+_CALLED |= {"u": "initial speed forward", "w": "initial speed upward"}
 _CALLED |= {f"pitch_{part}": f"wing pitch {part}" for part in ("mean", "amplitude", "phase")}
 
 # A limit that stands for an end of a plausible range is 0.02 % inside it.

@@ -223,4 +223,6 @@ def _number(value: Any, unit: str, factor: float) -> str:
     if value is None:
         return "-"  # undefined, as a cost of transport in hover
     shown = value * factor
+    # Rounding of an angle that is at 0, or whose limit is.
+    shown = 0.0 if unit == "deg" and abs(shown) < 1e-6 else shown
     return f"{shown:{'.0f' if 1e4 <= abs(shown) < 1e7 else '.4g'}} {unit}".rstrip()

@@ -23,9 +23,9 @@ TEXT = """# What sets the frequency?
 `python validation/frequency_trials.py` writes the table of this page. Live pigeons beat at 5.4 to 9.6 Hz at all
 speeds, with 19 to 61 degrees of amplitude ([whole flights](flight_pigeon.md)). The model `animal`
 ([models](../guide/models.md)) does not predict this: in its beats of least metabolic power of the flight muscle,
-the frequency is 14 to 17 Hz up to 10 m/s and 4 Hz around 13 m/s. Each row changes one thing in that model. A cell holds frequency [Hz],
-flap amplitude [deg], positive power [W/kg of the bird] and activation, the largest share of the flight muscle's
-fibres that the beat uses.
+the frequency is 14 to 17 Hz up to 10 m/s and 4 Hz around 13 m/s. Each row changes one thing in that model. A cell
+holds frequency [Hz], flap amplitude [deg], positive power [W/kg of the bird] and activation, the largest share of
+the flight muscle's fibres that the beat uses.
 
 {table}
 

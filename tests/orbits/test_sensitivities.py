@@ -37,10 +37,7 @@ def solved(name, speed, **asked):
 
 
 class Optimum:
-    """The optimum next to unknowns by the flights that slopes are of.
-
-    `like` is the curvature of one nearby, so that it need not be measured again; Newton's method ends as closely.
-    """
+    """The optimum next to unknowns by the flights that slopes are of; `like` is the curvature of one nearby."""
 
     def __init__(self, problem, unknowns, like=None):
         self.problem = problem

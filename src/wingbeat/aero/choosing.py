@@ -115,12 +115,11 @@ def load_hand(
     return name_or_path if name_or_path == "none" else load_coefficients(name_or_path, extension, blend_width_deg)
 
 
-def _possible(model: Any) -> Any:
+def _possible(model: CoefficientModel) -> CoefficientModel:
     """Return a model of formulas after a check of its curve at all angles; tables and functions check their own."""
     if isinstance(model, FormulaCoefficients | CamberedCoefficients):
-        with contextlib.suppress(
-            TypeError
-        ):  # under JAX's transformations a model holds tracers, which have no hash
+        # Under JAX's transformations a model holds tracers, which have no hash.
+        with contextlib.suppress(TypeError):
             faults = FaultList()
             faults.faults.extend(_curve_faults(model))
             faults.raise_if_any()

@@ -49,7 +49,7 @@ def check_aspect_ratio(faults: FaultList, where: str, given: Any) -> None:
         faults.number(where, given, above=0, fix="give span over mean chord, inf for a section, or none if unknown")
 
 
-def check_curve(faults: FaultList, where: str, name: str, degrees: Any, lift: Any, drag: Any) -> None:
+def check_curve(faults: FaultList, where: str, name: str, degrees: Angles, lift: Angles, drag: Angles) -> None:
     """Note lift that not even an ideal fluid gives, and drag that is negative or more than any wing has.
 
     Parameters

@@ -251,8 +251,8 @@ def fit_wing(
                 notes.append(f"x_cp: {known.sum() - usable.sum()} rows at negative angles were left out")
     fitted = [curve for curve in (lift, drag, centre) if curve is not None]
     doubts = [note for curve in fitted for note in curve.notes]
-    # Beyond the data a cambered wing becomes a plate, whatever its terms. A mirrored form goes on to 90 degrees as it
-    # is, so its uncertain terms change the answer if the data end before.
+    # Beyond the data a cambered wing becomes a plate, whatever its terms. A mirrored form goes on to 90 degrees as
+    # it is, so its uncertain terms change the answer if the data end before.
     goes_on = not isinstance(chosen.lift, LiftForm) and np.abs(table.alpha_deg).max() < _WHOLE_SIDE_DEG
     warnings = list(doubts) if goes_on else []
     own = slice(len(measured.alpha_deg))

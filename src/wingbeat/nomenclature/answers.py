@@ -24,8 +24,8 @@ BEAT = (
     Term(
         "metabolic_power",
         "W",
-        "mean metabolic power of the flight muscle alone, without resting rate, heart, breathing, other muscles and "
-        "the muscle's recovery",
+        "mean metabolic power of the flight muscle alone, without resting rate, heart, breathing, other muscles "
+        "and the muscle's recovery",
         short="metabolic power of the flight muscle",
     ),
     Term(

@@ -34,7 +34,7 @@ def coefficients_of(given: Any) -> CoefficientModel:
     ------
     FileError : the file is missing or cannot be read.
     InvalidInputError : an unknown name, a function that `FunctionCoefficients` refuses, a model with negative drag,
-        C_D > 5 or |C_L| > 2 pi at some angle, a value of another type.
+        C_D > 5 or C_L beyond 2 pi at some angle, a value of another type.
 
     >>> coefficients_of("dickinson").name, coefficients_of(LIBRARY["su-fan"]()).name
     ('dickinson', 'su-fan')

@@ -116,7 +116,7 @@ class FunctionCoefficients(CoefficientModel):
     Raises
     ------
     InvalidInputError : a function that JAX cannot trace, that does not return two numbers, whose values or slopes
-        are not finite at some angle, or that gives negative drag, C_D > 5 or |C_L| > 2 pi.
+        are not finite at some angle, or that gives negative drag, C_D > 5 or C_L beyond 2 pi.
 
     >>> import jax.numpy as jnp
     >>> plate = FunctionCoefficients(lambda a: (1.2 * jnp.sin(2 * a), 1.4 - jnp.cos(2 * a)), "plate")

@@ -259,7 +259,7 @@ def failures(curve: CurveFit) -> tuple[str, ...]:
     """Return why a fitted curve is useless: it misses the data, or it gives what no wing has where they were taken.
 
     A curve fails if R^2 is below 0, or below 0.5 with a scatter of more than a tenth of the largest value; and if
-    The size of C_L exceeds 5, or C_D is not above 0 and at most 5, within the measured angles.
+    the size of C_L exceeds 5, or C_D is not above 0 and at most 5, within the measured angles.
 
     Parameters
     ----------

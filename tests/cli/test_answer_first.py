@@ -12,7 +12,9 @@ from wingbeat.cli.answer import Answer
 from wingbeat.cli.streams import StdoutError
 from wingbeat.errors import FileError
 
-TABLE = "alpha_deg,C_L,C_D\n" + "".join(f"{a},{0.02 * a:.3f},{0.1 + 0.01 * a:.3f}\n" for a in range(0, 90, 6))
+TABLE = "alpha_deg,C_L,C_D\n" + "".join(
+    f"{a},{0.0004 * a * (90 - a):.3f},{0.1 + 0.01 * a:.3f}\n" for a in range(0, 90, 6)
+)
 # Command lines that write two files, the function that writes the first one, and what they print.
 LINES = {
     "glide pigeon --alpha 4:6:1 -o first.csv --plot second.png": ("results.glide.GlidePolar.save", "slowest sink"),

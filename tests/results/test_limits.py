@@ -13,6 +13,7 @@ import pytest
 import wingbeat as wb
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.results.limits import set_by_limit
+from wingbeat.results.pareto_report import pareto_report
 from wingbeat.results.plausibility import is_judgement, plausibility, statements
 from wingbeat.results.rows import limits_in_words, orbit_groups
 
@@ -105,11 +106,24 @@ def test_headline_and_rows_say_what_is_set_by_a_limit() -> None:
     assert dict(groups["plausible ranges"])["frequency"] == "10.4 Hz (5.6 to 10.4 Hz, set by the limit)"
     least = _record("flap_amplitude", objective="frequency", objective_value=10.4)
     assert limits_in_words(least) == "flap amplitude 24.49 deg, and with it frequency 10.4 Hz"
+    minimised = dict(orbit_groups(least)["certificate"])["minimised"]
+    assert minimised == "frequency, 10.4 (follows from the limit of flap amplitude)"
     assert limits_in_words(_record()) == ""
     # Rounding of a parameter that is at a limit of zero is no number.
     still = _record("pitch_amplitude", "plane_of_symmetry")
     still["wingbeat"]["pitch_amplitude"] = 5.6e-18
     assert limits_in_words(still) == "wing pitch amplitude 0 deg, the wing's distance from the plane of symmetry"
+
+
+def test_a_front_says_what_limits_have_set() -> None:
+    numbers = {"objective_value": 6.8, "quantity_value": 20.0, "frequency": 6.8, "flap_amplitude": 1.2}
+    more = {"limit": 20.0, "rise": 0.1, "mean_positive_power": 20.0, "dominated": False, "stable": True}
+    point = {"active_bounds": ["mean_positive_power<=20.0", "flap_amplitude"], **numbers, **more}
+    record = {"species": "pigeon", "speed": 8.0, "climb": 0.0, "objective": "frequency", "points": [point]}
+    units = {"quantity": "mean_positive_power", "quantity_unit": "W", "objective_unit": "Hz"}
+    (_, table) = pareto_report(record | units)
+    (row,) = table.rows
+    assert row.cells[-1].startswith("stable; set by limits: flap amplitude, frequency")
 
 
 def _judged(problem: OrbitProblem, pitch_deg: float, **changes: Any) -> dict[str, dict[str, Any]]:

@@ -47,7 +47,7 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
         "plausible ranges": plausible_rows(record.get("plausibility") or [], limited),
         "state at the top of the stroke": state_rows(record.get("initial_state", {})),
         "power, both wings": power_rows(record, limited),
-        "certificate": certificate_rows(record),
+        "certificate": certificate_rows(record, limited),
         "stability": stability_rows(record),
     }
 
@@ -157,12 +157,13 @@ def power_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
     return [(label, value + _LEFT_OUT if label == _label("metabolic_power") else value) for label, value in rows]
 
 
-def certificate_rows(record: dict[str, Any]) -> Rows:
+def certificate_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
     """Return the numbers of certificate and solver, which show how far to trust the orbit."""
     closure = record.get("closure") or {}
     rows = []
     if record.get("objective_value") is not None:
-        rows.append(("minimised", f"{in_words(record['objective'])}, {record['objective_value']:.5g}"))
+        least = f"{in_words(record['objective'])}, {record['objective_value']:.5g}"
+        rows.append(("minimised", least + _why(record["objective"], limited)))
     for constraint, value in (record.get("constraints") or {}).items():
         name = re.split("[<>]=", constraint)[0]
         factor, unit = for_people(cf(plain_unit(name)))

@@ -236,14 +236,15 @@ def test_every_column_of_a_curve_is_said_by_the_table(curve):
 def test_a_minimised_quantity_other_than_power_and_frequency_has_a_column():
     """With the model `animal` the metabolic power is minimised, but the curve's power is that of the hinges."""
     best = {"frequency": 6.0, "mean_positive_power": 2.4, "objective_value": 4.84, "cost_of_transport": 0.1}
-    best |= {"flap_amplitude": 0.5, "active_bounds": ""}
+    best |= {"flap_amplitude": 0.5, "active_bounds": "", "outside_ranges": "strouhal"}
     point = {"speed": 9.0, "status": "converged", "message": "", "optima": [best], "distinct_optima": 1}
+    point |= {"refined": False}
     record = {"species": "kestrel", "climb": 0.0, "objective": "metabolic_power", "points": [point], "gaps": []}
     record |= {"marks": [], "characteristic_speeds": {"minimum_power": None}, "warnings": []}
     lines = text_of(curve_report(record)).splitlines()
     assert lines[1].split()[:4] == ["U", "f", "P+", "minimised"]
     assert lines[3].split()[:4] == ["9", "6", "2.4", "4.84"]
-    assert "outside plausible ranges" not in lines  # a file of before does not say it
+    assert "  at 9 m/s: strouhal" in lines  # outside plausible ranges
     outside = best | {"outside_ranges": "strouhal, flap_amplitude"}
     points = [point | {"speed": speed, "optima": [outside]} for speed in (5.0, 7.0)]
     points.append(point | {"optima": [best | {"outside_ranges": ""}]})

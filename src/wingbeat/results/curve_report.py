@@ -42,7 +42,7 @@ def curve_report(record: dict[str, Any]) -> Report:
     blocks: list[Block] = [
         Line(f"{animal}, minimum {minimised}: {certified} of {len(points)} speeds certified"),
         Table(rows, tuple(headings), "r" * (len(headings) - 1) + "l"),
-        *([Line("* added to find the characteristic speeds")] if any(map(_refined, points)) else []),
+        *([Line("* added to find the characteristic speeds")] if any(point["refined"] for point in points) else []),
         *_limited(record),
         *_implausible(points),
         Line(""),
@@ -61,9 +61,9 @@ def curve_report(record: dict[str, Any]) -> Report:
 
 
 def _implausible(points: list[dict[str, Any]]) -> list[Block]:
-    """Say at which speeds the best orbit is outside which plausible ranges; nothing for a file of before."""
-    judged = [(point["speed"], point["optima"][0].get("outside_ranges")) for point in points if point["optima"]]
-    if not judged or any(names is None for _, names in judged):
+    """Say at which speeds the best orbit is outside which plausible ranges; nothing if no speed has an orbit."""
+    judged = [(point["speed"], point["optima"][0]["outside_ranges"]) for point in points if point["optima"]]
+    if not judged:
         return []
     lines: list[Block] = [Line(""), Line("outside plausible ranges", tone="title")]
     for names, group in itertools.groupby(judged, key=lambda one: one[1]):
@@ -101,10 +101,6 @@ def _set_by_limit(point: dict[str, Any], objective: str) -> dict[str, SetBy]:
 
 def _span(speeds: list[float]) -> str:
     return f"{speeds[0]:g}" if len(speeds) == 1 else f"{speeds[0]:g} to {speeds[-1]:g}"
-
-
-def _refined(point: dict[str, Any]) -> bool:
-    return bool(point.get("refined"))  # a file of before has no such points
 
 
 def _characteristic(record: dict[str, Any]) -> list[Block]:
@@ -166,7 +162,7 @@ def _unit(objective: str) -> tuple[float, str]:
 
 def _row(point: dict[str, Any], factor: float | None) -> tuple[str, ...]:
     """Return the cells of a speed; with a factor to its unit, also the minimised quantity."""
-    shown = f"{point['speed']:g}{'*' if _refined(point) else ''}"
+    shown = f"{point['speed']:g}{'*' if point['refined'] else ''}"
     if not point["optima"]:
         none = ("",) * (4 if factor is None else 5)
         return (shown, *none, "0", f"{point['status']}: {point['message']}")

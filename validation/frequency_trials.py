@@ -10,57 +10,13 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any, NamedTuple
 
+from page_script import write_trials
+
 import wingbeat as wb
-from wingbeat.files import write_atomically
 
 SPEEDS = 6.0, 10.0, 14.0
-PAGE = Path(__file__).parents[1] / "docs" / "evidence" / "frequency_trials.md"
-TEXT = """# What sets the frequency?
-
-`python validation/frequency_trials.py` writes the table of this page. Live pigeons beat at 5.4 to 9.6 Hz at all
-speeds, with 19 to 61 degrees of amplitude ([whole flights](flight_pigeon.md)). The model `animal`
-([models](../guide/models.md)) does not predict this: in its beats of least metabolic power of the flight muscle,
-the frequency is 14 to 17 Hz up to 10 m/s and 4 Hz around 13 m/s. Each row changes one thing in that model. A cell
-holds frequency [Hz], flap amplitude [deg], positive power [W/kg of the bird] and activation, the largest share of
-the flight muscle's fibres that the beat uses.
-
-{table}
-
-- **No single number of the muscle gives the frequency of live pigeons at all three speeds.** A change of the
-  muscle's mass, share of elevators, strength, speed or leverage changes the frequency by at most 1.7 Hz at 6 and
-  10 m/s, and by at most 1.5 Hz at 14 m/s.
-- Weak and fast muscle, with the stress that was measured in a zebra finch's pectoralis, comes closest to live
-  pigeons: 5.2 Hz at 14 m/s.
-- Heavier wings with their mass closer to the root, a span that retracts more, and an upstroke with 0.4 of its load
-  change the frequency by at most 1 Hz.
-- If the model may also tilt its stroke plane and retract its span, it needs 10 to 35 % less power, and its
-  frequency rises by 0.2 to 1.9 Hz.
-- The beat of least positive power does not have the frequency of live pigeons either: at 10 m/s it is at the bound
-  of 30 Hz. The beat of least activation does not have it at any of the three speeds.
-- **Up to 10 m/s the elevators are too weak for any of these beats.** The elevators must stop the wings at the end
-  of the downstroke and raise them. If the elevators have three times the mass, activation falls from 8.3 to 3.6 at
-  6 m/s, and from 2.3 to 1.2 at 10 m/s.
-
-Three effects are missing from the model. We do not know how large the first two are:
-
-- Activating and relaxing a muscle costs energy and takes time, so each beat has a fixed cost
-  ([muscles](../guide/muscles.md)). We found no value of this cost for birds. People who push against a fixed bar
-  2.5 times a second spend 40 % of their energy on the fast rise of the force (van der Zee and Kuo 2021, J Exp Biol
-  224:jeb233965, abstract).
-- Stopping the wing at the end of the downstroke costs the model's elevators more than it costs a live bird's
-  elevators. A live bird's wings fold there, and its tendons may store energy.
-- The lift of a beating wing lags behind the wing's motion because of the wake. Orbits do not include this lag, so
-  fast beats are too cheap (`wingbeat validate` can include it for measured motions). By thin-aerofoil theory for a
-  wing that only plunges (Garrick 1936, NACA Report 567), at 12 m/s a share of 0.57 of the power becomes thrust at
-  30 Hz, and 0.82 at 5 Hz. At 10 m/s the shares are 0.61 at 17 Hz and 0.72 at 8 Hz. Without the lag, all of the
-  power would become thrust.
-
-Each of these three effects may lower the frequency in slow flight. None of them explains the slow beats around 13
-m/s. At these speeds the optimum is flat: at 12 m/s, beats of 6 to 18 Hz cost the same within 14 %.
-"""
 
 
 class Trial(NamedTuple):
@@ -128,17 +84,6 @@ def cell(model: Any, trial: Trial, speed: float) -> str:
     return f"{orbit.wingbeat.frequency:.1f}, {amplitude:.0f}, {power:.0f}, {record['peak_activation']:.2g}"
 
 
-def main() -> None:
-    """Solve every trial and write the page."""
-    model = wb.models.animal(wb.load_species("pigeon"))
-    heads = " | ".join(f"{speed:g} m/s" for speed in SPEEDS)
-    lines = [f"| change | {heads} |", "|---|" + "---|" * len(SPEEDS)]
-    for trial in trials():
-        found = [cell(model, trial, speed) for speed in SPEEDS]
-        lines.append(f"| {trial.name} | {' | '.join(found)} |")
-        print(lines[-1], flush=True)
-    write_atomically(PAGE, TEXT.format(table="\n".join(lines)))
-
-
 if __name__ == "__main__":
-    main()
+    ANIMAL = wb.models.animal(wb.load_species("pigeon"))
+    write_trials("frequency_trials", SPEEDS, trials(), lambda trial, speed: cell(ANIMAL, trial, speed))

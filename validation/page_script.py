@@ -1,11 +1,12 @@
-"""The command line of a study of measured wings: it reads CSV files, and writes one page with one figure."""
+"""Pages of evidence: their templates filled with numbers, their tables, and a command line that writes one page."""
 
 from __future__ import annotations
 
 import argparse
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 from matplotlib.figure import Figure
 
@@ -14,6 +15,29 @@ from wingbeat.files import write_atomically
 from wingbeat.plots import save_figure
 
 ROOT = Path(__file__).resolve().parents[1]
+
+
+def filled(name: str, **values: object) -> str:
+    """Return the page `name`: its template in the folder pages, with values for the names in braces."""
+    return (Path(__file__).with_name("pages") / f"{name}.md").read_text(encoding="utf-8").format(**values)
+
+
+def markdown_table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Return a table in Markdown."""
+    lines = [heads, ["---"] * len(heads), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+def write_trials(
+    name: str, speeds: Sequence[float], trials: Iterable[Any], cell: Callable[[Any, float], str]
+) -> None:
+    """Write the page `name` with a row for each trial, which has a name, and a column for each speed [m/s]."""
+    rows = []
+    for trial in trials:
+        rows.append([trial.name, *(cell(trial, speed) for speed in speeds)])
+        print(" | ".join(rows[-1]), flush=True)
+    table = markdown_table(["change", *(f"{speed:g} m/s" for speed in speeds)], rows)
+    write_atomically(ROOT / "docs" / "evidence" / f"{name}.md", filled(name, table=table))
 
 
 def write_page(

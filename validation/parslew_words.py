@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import pandas as pd
+from page_script import filled
 
 from wingbeat.plots import save_figure
 from wingbeat.style import FIRST, GREY, PAGE, SECOND, drawing, dress, legend_below, letter_panels, new_figure
@@ -24,48 +25,6 @@ PANELS = {
     "from_vertical_deg": ("stroke plane from vertical [deg]", ""),
     "retraction": ("span retracted on the upstroke [-]", ""),
 }
-TEXT = """# Another predictive model of a pigeon
-
-`python validation/parslew.py` writes this page. Parslew and Crowther (2010, J Biomech 43:3191,
-doi 10.1016/j.jbiomech.2010.07.018) and Parslew (2015, J R Soc Interface 12:20140953, doi 10.1098/rsif.2014.0953)
-predict how a pigeon flies with the least mechanical power. Of the published models, theirs is the most similar to
-ours. It optimises the motion of wings with several segments, and it includes air loads and inertia.
-
-**We could read only the two abstracts, not the papers.** So we know neither their speeds nor their curves of power
-and frequency, and we cannot say how far their predictions are from measurements. This page tests whether our
-predicted pigeon flies as the abstracts say that their predicted pigeon does.
-
-## How we flew
-
-We flew the pigeon of the model [`animal`](../guide/models.md) with two changes. First, we minimise mean positive
-power, because their model minimises mechanical power. Second, the tilt of the stroke plane and the span retraction
-are free parameters.
-*Frequency limited* means at most {highest:g} Hz, the highest frequency measured on pigeons. *Frequency free* means
-without this limit. Fast, small strokes then need the least power in our model ([muscles](../guide/muscles.md)). Of
-the {count} flights, {certified} are certified.
-
-![Power, frequency, stroke plane and span retraction of our pigeon against speed, with measured values]({figure})
-
-*Lines: our flights in cruise. Shaded: measured on pigeons ([sources](flight_pigeon.md)).*
-
-## Statement by statement
-
-| statement of the abstracts | our reading | frequency limited | frequency free |
-| --- | --- | --- | --- |
-{statements}
-
-{sums}
-A retraction of {most:g} is the most that we allow. In hover with the frequency free, the stroke plane is horizontal
-({hover:.0f} degrees from vertical) and the wing stays spread, as the abstract says of hummingbirds.
-
-Power in hover and climb:
-
-| flight | frequency limited [W/kg] | frequency free [W/kg] |
-| --- | --- | --- |
-{powers}
-
-This page compares two models. [Whole flights](whole_flights.md) compares our model with pigeons.
-"""
 
 
 class Statement(NamedTuple):
@@ -184,10 +143,10 @@ def _told(test: Callable[[pd.DataFrame], tuple[str, bool | None]], table: pd.Dat
     return f"{verdict}: {words}"
 
 
-def _sum(name: str, table: pd.DataFrame) -> str:
+def _sum(table: pd.DataFrame) -> str:
     verdicts = [one.test(table)[1] for one in STATEMENTS]
     told = [verdict for verdict in verdicts if verdict is not None]
-    return f"With the frequency {name}, {len(told)} statements can be tested, and {sum(told)} of these hold."
+    return f"{len(told)} statements can be tested and {sum(told)} hold"
 
 
 def _powers(limited: pd.DataFrame, free: pd.DataFrame) -> Iterator[str]:
@@ -236,8 +195,10 @@ def page(table: pd.DataFrame, figure: Path, highest: float) -> str:
         for one in STATEMENTS
     )
     spread = _rows(free, "hover")
-    return TEXT.format(
-        sums=" ".join(_sum(name, one) for name, one in (("limited", limited), ("free", free))),
+    return filled(
+        "parslew",
+        limited=_sum(limited),
+        free=_sum(free),
         most=table["retraction"].max(),
         hover=spread[spread["held"].isna()]["from_vertical_deg"].iloc[0],
         highest=highest,

@@ -36,7 +36,7 @@ _SUMMARY = """## What the comparisons say
 
 _RATIO = " *Ratio* is the prediction divided by the middle of the measured range."
 # The quantities that are compared by a factor, in few words.
-_IN_SHORT = {
+IN_SHORT = {
     "frequency": "frequency",
     "flap_amplitude_deg": "flap amplitude",
     "positive_power_per_mass": "hinge power",
@@ -116,7 +116,7 @@ def overview_text(predictions: Sequence[Prediction]) -> str:
 
 def _how_to_read() -> str:
     by_factor: dict[float, list[str]] = {}
-    for name, words in _IN_SHORT.items():
+    for name, words in IN_SHORT.items():
         by_factor.setdefault(AGREES[name], []).append(words)
     factors = ", and ".join(f"{factor:g} for {_listed(names)}" for factor, names in by_factor.items())
     near = AGREES["minimum_power_speed"]

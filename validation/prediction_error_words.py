@@ -61,7 +61,7 @@ def _row(one: Error) -> list[str]:
     low, middle, high = one.ratio
     numbers = ", ".join(f"{path} {share:+.2f}" for path, share in one.numbers.items())
     ratio, agree = f"{middle:.2f} ({low:.2f} to {high:.2f})", f"{100 * one.agree:.0f} %"
-    quantity, basis = IN_SHORT[one.measurement.quantity], one.measurement.basis
+    quantity, basis = IN_SHORT[one.measurement.quantity].split(" [")[0], one.measurement.basis
     return [one.animal, quantity, basis, _band(one), str(one.flights), ratio, agree, numbers]
 
 

@@ -1,9 +1,9 @@
-"""Fly animals whose flights were measured, and write a page and a figure for each, and the overview.
+"""Fly animals whose flights were measured, and write one page with a figure for each.
 
     python validation/whole_flights.py [--draws 24] [--processes 1] [ANIMAL ...]
 
 Flights are kept in ``data/whole_flights``, one file for each animal. Animals that are named are flown anew, the
-others only where their file is missing; all pages are then written from the files.
+others only where their file is missing; the page is then written from the files.
 """
 
 from __future__ import annotations
@@ -14,11 +14,10 @@ import sys
 import time
 from pathlib import Path
 
-import wingbeat as wb
 from wingbeat.files import make_folder, write_atomically
 from wingbeat.plots import flights_page, save_figure
 from wingbeat.whole_flights import Prediction, measured_animals, predict_flights, read_measured_flights
-from wingbeat.whole_flights.page import flight_text, overview_text
+from wingbeat.whole_flights.page import overview_text
 
 ROOT = Path(__file__).parents[1]
 FLOWN, DOCS = ROOT / "data" / "whole_flights", ROOT / "docs" / "evidence"
@@ -36,7 +35,7 @@ def flown(animal: str, anew: bool, draws: int, processes: int) -> Prediction:
 
 
 def main() -> None:
-    """Fly the named animals, and write all pages."""
+    """Fly the named animals, and write the page."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("animals", nargs="*", choices=[[], *measured_animals()])
     parser.add_argument("--draws", type=int, default=24)
@@ -46,13 +45,11 @@ def main() -> None:
     named = asked.animals or []
     rest = [one for one in measured_animals() if one not in named]
     found = [flown(one, one in named, asked.draws, asked.processes) for one in [*named, *rest]]
-    pages = {one.flights.species: one for one in found}
-    for animal, prediction in sorted(pages.items()):
-        figure = DOCS / f"flight_{animal}.png"
-        save_figure(flights_page(prediction), figure)
-        name = wb.load_species(animal).common_name or animal
-        write_atomically(DOCS / f"flight_{animal}.md", flight_text(prediction, figure.name, name))
-    write_atomically(DOCS / "whole_flights.md", overview_text([pages[one] for one in sorted(pages)]))
+    found.sort(key=lambda one: one.flights.species)
+    figures = [f"flight_{one.flights.species}.png" for one in found]
+    for one, figure in zip(found, figures, strict=True):
+        save_figure(flights_page(one), DOCS / figure)
+    write_atomically(DOCS / "whole_flights.md", overview_text(found, figures))
 
 
 if __name__ == "__main__":

@@ -2,94 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from wingbeat.measured_motion.comparison import Validation, ValidationRow
 from wingbeat.measured_motion.scores import Score
 
-_HEAD = """# Air loads on measured motions
+_PAGE = """# Air loads on measured motions
 
-`uv run wingbeat validate -o docs/evidence/validation.md` writes this page and computes every number in it. It takes
-measured motions of wings, computes the air loads on the wings' strips, and compares the computed forces with the
-measured ones. For a case of your own, run `wingbeat validate my_case.toml`; `wingbeat validate --help` and the
-docstring of `wb.read_strip_case` describe its files.
+`wingbeat validate -o docs/evidence/validation.md` writes this page: air loads on the strips of wings whose motion
+was measured, beside the measured forces. For a case of your own, run `wingbeat validate my_case.toml`; the
+docstring of `wb.read_strip_case` describes its files. `--json` prints the scores of all rows.
 
-## What is compared
-
-- **Rows.** Each row is a coefficient model with a choice of terms. `thin-aerofoil` is rotation, added mass and
-  their couples; `thin-aerofoil-wake` adds the lag of the wake. Each choice has one row without momentum inflow and
-  one row with momentum inflow. Rows with inflow or lag need a model that states its aspect ratio.
-- **Recommended.** The rule below recommends one row. It uses the Reynolds number, the reduced frequency, the kind
-  of wing and the motion. It never sees the measured force, so the recommended row is not always the closest.
-- **mean** is the computed mean force divided by the measured mean force, and **peak** is the largest computed force
-  divided by the largest measured force.
-- **rms** is the root mean square of the difference between the two forces, divided by the weight. For **rms about
-  mean**, we first subtract from each force its own mean. We then divide the rms of the difference by the rms of
-  the measured force.
-- **lag** is the delay of the computed force behind the measured one, as a fraction of the beat.
-- **power** is the mean power that the wings give to the air.
-- The **best sine** is a constant plus a sine at the beat's frequency, both fitted to the measured force itself. A
-  row that is farther from the measurement than the best sine explains little.
+- *Columns* of the tables of cases are terms: `thin-aerofoil` is rotation, added mass and their couples,
+  `thin-aerofoil-wake` adds the lag of the wake; `momentum` is inflow. Inflow and lag need a model that states its
+  aspect ratio. The *recommended* row, bold, is chosen by the rule below, which never sees the measured force.
+- *mean* and *peak*: computed over measured mean and largest force. *rms*: of the difference, divided by the
+  weight. *rms about mean*: after each force has lost its own mean, divided by the rms of the measured force.
+  *lag*: delay of the computed force, as a fraction of the beat. *power*: given to the air.
+- The *best sine* is a constant plus a sine at the beat's frequency, fitted to the measured force. A row farther
+  from the measurement explains little.
 
 ## The rule
 
-1. The case may name the kind of wing. If it does not, a flyer below 2.5 g at a Reynolds number below 7000 counts as
-   an insect with rigid wings, and any other flyer as a bird with feathered wings.
-2. Below a Reynolds number of 10 000 the leading-edge vortex of a revolving wing stays attached, on wings of
-   insects and hummingbirds alike ([Usherwood and Ellington 2002](https://doi.org/10.1242/jeb.205.11.1565)). The
-   rule chooses `dickinson`, a polar of revolving wings. This polar already includes induced flow.
-3. Above this Reynolds number, the rule chooses the model named after the kind of wing. If there is no such model,
-   it chooses the plate, `su-fan`. In slow flight (below twice the induced speed of hover) it prefers a model
-   measured on revolving wings of the same kind.
-4. Above a reduced frequency of 0.1 the rule treats the flow as unsteady, and adds rotation and added mass.
-   (Leishman 2006, Principles of Helicopter Aerodynamics, puts the beginning of unsteady flow between 0.05 and 0.2.)
-5. Above the same reduced frequency the rule also adds the lag of the wake if the theory of this lag applies. The
-   theory assumes a straight wake that the flow carries away (Theodorsen 1935, NACA Report 496). Three conditions
-   must therefore be met:
-   - the polar was measured in straight flow and states an aspect ratio;
-   - the speed is at least twice the induced speed of hover;
-   - the flow is attached for at least 90 % of the beat, averaged over the wing area. Flow counts as attached if
-     the angle of attack, computed from the motion alone, is below the angle of the polar's largest lift.
-6. In slow flight the induced flow in the polar of a finite wing is not the right one. If the model states its
-   aspect ratio, the rule then adds momentum inflow.
+1. Without a named kind of wing, a flyer below 2.5 g at a Reynolds number below 7000 has rigid wings, any other
+   feathered ones.
+2. Below a Reynolds number of 10 000, `dickinson`: the leading-edge vortex of a revolving wing stays attached
+   ([Usherwood and Ellington 2002](https://doi.org/10.1242/jeb.205.11.1565)), and the polar includes induced flow.
+3. Above, the model named after the kind of wing, else the plate, `su-fan`. In slow flight (below twice the induced
+   speed of hover) it prefers a model measured on revolving wings of the same kind.
+4. Above a reduced frequency of 0.1, rotation and added mass (Leishman 2006: flow is unsteady from 0.05 to 0.2).
+5. Above it also the lag of the wake where its theory holds (a straight wake, Theodorsen 1935, NACA Report 496):
+   the polar was measured in straight flow and states an aspect ratio, the speed is at least twice the induced
+   speed of hover, and the flow is attached (angle of attack below that of the polar's largest lift) for 90 % of
+   the beat, averaged over the wing area.
+6. In slow flight, momentum inflow if the model states its aspect ratio.
 
-"""
+## Recommended rows
 
-_TAIL = """## Derivatives of measured data
+{summary}
 
-Added mass needs accelerations, and measured positions are noisy. Rates of change are therefore the slopes of a
-cubic smoothing spline. Generalised cross-validation ([Craven and Wahba 1979](https://doi.org/10.1007/BF01404567))
-chooses the spline's stiffness, one value for all strips. The spline leaves data without noise unchanged, and it
-never smooths away the first four harmonics of the beat. If a motion repeats, the spline also uses frames of the
-neighbouring beats. If a motion does not repeat, rates at its first and last frames are less certain. Exclude these
-frames with `from` and `to` in the case.
+{cases}
+## How
 
-Velocities in a case are those of the wing's material through still air. If a case has none, wingbeat differentiates
-the positions. If the positions do not advance with the animal, wingbeat takes them as measured in a wind tunnel and
-adds the flight speed.
+Rates of change of measured positions are slopes of a cubic smoothing spline, whose stiffness generalised
+cross-validation ([Craven and Wahba 1979](https://doi.org/10.1007/BF01404567)) chooses, one for all strips; it
+leaves the first four harmonics of the beat alone. If a motion does not repeat, exclude its less certain first and
+last frames with `from` and `to`. Velocities are those of the material through still air. Positions that do not
+advance are taken as measured in a wind tunnel.
 
-## The lag of the wake
-
-When the lift of a wing changes, the wing sheds vorticity into its wake, and the wake delays the change of lift.
-Wagner's function describes this delay. Jones (1940, NACA Report 681) approximates this function with two states,
-and each strip has two such states. The downwash at three quarters of the chord drives these states; past the angle
-of largest lift, the polar's lift drives them instead. The wake moves the air at the
-strip, and the angle of attack in this moving air gives the coefficients. With lift `2 pi sin(alpha)`, the result is
-Theodorsen's lift with his C(k). In a motion that repeats, the states repeat too. In any other motion, the wake
-starts as in steady flight.
-
-The lag, like rotation and added mass, is computed for a wing section. A whole wing lags less than its sections:
-[air loads](../guide/air_loads.md) says what that means for the robot `flapper-yeo2011`.
-
-## Whole flights
-
-`wingbeat validate pigeon` predicts flights; it does not compute loads on a given motion. See
-[whole flights](whole_flights.md).
-
-## What all rows leave out
-
-No row includes the delay of stall in fast pitching. No row includes an influence of one strip on another, or of
-the fore wing and the hind wing on each other.
+The lag of the wake is that of a section ([air loads](../guide/air_loads.md#the-lag-of-the-wake)). No row includes
+dynamic stall, or the influence of strips, or of fore and hind wing, on each other. Predicted flights are on
+another page: [whole flights](whole_flights.md).
 """
 
 
@@ -101,57 +64,69 @@ def validation_text(found: Sequence[Validation], figures: Sequence[str]) -> str:
     found : one result for each case.
     figures : the file name of the figure of each case.
     """
-    summary = ["## Recommended rows", "", *_table(_SUMMARY, [_summary(one) for one in found]), ""]
-    parts = [_section(one, figure) for one, figure in zip(found, figures, strict=True)]
-    return _HEAD + "\n".join(summary) + "\n" + "\n".join(parts) + "\n" + _TAIL
+    cases = [_section(one, figure) for one, figure in zip(found, figures, strict=True)]
+    return _PAGE.format(summary=_table(_SUMMARY, map(_summary, found)), cases="\n".join(cases))
 
 
 _TERMS = ("coefficients", "unsteady", "inflow")
-_SUMMARY = ("case", "wing", "Re", "k", *_TERMS, "mean", "rms", "rms about mean")
-_COLUMNS = (*_TERMS, "mean", "peak", "rms", "rms about mean", "correlation", "lag", "power [W]")
+_SCORES = ("mean", "peak", "rms", "rms about mean", "correlation", "lag")
+_SUMMARY = ("case", "wing", "Re", "k", *_TERMS, *_SCORES, "power [W]")
 
 
 def _summary(found: Validation) -> list[str]:
-    row, regime = found.recommended, found.regime
-    numbers = [f"{regime.reynolds:.0f}", f"{regime.reduced_frequency:.2f}"]
-    scores = [_shown(value) for value in (row.fz.mean_ratio, row.fz.rms, row.fz.rms_about_mean)]
-    return [found.case.name, regime.wing, *numbers, *_names(row), *scores]
+    row, regime, score = found.recommended, found.regime, found.recommended.fz
+    numbers = (score.mean_ratio, score.peak_ratio, score.rms, score.rms_about_mean, score.correlation, score.lag)
+    cells = [
+        found.case.name,
+        regime.wing,
+        f"{regime.reynolds:.0f}",
+        f"{regime.reduced_frequency:.2f}",
+        *_names(row),
+    ]
+    return [*cells, *map(_shown, numbers), f"{row.aerodynamic_power:.3g}"]
 
 
 def _section(found: Validation, figure: str) -> str:
     lines = [f"## {found.case.name}", "", found.reason, ""]
     for axis, label in (("fz", "Upward force"), ("fx", "Forward force")):
-        if any(value is not None for row in found.rows for value in getattr(row, axis).to_dict().values()):
-            rows = [_cells(row, getattr(row, axis)) for row in found.rows]
-            lines += [f"{label}; the recommended row is bold:", "", *_table(_COLUMNS, rows), ""]
+        scores = [getattr(row, axis) for row in found.rows]
+        if any(value is not None for score in scores for value in score.to_dict().values()):
+            has_series = any(score.rms_about_mean is not None for score in scores)
+            shown = "mean, and in brackets rms about mean" if has_series else "mean"
+            lines += [f"{label}: {shown}.", "", _by_terms(found.rows, scores, has_series), ""]
     said = found.to_dict()
     for axis, force in (("fz", "upward"), ("fx", "forward")):
         sine, noise = said["null_model"][axis], said["floor"][axis]
         if sine["rms"] is not None:
-            text = f"The best sine has an rms of {sine['rms']:.2f} for the {force} force"
-            about = sine["rms_about_mean"]
-            text += "." if about is None else f" and an rms about mean of {about:.2f}."
-            text += "" if noise is None else f" The standard error of the measurement is {noise:.2f} of the weight."
-            lines += [text, ""]
+            about = "" if sine["rms_about_mean"] is None else f", about the mean {sine['rms_about_mean']:.2f}"
+            error = "" if noise is None else f"; standard error of the measurement {noise:.2f} of the weight"
+            lines += [f"Best sine, {force} force: rms {sine['rms']:.2f}{about}{error}.", ""]
     lines += [f"Note: {note}." for note in found.notes]
     lines += [""] * bool(found.notes)
-    return "\n".join([*lines, f"![{found.case.name}]({figure})", ""])
+    return "\n".join([*lines, f"![{found.case.name}: measured and computed force over the beat]({figure})", ""])
 
 
-def _cells(row: ValidationRow, score: Score) -> list[str]:
-    numbers = (score.mean_ratio, score.peak_ratio, score.rms, score.rms_about_mean, score.correlation, score.lag)
-    cells = [*_names(row), *map(_shown, numbers), f"{row.aerodynamic_power:.3g}"]
-    return [f"**{cell}**" for cell in cells] if row.recommended else cells
+def _by_terms(rows: Sequence[ValidationRow], scores: Sequence[Score], has_series: bool) -> str:
+    """Return the scores, a line for each coefficient model and a column for each choice of terms."""
+    terms = list(dict.fromkeys((row.unsteady, row.aero.inflow) for row in rows))
+    lines: dict[str, list[str]] = {}
+    for row, score in zip(rows, scores, strict=True):
+        name, *own = _names(row)
+        cell = _shown(score.mean_ratio) + (f" ({_shown(score.rms_about_mean)})" if has_series else "")
+        cells = lines.setdefault(name, [name, *["-"] * len(terms)])
+        cells[1 + terms.index(tuple(own))] = f"**{cell}**" if row.recommended else cell
+    heads = [unsteady + (", momentum" if flow != "none" else "") for unsteady, flow in terms]
+    return _table(["model", *heads], lines.values())
 
 
-def _names(row: ValidationRow) -> list[str]:
-    return [row.aero.coefficients.name, row.unsteady, row.aero.inflow]
+def _names(row: ValidationRow) -> tuple[str, str, str]:
+    return row.aero.coefficients.name, row.unsteady, row.aero.inflow
 
 
 def _shown(value: float | None) -> str:
     return "-" if value is None else f"{value:z.2f}"
 
 
-def _table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> list[str]:
+def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     lines = [heads, ["---"] * len(heads), *rows]
-    return ["| " + " | ".join(cells) + " |" for cells in lines]
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)

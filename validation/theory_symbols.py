@@ -79,34 +79,35 @@ LOCAL = (
 
 def page() -> str:
     """Return the text of the page."""
-    terms = [term for term in NOMENCLATURE.values() if term.symbol]
-    return "\n".join(
-        [
-            "# Symbols",
-            "",
-            "A program writes this page: `validation/theory_symbols.py`.",
-            "",
-            "## Symbols of the nomenclature",
-            "",
-            "Records, data sets and figures use these symbols. The name is that in records and data sets. "
-            r"The pages write φ as $\varphi$ and L₀ as $L_0$.",
-            "",
-            "| symbol | name | meaning | unit |",
-            "| --- | --- | --- | --- |",
-            *(f"| {t.symbol} | `{t.name}` | {t.label} | {plain(t.unit)} |" for t in terms),
-            "",
-            "## Symbols of the pages",
-            "",
-            "| symbol | meaning | unit | page |",
-            "| --- | --- | --- | --- |",
-            *(f"| ${s.symbol}$ | {s.meaning} | {_unit(s.unit)} | [{s.page}]({s.page}.md) |" for s in LOCAL),
-            "",
-        ]
-    )
+    named: dict[str, list[str]] = {}
+    for term in NOMENCLATURE.values():
+        if term.symbol:
+            named.setdefault(term.unit, []).append(f"{term.symbol} `{term.name}`")
+    lines = [
+        "# Symbols",
+        "",
+        "## Symbols of records",
+        "",
+        "Records, data sets and figures use these, here by unit; the site's {doc}`reference <../reference/record>` "
+        r"defines each. The pages write φ as $\varphi$ and L₀ as $L_0$.",
+        "",
+        *(f"- {'no unit' if unit == '1' else plain(unit)}: {', '.join(terms)}" for unit, terms in named.items()),
+        "",
+        "## Symbols of the pages",
+        "",
+        "A bracket gives the unit, if there is one.",
+    ]
+    for name in dict.fromkeys(symbol.page for symbol in LOCAL):
+        lines += ["", f"[{name.replace('_', ' ').capitalize()}]({name}.md):", ""]
+        lines += [f"- ${s.symbol}$: {s.meaning}{_bracket(s.unit)}" for s in LOCAL if s.page == name]
+    return "\n".join([*lines, ""])
 
 
-def _unit(unit: str) -> str:
-    return ", ".join(part if part == "SI" or " or " in part else plain(part) for part in unit.split(", "))
+def _bracket(unit: str) -> str:
+    if unit == "1":
+        return ""
+    parts = (part if part == "SI" or " or " in part else plain(part) for part in unit.split(", "))
+    return f" [{', '.join(parts)}]"
 
 
 if __name__ == "__main__":

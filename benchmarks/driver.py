@@ -25,12 +25,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 import wingbeat as wb
+from wingbeat._workers.main import Context
 from wingbeat.studies.dask_engine import DaskEngine
 from wingbeat.studies.driver import Stop
 from wingbeat.studies.engine import Ended, Engine, LocalProcesses
 from wingbeat.studies.store import Store
 from wingbeat.studies.units import Outcome, Unit
-from wingbeat.workers.main import Context
 
 # Seconds that a point takes a core, which make the batches as large as they are with real points.
 POINT = 0.0275

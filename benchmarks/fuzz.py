@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import wingbeat as wb
-from wingbeat.species import template
+from wingbeat.animal.species import template
 
 STUDIES = (
     """species = ["pigeon", "bat"]

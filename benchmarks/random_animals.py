@@ -24,13 +24,13 @@ from typing import NamedTuple
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.species.scaling import BAT_ASPECT_RATIO, BIRD_ASPECT_RATIO, BIRD_MASS
-from wingbeat.vehicle import Air
+from wingbeat.animal.species.scaling import BAT_ASPECT_RATIO, BIRD_ASPECT_RATIO, BIRD_MASS
+from wingbeat.animal.vehicle import Air
 
 SEED, COUNT = 2026, 200
 # The laws of birds' wing mass and frequency hold from 0.01 kg to 10 kg, those of bats from 2 to 870 g [kg].
 MASSES = {"bird": (0.01, 10.0), "bat": (0.002, 0.87)}
-# Bats: area 0.176 m^(2/3) (the shape of 24 noctules, as in `wingbeat.species.scaling`), times a guessed spread.
+# Bats: area 0.176 m^(2/3) (24 noctules, see `wingbeat.animal.species.scaling`), times a guessed spread.
 BAT_AREA, BAT_AREA_SPREAD = 0.176, (0.7, 1.4)
 LIFT_COEFFICIENT, SPEEDS = 0.6, (0.6, 1.4)
 

@@ -19,8 +19,7 @@ import numpy as np
 import pandas as pd
 
 import wingbeat as wb
-from wingbeat.plots import save_figure
-from wingbeat.style import (
+from wingbeat._base.style import (
     BLUE,
     FIRST,
     FONT,
@@ -37,8 +36,9 @@ from wingbeat.style import (
     letter_panels,
     new_figure,
 )
-from wingbeat.whole_flights import Prediction, measured_animals, read_measured_flights
-from wingbeat.whole_flights.comparison import AGREES, Score, compared
+from wingbeat.plots import save_figure
+from wingbeat_evidence.whole_flights import Prediction, measured_animals, read_measured_flights
+from wingbeat_evidence.whole_flights.comparison import AGREES, Score, compared
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -14,9 +14,9 @@ from tests.helpers.browsers import FLAGS, PATIENCE
 from tests.helpers.forks import ForkServer
 from tests.helpers.memory import MOST, forget_programs, resident
 from tests.helpers.reflight import Reflight, refly
+from wingbeat._workers.gc import collect_seldom
 from wingbeat.cli import progress
 from wingbeat.orbits.flight.certify import Certificate, certify
-from wingbeat.workers.gc import collect_seldom
 
 # For the processes that pytest and the tests start. Those that share two cores wait for each other's threads: least
 # squares of 1080 rows and 307 columns then take fifty times as long (2.2 in place of 0.04 s).
@@ -101,8 +101,9 @@ def reflight(solved) -> Reflight:
 @pytest.fixture(scope="session")
 def forks() -> Iterator[ForkServer]:
     """What starts orbits, studies and those of assumptions without their imports."""
-    needed = ("cli.orbit", "cli.study", "cli.paper", "studies.study", "paper.figures", "paper.assumption_page")
-    server = ForkServer(*(f"wingbeat.{name}" for name in needed))
+    needed = ("wingbeat.cli.orbit", "wingbeat.cli.study", "wingbeat.studies.study")
+    paper = ("commands.paper", "paper.figures", "paper.assumption_page")
+    server = ForkServer(*needed, *(f"wingbeat_evidence.{name}" for name in paper))
     yield server
     server.close()
 

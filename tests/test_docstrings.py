@@ -14,10 +14,10 @@ import textwrap
 import pytest
 
 import wingbeat as wb
-from wingbeat.errors import FaultList
+from wingbeat._base.errors import FaultList
 
 # Users catch errors and never make them.
-ELSEWHERE = "wingbeat.errors"
+ELSEWHERE = "wingbeat._base.errors"
 # A number that has no unit says what it is.
 NO_UNIT = re.compile(
     r"\[|\b(share|shares|fraction|ratio|over (the|that)|exponent|chords|number|between 0 and 1|tolerance|weight|"

@@ -43,9 +43,9 @@ from alerstam_words import (
     spread_table,
 )
 
+from wingbeat._base.errors import WingbeatError
+from wingbeat._base.files import write_atomically
 from wingbeat.cli.progress import progress_bar
-from wingbeat.errors import WingbeatError
-from wingbeat.files import write_atomically
 from wingbeat.models import MODELS
 from wingbeat.plots import save_figure
 

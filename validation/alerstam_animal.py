@@ -23,11 +23,11 @@ from alerstam_flights import (
 from numpy.typing import NDArray
 
 import wingbeat as wb
-from wingbeat.files import read_text, write_atomically
+from wingbeat._base.files import read_text, write_atomically
+from wingbeat.animal.species.scaling import BIRD_FREQUENCY
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, find_orbit, search_near
 from wingbeat.results.orbit import Orbit
-from wingbeat.species.scaling import BIRD_FREQUENCY
 
 # Of the speed at which a wing at lift coefficient 1 carries the bird; measured airspeeds play no part in them. The
 # curves of three birds (swan, wood pigeon, sand martin) have both minima between. Where the least is at an end, the

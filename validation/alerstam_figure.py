@@ -8,9 +8,19 @@ from alerstam_summary import AIR, FITTED, Row, column, of_model
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from wingbeat._base.style import (
+    BLUE,
+    GREEN,
+    PAGE,
+    SHADE,
+    VERMILION,
+    drawing,
+    legend_above,
+    letter_panels,
+    new_figure,
+)
+from wingbeat.animal.species import scaling
 from wingbeat.models import MODELS
-from wingbeat.species import scaling
-from wingbeat.style import BLUE, GREEN, PAGE, SHADE, VERMILION, drawing, legend_above, letter_panels, new_figure
 
 SLOW = {"color": BLUE, "marker": "o", "markersize": 3.5, "linestyle": "", "alpha": 0.75}
 FAST = {"color": VERMILION, "marker": "^", "markersize": 4.0, "linestyle": "", "alpha": 0.75}

@@ -10,11 +10,11 @@ from pathlib import Path
 from typing import Any
 
 import wingbeat as wb
-from wingbeat.errors import FileError
-from wingbeat.files import read_text
+from wingbeat._base.errors import FileError
+from wingbeat._base.files import read_text
+from wingbeat._workers.process_map import in_processes
 from wingbeat.models import MODELS, model_of
 from wingbeat.orbits.solve import Progress
-from wingbeat.workers.process_map import in_processes
 
 AIRSPEEDS = "bird_airspeed_alerstam2007.csv"
 FREQUENCIES, LEVEL_FLIGHT, AMPLITUDES = (

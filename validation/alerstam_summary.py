@@ -10,9 +10,9 @@ from alerstam_flights import ANIMAL, FREQUENCY, POWER, Bird, Point, curves
 from numpy.typing import NDArray
 
 from wingbeat.aero import FeatheredFlapping, SuFan
+from wingbeat.animal.species import scaling
+from wingbeat.animal.vehicle import Air
 from wingbeat.models import MODELS
-from wingbeat.species import scaling
-from wingbeat.vehicle import Air
 
 AIR = Air()
 # The Reynolds numbers at which the coefficients of each model were measured.

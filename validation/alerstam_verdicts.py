@@ -9,8 +9,8 @@ import numpy as np
 from alerstam_flights import FREQUENCY, HELD, POWER, Bird, Point
 from alerstam_summary import AIR, Row, column, compare, exponent, loading_of, of_model
 
+from wingbeat.animal.species import scaling
 from wingbeat.models import MODELS
-from wingbeat.species import scaling
 
 
 class Verdict(NamedTuple):

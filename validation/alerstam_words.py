@@ -12,8 +12,8 @@ from alerstam_summary import AIR, FITTED, Row, column, compare, exponent, loadin
 from alerstam_verdicts import at_frequency_bound
 from numpy.typing import NDArray
 
+from wingbeat.animal.species import scaling
 from wingbeat.models import MODELS
-from wingbeat.species import scaling
 
 HEAD = """# {count} birds against radar measurements
 

@@ -9,8 +9,7 @@ from animal_wings_data import Glides, HalfWing, reduced
 from animal_wings_fit import ASPECT_RATIO, HalfWingFit, Terms, curves
 from measured_data import Array
 
-from wingbeat.aero import CoefficientModel
-from wingbeat.style import (
+from wingbeat._base.style import (
     BLUE,
     GREEN,
     ORANGE,
@@ -22,6 +21,7 @@ from wingbeat.style import (
     letter_panels,
     new_figure,
 )
+from wingbeat.aero import CoefficientModel
 
 LOOKS: dict[str, dict[str, Any]] = {
     "feathered": {"color": BLUE, "linewidth": 1.6},

@@ -16,9 +16,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Arc, Ellipse
 
 import wingbeat as wb
-from wingbeat.kinematics import flap_angle, pitch_angle, recovery, stroke_phase
-from wingbeat.plots import save_figure
-from wingbeat.style import (
+from wingbeat._base.style import (
     BLUE,
     FIRST,
     GREEN,
@@ -33,6 +31,8 @@ from wingbeat.style import (
     new_figure,
     shade_downstrokes,
 )
+from wingbeat.animal.kinematics import flap_angle, pitch_angle, recovery, stroke_phase
+from wingbeat.plots import save_figure
 
 FIGURE = Path(__file__).resolve().parents[1] / "docs" / "theory" / "frames.png"
 PITCH, PLANE, FLAP, FOLD, THETA, ALPHA = (math.radians(angle) for angle in (18, 75, 35, 30, 20, 32))

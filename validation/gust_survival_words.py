@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 from page_script import filled, markdown_table
 
-from wingbeat.plots import save_figure
-from wingbeat.style import (
+from wingbeat._base.style import (
     FIRST,
     PAGE,
     PURPLE,
@@ -21,6 +20,7 @@ from wingbeat.style import (
     letter_panels,
     new_figure,
 )
+from wingbeat.plots import save_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from measured_data import Polar
 from measured_summary import Row
 
-from wingbeat.style import (
+from wingbeat._base.style import (
     FIRST,
     GREEN,
     PAGE,

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from measured_data import Array, Polar
 
+from wingbeat._base.errors import InvalidInputError
 from wingbeat.aero import FormulaCoefficients
-from wingbeat.errors import InvalidInputError
 from wingbeat.experiment import FORMS, CoefficientTable, CurveFit, CurveForm, fit_curve, fit_wing
 
 # A line is put through the lift between none and this share of the largest: below stall for every wing here.

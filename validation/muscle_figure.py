@@ -11,8 +11,8 @@ import math
 from pathlib import Path
 
 import wingbeat as wb
+from wingbeat._base.style import FIRST, PAGE, SECOND, THIRD, drawing, dress, legend_below, letter_panels, new_figure
 from wingbeat.plots import save_figure
-from wingbeat.style import FIRST, PAGE, SECOND, THIRD, drawing, dress, legend_below, letter_panels, new_figure
 
 DOCS = Path(__file__).parents[1] / "docs" / "guide"
 SPEEDS = (10.0, 12.0, 16.0)

@@ -10,8 +10,8 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from wingbeat.errors import WingbeatError
-from wingbeat.files import write_atomically
+from wingbeat._base.errors import WingbeatError
+from wingbeat._base.files import write_atomically
 from wingbeat.plots import save_figure
 
 ROOT = Path(__file__).resolve().parents[1]

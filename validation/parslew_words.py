@@ -9,9 +9,9 @@ from typing import NamedTuple
 import pandas as pd
 from page_script import filled
 
+from wingbeat._base.style import FIRST, GREY, PAGE, SECOND, drawing, dress, legend_below, letter_panels, new_figure
 from wingbeat.plots import save_figure
-from wingbeat.style import FIRST, GREY, PAGE, SECOND, drawing, dress, legend_below, letter_panels, new_figure
-from wingbeat.whole_flights import read_measured_flights
+from wingbeat_evidence.whole_flights import read_measured_flights
 
 # What the words of the abstracts are taken to mean.
 NEAR_VERTICAL = 20.0  # deg

@@ -20,9 +20,9 @@ import pandas as pd
 from prediction_error_flights import ANIMALS, flown_sets, ranges
 from prediction_error_words import SLOW, page
 
-from wingbeat.files import write_atomically
-from wingbeat.whole_flights import Measurement, read_measured_flights
-from wingbeat.whole_flights.comparison import AGREES
+from wingbeat._base.files import write_atomically
+from wingbeat_evidence.whole_flights import Measurement, read_measured_flights
+from wingbeat_evidence.whole_flights.comparison import AGREES
 
 ROOT = Path(__file__).parents[1]
 TABLE, PAGE = ROOT / "data" / "prediction_error.csv", ROOT / "docs" / "evidence" / "prediction_error.md"

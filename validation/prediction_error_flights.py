@@ -11,12 +11,12 @@ import numpy as np
 import pandas as pd
 
 import wingbeat as wb
+from wingbeat._base.files import write_atomically
+from wingbeat._workers.process_map import in_processes
 from wingbeat.cli.progress import progress_bar
-from wingbeat.files import write_atomically
 from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.solve import search_near
-from wingbeat.whole_flights import read_measured_flights
-from wingbeat.workers.process_map import in_processes
+from wingbeat_evidence.whole_flights import read_measured_flights
 
 ANIMALS = ("pigeon", "cockatiel")
 # Columns of the table: those of the nomenclature that are measured.

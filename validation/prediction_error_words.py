@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING
 import pandas as pd
 from page_script import filled, markdown_table
 
-from wingbeat.nomenclature import label_of
+from wingbeat._base.nomenclature import label_of
+from wingbeat._base.style import BLUE, FONT, GOOD, GREY, PAGE, drawing, dress, new_figure
 from wingbeat.plots import save_figure
-from wingbeat.style import BLUE, FONT, GOOD, GREY, PAGE, drawing, dress, new_figure
-from wingbeat.whole_flights.comparison import AGREES
-from wingbeat.whole_flights.page import IN_SHORT
+from wingbeat_evidence.whole_flights.comparison import AGREES
+from wingbeat_evidence.whole_flights.page import IN_SHORT
 
 if TYPE_CHECKING:
     from prediction_error import Error

@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.actuators.motor import motor_state
-from wingbeat.actuators.springs import actuated
+from wingbeat.animal.actuators.motor import motor_state
+from wingbeat.animal.actuators.springs import actuated
 from wingbeat.mechanics.flight_loads import carried_loads
 from wingbeat.mechanics.flight_model import State
 

@@ -15,12 +15,13 @@ import numpy as np
 from second_opinion_words import page
 
 import wingbeat as wb
-from wingbeat.errors import WingbeatError
-from wingbeat.files import write_atomically
-from wingbeat.plots import save_figure, second_opinion_page
-from wingbeat.second_opinion import LatticeOptions, compare_with_lattice
-from wingbeat.second_opinion.comparison import lattice_loads
-from wingbeat.second_opinion.motion import Motion
+from wingbeat._base.errors import WingbeatError
+from wingbeat._base.files import write_atomically
+from wingbeat.plots import save_figure
+from wingbeat_evidence.second_opinion import LatticeOptions, compare_with_lattice
+from wingbeat_evidence.second_opinion.comparison import lattice_loads
+from wingbeat_evidence.second_opinion.figure import second_opinion_page
+from wingbeat_evidence.second_opinion.motion import Motion
 
 ROOT = Path(__file__).resolve().parents[1]
 # Animal, speed [m/s], largest flap amplitude [deg] where it is not that of the species file.

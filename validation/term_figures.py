@@ -14,12 +14,7 @@ from typing import Any
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.aero.unsteady import added_inertia, added_mass, damping_couple, rotation_force
-from wingbeat.measured_motion.strip_case import StripCase
-from wingbeat.measured_motion.strip_motion import strip_motion
-from wingbeat.mechanics.wing_points import CORNERS
-from wingbeat.plots import save_figure
-from wingbeat.style import (
+from wingbeat._base.style import (
     FIRST,
     PAGE,
     SECOND,
@@ -31,6 +26,11 @@ from wingbeat.style import (
     new_figure,
     shade_downstrokes,
 )
+from wingbeat.aero.unsteady import added_inertia, added_mass, damping_couple, rotation_force
+from wingbeat.mechanics.wing_points import CORNERS
+from wingbeat.plots import save_figure
+from wingbeat_evidence.measured_motion.strip_case import StripCase
+from wingbeat_evidence.measured_motion.strip_motion import strip_motion
 
 DOCS = Path(__file__).parents[1] / "docs" / "guide"
 SPEED = 8.0

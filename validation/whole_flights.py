@@ -14,10 +14,11 @@ import sys
 import time
 from pathlib import Path
 
-from wingbeat.files import make_folder, write_atomically
-from wingbeat.plots import flights_page, save_figure
-from wingbeat.whole_flights import Prediction, measured_animals, predict_flights, read_measured_flights
-from wingbeat.whole_flights.page import overview_text
+from wingbeat._base.files import make_folder, write_atomically
+from wingbeat.plots import save_figure
+from wingbeat_evidence.whole_flights import Prediction, measured_animals, predict_flights, read_measured_flights
+from wingbeat_evidence.whole_flights.figure import flights_page
+from wingbeat_evidence.whole_flights.page import overview_text
 
 ROOT = Path(__file__).parents[1]
 FLOWN, DOCS = ROOT / "data" / "whole_flights", ROOT / "docs" / "evidence"

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from wingbeat._base.style import BLUE, GREEN, PAGE, PURPLE, VERMILION, drawing, letter_panels, new_figure
 from wingbeat.plots import save_figure
-from wingbeat.style import BLUE, GREEN, PAGE, PURPLE, VERMILION, drawing, letter_panels, new_figure
 
 KINDS = {
     "warm": (BLUE, "o", "warm, one case each"),

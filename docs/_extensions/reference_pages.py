@@ -13,13 +13,14 @@ from typing import TYPE_CHECKING, Any
 from pydantic import BaseModel
 
 import wingbeat as wb
+import wingbeat_evidence as evidence
+from wingbeat._base.files import write_atomically
+from wingbeat._base.nomenclature import NOMENCLATURE, find, for_people, plain
+from wingbeat.animal.species_schema.keys import COVERS, FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE, Key
 from wingbeat.cli.app import build_app
-from wingbeat.files import write_atomically
-from wingbeat.measured_motion.reading import KNOWN_KEYS, REQUIRED_KEYS
-from wingbeat.measured_motion.strip_checks import SCALAR_LIMITS
-from wingbeat.nomenclature import NOMENCLATURE, find, for_people, plain
-from wingbeat.species_schema.keys import COVERS, FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE, Key
 from wingbeat.studies.form import Sample, StudyForm, Vary
+from wingbeat_evidence.measured_motion.reading import KNOWN_KEYS, REQUIRED_KEYS
+from wingbeat_evidence.measured_motion.strip_checks import SCALAR_LIMITS
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
@@ -155,7 +156,7 @@ def _meanings(of: type) -> dict[str, str]:
 
 def case_file() -> str:
     """Return every key of a case of measured strips."""
-    meaning = _meanings(wb.StripCase) | {
+    meaning = _meanings(evidence.StripCase) | {
         "strips": "name of the CSV file of strips, beside the case",
         "forces": "name of the CSV file of forces, beside the case",
         "from": "first time at which forces are compared [s]",

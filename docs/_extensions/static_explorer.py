@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import wingbeat as wb
-from wingbeat.explorer import solve_lattice, write_explorer
-from wingbeat.files import write_atomically
+from wingbeat._base.files import write_atomically
+from wingbeat_explorer import solve_lattice, write_explorer
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx

@@ -12,7 +12,7 @@ second. Which wings need the least power at 5 m/s?
 import matplotlib.pyplot as plt
 
 import wingbeat as wb
-from wingbeat.style import BLUE, VERMILION
+from wingbeat._base.style import BLUE, VERMILION
 
 robot = wb.robot(mass=0.026, wing_span=0.62, wing_area=0.055)
 wing = robot.vehicle.wing

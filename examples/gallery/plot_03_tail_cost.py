@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.style import BLUE, VERMILION
+from wingbeat._base.style import BLUE, VERMILION
 
 pigeon = wb.load_species("pigeon").with_tail()
 lawful = pigeon.vehicle.tail.area

@@ -14,7 +14,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.style import BLUE, GREEN, VERMILION
+from wingbeat._base.style import BLUE, GREEN, VERMILION
 
 speeds = [6.0, 9.0, 12.0, 15.0, 18.0]
 models = {"Su-Fan": "su-fan", "Dickinson": "dickinson"}

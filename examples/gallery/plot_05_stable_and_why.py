@@ -11,7 +11,7 @@ whether it does? They are the numbers to measure best, and the numbers that a de
 import matplotlib.pyplot as plt
 
 import wingbeat as wb
-from wingbeat.style import BLUE, VERMILION
+from wingbeat._base.style import BLUE, VERMILION
 
 orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
 assert orbit.status is wb.Status.CONVERGED

@@ -12,7 +12,7 @@ that is computed at one top of the stroke may act only one beat later. Which gus
 import matplotlib.pyplot as plt
 
 import wingbeat as wb
-from wingbeat.style import BLUE, GREEN, VERMILION
+from wingbeat._base.style import BLUE, GREEN, VERMILION
 
 orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
 assert orbit.status is wb.Status.CONVERGED

@@ -16,7 +16,7 @@ from statistics import median
 import matplotlib.pyplot as plt
 
 import wingbeat as wb
-from wingbeat.style import BLUE, GREEN, VERMILION
+from wingbeat._base.style import BLUE, GREEN, VERMILION
 
 swift = wb.load_species("common-swift").with_alternative("body-drag")
 problem = wb.OrbitProblem(swift, speed=8.0, minimise="mean_positive_power")

@@ -12,7 +12,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.style import BLUE, GREY
+from wingbeat._base.style import BLUE, GREY
 
 pigeon = wb.load_species("pigeon")
 loads = np.array([0.0, 0.02, 0.04, 0.06, 0.08])

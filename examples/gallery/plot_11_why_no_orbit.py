@@ -12,7 +12,7 @@ answer, too: wingbeat says which balance fails, by how much, and what would have
 import matplotlib.pyplot as plt
 
 import wingbeat as wb
-from wingbeat.style import BLUE, VERMILION
+from wingbeat._base.style import BLUE, VERMILION
 
 pigeon = wb.load_species("pigeon")
 slow = wb.solve_orbit(wb.OrbitProblem(pigeon, speed=3.0, bounds={"frequency": (1.0, 10.0)}), starts=1)

@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 
 import wingbeat as wb
-from wingbeat.style import BLUE, VERMILION
+from wingbeat._base.style import BLUE, VERMILION
 
 robot = wb.load_species("pigeon").with_values({"wingbeat.span_retraction": 0.0})
 orbit = wb.solve_orbit(wb.OrbitProblem(robot, speed=12.0), starts=2)

@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.style import BLUE, VERMILION
+from wingbeat._base.style import BLUE, VERMILION
 
 jackdaw = wb.load_species("jackdaw").with_alternative("body-drag")
 polar = wb.glide_polar(jackdaw, "feathered", angles_of_attack=np.radians(np.arange(1.0, 13.0)))

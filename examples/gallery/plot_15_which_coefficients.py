@@ -12,11 +12,11 @@ measured forces can tell which of them suits a vehicle. We take a flapping robot
 # forces recommends one model and one choice of unsteady terms.
 import matplotlib.pyplot as plt
 
-import wingbeat as wb
-from wingbeat.style import BLUE, VERMILION
+import wingbeat_evidence as evidence
+from wingbeat._base.style import BLUE, VERMILION
 
-case = next(path for path in wb.shipped_cases() if "flapper" in str(path))
-found = wb.validate(case)
+case = next(path for path in evidence.shipped_cases() if "flapper" in str(path))
+found = evidence.validate(case)
 print(f"recommended: {found.recommended.aero.coefficients.name}. {found.reason}")
 
 # %%

@@ -15,6 +15,7 @@ import numpy as np
 from wingbeat._jax.config import jax, jnp
 from wingbeat._version import __version__
 from wingbeat.aero import Dickinson, SuFan
+from wingbeat.animal.species import load_species
 from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.orbits.flight.shooting import flier
 from wingbeat.orbits.many.batch import find_orbits
@@ -22,7 +23,6 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, find_orbit
 from wingbeat.orbits.starts import start_point
-from wingbeat.species import load_species
 
 ANIMALS = ("pigeon", "bat")
 LANES = 1024

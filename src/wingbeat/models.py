@@ -19,14 +19,14 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.style import in_words
 from wingbeat.aero import BladeElement, Feathered
-from wingbeat.errors import FaultList
+from wingbeat.animal.species import Species
+from wingbeat.animal.species.scaling import BODY_DRAG_AREA
 from wingbeat.orbits.problem.origin import Choice, Origin
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import named_objective
-from wingbeat.species import Species
-from wingbeat.species.scaling import BODY_DRAG_AREA
-from wingbeat.style import in_words
 
 MODELS = ("paper", "animal")
 

@@ -83,5 +83,5 @@ def test_a_platform_that_is_missing_is_named():
         "wb.aero.SuFan().lift(0.1)"
     )
     told = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False).stderr
-    assert "wingbeat.errors.InvalidInputError: jax_platforms = 'tpu': cannot be started: " in told
+    assert "wingbeat._base.errors.InvalidInputError: jax_platforms = 'tpu': cannot be started: " in told
     assert told.strip().endswith("set JAX_PLATFORMS=cpu")

@@ -9,6 +9,7 @@ import pytest
 from scipy.optimize import brentq, minimize_scalar
 
 from tests.helpers.coefficients import check_derivative_in_numbers, coefficients
+from wingbeat._base.errors import InvalidInputError
 from wingbeat._jax.config import jax, jnp
 from wingbeat.aero import (
     LIBRARY,
@@ -24,7 +25,6 @@ from wingbeat.aero import (
     thin_aerofoil_lift,
     thin_aerofoil_moment,
 )
-from wingbeat.errors import InvalidInputError
 
 # model.md section 7: angle [deg], Su-Fan C_L, C_D, x_cp, C_M about mid-chord, Dickinson C_L, C_D.
 TABLE = [

@@ -8,10 +8,10 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.programs import compiled
+from wingbeat._base.errors import InvalidInputError
 from wingbeat._jax.config import jax
 from wingbeat.aero.blade_element import BladeElement, strip_forces
 from wingbeat.aero.span_parts import UpstrokeKernel, count_arm_strips
-from wingbeat.errors import InvalidInputError
 from wingbeat.results.provenance import inputs_of, problem_from
 
 # Speeds along and across the chord [m/s]: six strips at five times, air from below and from above.

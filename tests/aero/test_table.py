@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from tests.helpers.coefficients import value_slope_curvature
+from wingbeat._base.errors import FileError, InvalidInputError
 from wingbeat.aero import SuFan, TableCoefficients, load_coefficients, load_table
-from wingbeat.errors import FileError, InvalidInputError
 
 RIGHT = math.pi / 2
 

@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
 from tests.helpers.coefficients import TOGETHER, value_slope_curvature
+from wingbeat._base.errors import InvalidInputError
 from wingbeat.aero import TableCoefficients, load_table
 from wingbeat.cli import main
-from wingbeat.errors import InvalidInputError
 
 CASES = Path(__file__).parents[1] / "cases" / "polars"
 GRID = np.linspace(-180.0, 180.0, TOGETHER)

@@ -7,20 +7,23 @@ from pathlib import Path
 
 import pytest
 
+from wingbeat._base.errors import FileError
 from wingbeat.cli import main
 from wingbeat.cli.answer import Answer
 from wingbeat.cli.streams import StdoutError
-from wingbeat.errors import FileError
 
 TABLE = "alpha_deg,C_L,C_D\n" + "".join(
     f"{a},{0.0004 * a * (90 - a):.3f},{0.1 + 0.01 * a:.3f}\n" for a in range(0, 90, 6)
 )
 # Command lines that write two files, the function that writes the first one, and what they print.
 LINES = {
-    "glide pigeon --alpha 4:6:1 -o first.csv --plot second.png": ("results.glide.GlidePolar.save", "slowest sink"),
-    "polar su-fan --csv -o first.png": ("cli.polar.save_figure", "alpha_deg,c_l"),
-    "fit table.csv -o first.toml --plot second.png": ("experiment.wing_fit.WingFit.save", "su-fan"),
-    "simulate pigeon --beats 1 --samples 8 -o first.nc": ("results.flight.Flight.save", "mean u [m/s]"),
+    "glide pigeon --alpha 4:6:1 -o first.csv --plot second.png": (
+        "wingbeat.results.glide.GlidePolar.save",
+        "slowest sink",
+    ),
+    "polar su-fan --csv -o first.png": ("wingbeat.cli.polar.save_figure", "alpha_deg,c_l"),
+    "fit table.csv -o first.toml --plot second.png": ("wingbeat.experiment.wing_fit.WingFit.save", "su-fan"),
+    "simulate pigeon --beats 1 --samples 8 -o first.nc": ("wingbeat.results.flight.Flight.save", "mean u [m/s]"),
 }
 
 
@@ -56,7 +59,7 @@ def test_a_file_that_cannot_be_written_costs_neither_the_answer_nor_other_files(
         assert printed in capsys.readouterr().out  # before the file is written
         raise error
 
-    monkeypatch.setattr(f"wingbeat.{place}", fail)
+    monkeypatch.setattr(place, fail)
     assert main(line.split()) == 2
     assert [path.name for path in folder.glob("second*")] == ["second.png"] * ("second" in line)
     assert re.search(told, capsys.readouterr().err)

@@ -7,8 +7,8 @@ import re
 import pytest
 
 import wingbeat as wb
-import wingbeat.errors
-from tests.second_opinion.test_comparison import standin as standin
+import wingbeat._base.errors
+from tests.evidence.second_opinion.test_comparison import standin as standin
 from wingbeat.cli import main
 
 SMALL = ["--chordwise", "2", "--spanwise", "2", "--steps", "16"]

@@ -6,8 +6,8 @@ import pytest
 
 from tests.helpers.places import ROOT
 from wingbeat.cli import main
-from wingbeat.paper import treatments
-from wingbeat.paper.claim import NOT_ASKED
+from wingbeat_evidence.paper import treatments
+from wingbeat_evidence.paper.claim import NOT_ASKED
 
 EARLIER = ["--before", str(ROOT / "data" / "claims_before.json")]
 

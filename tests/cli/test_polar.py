@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
+from wingbeat._base.errors import FileError, InvalidInputError
 from wingbeat.aero import LIBRARY, SuFan
 from wingbeat.cli import main
 from wingbeat.cli.polar import polar
 from wingbeat.cli.ranges import parse_range
-from wingbeat.errors import FileError, InvalidInputError
 
 COLUMNS = ["alpha_deg", "c_l", "c_d", "c_n", "c_m", "x_cp"]
 

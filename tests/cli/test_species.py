@@ -11,11 +11,11 @@ from typing import Any
 import pytest
 from cyclopts import App
 
+from wingbeat._base.errors import FileError
 from wingbeat._version import __version__
+from wingbeat.animal.species import load_species, species_names, template
 from wingbeat.cli import main
 from wingbeat.cli.app import COMMANDS, build_app
-from wingbeat.errors import FileError
-from wingbeat.species import load_species, species_names, template
 
 HEAVY = ("jax", "numpy", "scipy", "matplotlib", "xarray", "pandas", "pydantic", "diffrax")
 

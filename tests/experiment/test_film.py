@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from wingbeat.animal.kinematics import flap_angle, parameter, pitch_angle, span_ratio
 from wingbeat.cli.app import main
 from wingbeat.cli.filmed import plus_minus
 from wingbeat.experiment import Film, fit_film, read_film, synthetic_film
-from wingbeat.kinematics import flap_angle, parameter, pitch_angle, span_ratio
 from wingbeat.orbits.problem.filmed import trim_of
 from wingbeat.plots import film_page
 

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from wingbeat.animal.kinematics import chord_ratio, pitch_angle, span_ratio, sweep_angle, tip_twist
 from wingbeat.cli.filmed import film_lines
 from wingbeat.experiment import Film, fit_film, read_film, synthetic_film
 from wingbeat.experiment.film import FILMED
-from wingbeat.kinematics import chord_ratio, pitch_angle, span_ratio, sweep_angle, tip_twist
 from wingbeat.orbits.problem.filmed import filmed_species, trim_of
 from wingbeat.plots import film_page
 

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from tests.helpers.model_files import assert_refused
+from wingbeat._base.errors import FileError, InvalidInputError
 from wingbeat.aero import (
     LIBRARY,
     CentreTerms,
@@ -15,7 +16,6 @@ from wingbeat.aero import (
     TableCoefficients,
     load_coefficients,
 )
-from wingbeat.errors import FileError, InvalidInputError
 from wingbeat.experiment import (
     FORMS,
     CoefficientTable,

@@ -12,8 +12,8 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.browsers import shown_files
-from wingbeat.explorer import face_of, write_explorer
-from wingbeat.explorer.lattice import lattice_of
+from wingbeat_explorer import face_of, write_explorer
+from wingbeat_explorer.lattice import lattice_of
 
 SPEEDS = {"pigeon": (8.0, 10.0, 12.0, 14.0), "bat": (6.0, 8.0)}
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from tests.helpers.browsers import AXE, shown_files
-from wingbeat.explorer import write_explorer
-from wingbeat.explorer.thinning import unpacked
+from wingbeat_explorer import write_explorer
+from wingbeat_explorer.thinning import unpacked
 
 FACE = "document.querySelector('.wbx').face"
 ACROSS = """speed => {

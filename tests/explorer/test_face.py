@@ -7,10 +7,10 @@ from types import SimpleNamespace
 import pytest
 
 import wingbeat as wb
-from wingbeat.errors import FileError
-from wingbeat.explorer import face
-from wingbeat.explorer.face import is_plausible, lights_of, sentence_of
-from wingbeat.explorer.gauges import gauges_of
+from wingbeat._base.errors import FileError
+from wingbeat_explorer import face
+from wingbeat_explorer.face import is_plausible, lights_of, sentence_of
+from wingbeat_explorer.gauges import gauges_of
 
 
 @pytest.fixture

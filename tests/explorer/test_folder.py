@@ -7,14 +7,15 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+import wingbeat_evidence as evidence
 from tests.explorer.conftest import read_script
+from wingbeat._base.errors import InvalidInputError
 from wingbeat.cli.app import main
-from wingbeat.errors import InvalidInputError
-from wingbeat.explorer import default_speeds, measured_points, solve_lattice, write_explorer
-from wingbeat.explorer.lattice import SPEEDS
-from wingbeat.explorer.page import check_names
-from wingbeat.explorer.pushed import pushes_of
-from wingbeat.explorer.thinning import in_16_bits, thinned, unpacked
+from wingbeat_explorer import default_speeds, measured_points, solve_lattice, write_explorer
+from wingbeat_explorer.lattice import SPEEDS
+from wingbeat_explorer.page import check_names
+from wingbeat_explorer.pushed import pushes_of
+from wingbeat_explorer.thinning import in_16_bits, thinned, unpacked
 
 
 def test_the_folder_holds_all_it_needs_and_names_no_other_host(folder):
@@ -98,7 +99,7 @@ def test_packing_keeps_steps_across_the_whole_range():
 def test_measured_points_are_those_of_the_package():
     pigeon = wb.load_species("pigeon")
     points = measured_points(pigeon)
-    measured = wb.read_measured_flights("pigeon").measurements
+    measured = evidence.read_measured_flights("pigeon").measurements
     power = next(one for one in measured if one.quantity == "positive_power_per_mass")
     shown = next(one for one in points if "power" in one)
     assert shown["power"] == [pigeon.vehicle.mass * value for value in power.values]

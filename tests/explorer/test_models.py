@@ -3,10 +3,10 @@
 import pytest
 
 import wingbeat as wb
-from wingbeat.app.controls import choices_of
-from wingbeat.app.scenario import Scenario, problem_of
-from wingbeat.explorer import LATTICE_MODELS, solve_lattice
-from wingbeat.explorer.models import EXPLORER_MODELS, name_of
+from wingbeat_explorer import LATTICE_MODELS, solve_lattice
+from wingbeat_explorer.app.controls import choices_of
+from wingbeat_explorer.app.scenario import Scenario, problem_of
+from wingbeat_explorer.models import EXPLORER_MODELS, name_of
 
 
 def test_every_model_of_the_package_is_offered_under_its_own_name():
@@ -18,8 +18,8 @@ def test_every_model_of_the_package_is_offered_under_its_own_name():
 @pytest.mark.parametrize("name", LATTICE_MODELS)
 def test_folder_and_page_mean_the_same_problem_by_a_name(name, monkeypatch):
     asked = []
-    monkeypatch.setattr("wingbeat.explorer.lattice.solve_orbits", lambda problems, *_, **__: asked.extend(problems))
-    monkeypatch.setattr("wingbeat.explorer.lattice.lattice_of", lambda *_: {})
+    monkeypatch.setattr("wingbeat_explorer.lattice.solve_orbits", lambda problems, *_, **__: asked.extend(problems))
+    monkeypatch.setattr("wingbeat_explorer.lattice.lattice_of", lambda *_: {})
     bat = wb.load_species("bat")
     solve_lattice(bat, name, [8.0])
     _, model, coefficients, within = EXPLORER_MODELS[name]

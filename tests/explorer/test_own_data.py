@@ -8,7 +8,7 @@ import pytest
 import wingbeat as wb
 from tests.helpers.browsers import AXE, DROP
 from tests.helpers.places import ROOT
-from wingbeat.explorer import measured_points
+from wingbeat_explorer import measured_points
 
 FACE = "document.querySelector('.wbx').face"
 EXAMPLE = ROOT / "examples" / "pigeon_flights.csv"

@@ -4,7 +4,7 @@ import numpy as np
 import xarray as xr
 
 import wingbeat as wb
-from wingbeat.second_opinion.motion import Motion
+from wingbeat_evidence.second_opinion.motion import Motion
 
 PIGEON = wb.load_species("pigeon").vehicle
 

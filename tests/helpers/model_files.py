@@ -2,8 +2,8 @@
 
 import pytest
 
+from wingbeat._base.errors import InvalidInputError
 from wingbeat.aero import load_coefficients
-from wingbeat.errors import InvalidInputError
 
 
 def assert_refused(model, change, told):

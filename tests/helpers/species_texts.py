@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from wingbeat.errors import InvalidInputError
+from wingbeat._base.errors import InvalidInputError
 
 MINIMAL = """
 [vehicle]

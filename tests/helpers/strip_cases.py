@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
-from wingbeat.measured_motion import StripCase
+from wingbeat_evidence.measured_motion import StripCase
 
 PHASES = {"frequency": 2.0, "speed": 10.0}
 

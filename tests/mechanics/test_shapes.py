@@ -47,7 +47,7 @@ OTHER_STRIPS = {"air_forces", "padded"}
 
 
 def modules():
-    names = ["wingbeat.kinematics"]
+    names = ["wingbeat.animal.kinematics"]
     for package in (aero, mechanics, flight):
         names += [f"{package.__name__}.{info.name}" for info in pkgutil.iter_modules(package.__path__)]
     return [importlib.import_module(name) for name in names]
@@ -162,7 +162,7 @@ def flown(request):
 def traced(name, *args, **static):
     """Trace a kernel, which calls all those below it; nothing is compiled."""
     module, _, function = name.rpartition(".")
-    kernel = getattr(importlib.import_module(f"wingbeat.{module}"), function)
+    kernel = getattr(importlib.import_module(module), function)
     return jax.eval_shape(functools.partial(kernel, **static), *args)
 
 
@@ -170,12 +170,12 @@ def test_every_kernel_gets_and_gives_the_shapes_it_says(flown, calls):
     model, wingbeat = flown
     phases, q = np.linspace(0.0, 1.0, 5), np.zeros((5, 5))
     state = wb.State(*(np.zeros(5) for _ in wb.State._fields))
-    traced("mechanics.flight_loads.flight_loads", model, wingbeat, state, phases)
-    traced("mechanics.wing_points.strip_corners", model, wingbeat, state, phases)
-    traced("mechanics.flights._fly", model, wingbeat, np.zeros(6), phases, np.array(1e-10))
+    traced("wingbeat.mechanics.flight_loads.flight_loads", model, wingbeat, state, phases)
+    traced("wingbeat.mechanics.wing_points.strip_corners", model, wingbeat, state, phases)
+    traced("wingbeat.mechanics.flights._fly", model, wingbeat, np.zeros(6), phases, np.array(1e-10))
     many = np.zeros((6, 3)), np.zeros(3), np.zeros((3, 9, 2)), np.array(0.01), np.zeros(5)
-    traced("mechanics.fixed_steps.fly_beat_in_steps", model, wingbeat, *many)
-    traced("mechanics.glide._required", model, wingbeat, np.zeros(5))
+    traced("wingbeat.mechanics.fixed_steps.fly_beat_in_steps", model, wingbeat, *many)
+    traced("wingbeat.mechanics.glide._required", model, wingbeat, np.zeros(5))
     eom = importlib.import_module("wingbeat.mechanics.equations_of_motion")
     for function, rows in ((eom._terms, 0), (eom._air_forces, 0), (eom._torque, 1)):
         jax.eval_shape(lambda *a, f=function: f(model, wingbeat, *a), *q[:2], np.array(0.1), *q[:rows])
@@ -184,29 +184,31 @@ def test_every_kernel_gets_and_gives_the_shapes_it_says(flown, calls):
 
     free = ("frequency", "flap_mean")
     step = np.zeros(2), np.zeros(4), np.array(0.0), np.array(1.0)
-    traced("orbits.flight.shooting.fly_part", model, wingbeat, *step, free=free, components=1, stroke=True)
+    traced("wingbeat.orbits.flight.shooting.fly_part", model, wingbeat, *step, free=free, components=1, stroke=True)
     path, tangents = np.zeros((4, 33)), np.zeros((6, 4, 33))
     part = np.zeros(2), path, tangents, np.zeros(2), np.zeros(2)
-    traced("orbits.flight.beat._part", model, wingbeat, *part, free=free, fields=ALL_FIELDS)
-    traced("orbits.flight.beat.flown_beat", model, wingbeat, np.linspace(0, 1, 33), path.T, np.zeros(2))
-    traced("orbits.flight.floquet._state_maps", model, wingbeat, np.zeros(64), np.ones(64), np.zeros((64, 4)))
+    traced("wingbeat.orbits.flight.beat._part", model, wingbeat, *part, free=free, fields=ALL_FIELDS)
+    traced("wingbeat.orbits.flight.beat.flown_beat", model, wingbeat, np.linspace(0, 1, 33), path.T, np.zeros(2))
+    traced(
+        "wingbeat.orbits.flight.floquet._state_maps", model, wingbeat, np.zeros(64), np.ones(64), np.zeros((64, 4))
+    )
     for kernel in ("highest", "peaks"):
-        traced(f"orbits.flight.path_maxima.{kernel}", np.zeros((33, 7)))
+        traced(f"wingbeat.orbits.flight.path_maxima.{kernel}", np.zeros((33, 7)))
 
     for name in (
-        "aero.blade_element.strip_forces",
-        "kinematics.with_harmonics",
-        "kinematics.unpack",
-        "mechanics.body_dynamics.accelerations",
-        "mechanics.clearance.lateral_corner",
-        "mechanics.hinge_torques.hinge_loads",
-        "mechanics.wing_motion.wing_motion",
-        "mechanics.wing_points.point_motion",
-        "orbits.flight.beat.mean_positive",
-        "orbits.flight.shooting._chain",
-        "orbits.flight.stroke_distances.least_distances",
+        "wingbeat.aero.blade_element.strip_forces",
+        "wingbeat.animal.kinematics.with_harmonics",
+        "wingbeat.animal.kinematics.unpack",
+        "wingbeat.mechanics.body_dynamics.accelerations",
+        "wingbeat.mechanics.clearance.lateral_corner",
+        "wingbeat.mechanics.hinge_torques.hinge_loads",
+        "wingbeat.mechanics.wing_motion.wing_motion",
+        "wingbeat.mechanics.wing_points.point_motion",
+        "wingbeat.orbits.flight.beat.mean_positive",
+        "wingbeat.orbits.flight.shooting._chain",
+        "wingbeat.orbits.flight.stroke_distances.least_distances",
     ):
-        assert name == "orbits.flight.beat.mean_positive" or f"wingbeat.{name}" in calls, name
+        assert name == "wingbeat.orbits.flight.beat.mean_positive" or name in calls, name
     assert len(calls) > 60
 
 

@@ -13,9 +13,9 @@ import wingbeat as wb
 from tests.helpers.differences import differences, miss
 from tests.helpers.models import changed
 from tests.helpers.programs import compiled
+from wingbeat._base.harmonics import HARMONIC_NAMES
 from wingbeat._jax.config import jax
-from wingbeat.harmonics import HARMONIC_NAMES
-from wingbeat.kinematics import (
+from wingbeat.animal.kinematics import (
     FREE_NAMES,
     chord_ratio,
     flap_angle,
@@ -28,12 +28,12 @@ from wingbeat.kinematics import (
     unpack,
     with_parameters,
 )
+from wingbeat.animal.species_schema import template
 from wingbeat.mechanics.clearance import lateral_corners
 from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.mechanics.wing_points import strip_corners
 from wingbeat.orbits.flight.shooting import flier
 from wingbeat.results.dataset import evaluate
-from wingbeat.species_schema import template
 
 PLAIN = wb.Wingbeat(8.0, 0.15, 0.85, 0.20, 0.50, 0.3, 1.6, 0.4, 0.45)
 OFF = {

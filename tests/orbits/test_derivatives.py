@@ -11,7 +11,7 @@ from tests.helpers.differences import differences, miss
 from tests.helpers.programs import compiled
 from tests.helpers.reflight import refly_many
 from wingbeat._jax.config import jax, jnp
-from wingbeat.kinematics import unpack
+from wingbeat.animal.kinematics import unpack
 from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.orbits.flight.certify import certify
 from wingbeat.orbits.flight.floquet import floquet_multipliers

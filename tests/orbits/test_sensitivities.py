@@ -10,10 +10,10 @@ from rich.console import Console
 
 import wingbeat as wb
 from tests.helpers.hasty import make_hasty
+from wingbeat._base.errors import InvalidInputError
 from wingbeat.aero.fitted import FittedCurve, FittedModel, FittedWing
 from wingbeat.cli import main
 from wingbeat.cli.uncertainty import _plain, _print
-from wingbeat.errors import InvalidInputError
 from wingbeat.orbits.flight.beat import flown_beat
 from wingbeat.orbits.flight.certify import certify
 from wingbeat.orbits.many.uncertainty import ErrorBar, ParameterSpread, first_order

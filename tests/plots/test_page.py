@@ -13,8 +13,8 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 import wingbeat as wb
+from wingbeat._base.style import ALARM
 from wingbeat.plots import save_figure, wingbeat_page
-from wingbeat.style import ALARM
 
 TIME_PANELS = (0, 1, 2, 6, 7, 8)
 SIGNATURES = {"png": b"\x89PNG\r\n\x1a\n", "pdf": b"%PDF-", "svg": b"<?xml"}

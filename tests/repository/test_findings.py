@@ -14,22 +14,22 @@ import pytest
 from tests.helpers.phrases import WORDS, percent, short, spaced, uncounted, worded
 from tests.helpers.places import ROOT
 from wingbeat.aero import load_coefficients
-from wingbeat.paper.assumption_page import TRUSTED
-from wingbeat.paper.assumption_study import ORBITS
-from wingbeat.paper.assumptions import ASSUMPTIONS
-from wingbeat.paper.energy_claims import BATS_NEED
-from wingbeat.paper.experiment_claims import REYNOLDS_FITTED
-from wingbeat.paper.figure_cycle import STATIONS
-from wingbeat.paper.measured_bands import (
+from wingbeat.animal.species import load_species
+from wingbeat.plots.measured_bands import (
     PAPER_BAT_FREQUENCY,
     PAPER_BAT_SPEEDS,
     PAPER_PEAK_POWER,
     PAPER_PITCH_RANGE_DEG,
     PIGEON_REFERENCES,
 )
-from wingbeat.paper.pigeon_claims import AGREES
-from wingbeat.paper.treatments import SAMPLE_SPEED
-from wingbeat.species import load_species
+from wingbeat_evidence.paper.assumption_page import TRUSTED
+from wingbeat_evidence.paper.assumption_study import ORBITS
+from wingbeat_evidence.paper.assumptions import ASSUMPTIONS
+from wingbeat_evidence.paper.energy_claims import BATS_NEED
+from wingbeat_evidence.paper.experiment_claims import REYNOLDS_FITTED
+from wingbeat_evidence.paper.figure_cycle import STATIONS
+from wingbeat_evidence.paper.pigeon_claims import AGREES
+from wingbeat_evidence.paper.treatments import SAMPLE_SPEED
 
 DOCS, TABLE = ROOT / "docs" / "evidence", ROOT / "data" / "assumptions.csv"
 TRIPLE = ["twice-the-frequency", "pitch-range-su-fan", "power-exponent"]

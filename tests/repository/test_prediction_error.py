@@ -5,7 +5,7 @@ import pandas as pd
 import pytest
 
 from tests.helpers.places import ROOT
-from wingbeat.whole_flights import Measurement
+from wingbeat_evidence.whole_flights import Measurement
 
 
 @pytest.fixture

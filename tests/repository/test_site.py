@@ -8,11 +8,11 @@ import pytest
 import wingbeat as wb
 from tests.helpers.browsers import AXE, shown_files
 from tests.helpers.places import ROOT
+from wingbeat._base.nomenclature import NOMENCLATURE
+from wingbeat.animal.species_schema.keys import FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE
 from wingbeat.cli.app import build_app
-from wingbeat.measured_motion.reading import KNOWN_KEYS
-from wingbeat.nomenclature import NOMENCLATURE
-from wingbeat.species_schema.keys import FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE
 from wingbeat.studies.form import Sample, StudyForm, Vary
+from wingbeat_evidence.measured_motion.reading import KNOWN_KEYS
 
 SITE = ROOT / "site"
 # One page of each kind.

@@ -85,8 +85,8 @@ def test_docstring_of_what_computes_an_equation_names_it(label):
 
 def test_a_docstring_that_names_no_equation_is_found():
     with pytest.raises(AttributeError):
-        resolved("wingbeat.kinematics.flap_angel")
-    assert "pitch-law" not in labels_in(resolved("wingbeat.kinematics.flap_angle").__doc__)
+        resolved("wingbeat.animal.kinematics.flap_angel")
+    assert "pitch-law" not in labels_in(resolved("wingbeat.animal.kinematics.flap_angle").__doc__)
 
 
 def test_the_source_names_every_equation_and_no_other():

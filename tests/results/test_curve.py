@@ -10,15 +10,15 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.hasty import make_hasty
+from wingbeat._base.errors import FileError, InvalidInputError
+from wingbeat._base.nomenclature import find, label_of
+from wingbeat._base.reports.text import text_of
 from wingbeat.cli import main
-from wingbeat.errors import FileError, InvalidInputError
-from wingbeat.nomenclature import find, label_of
 from wingbeat.orbits.many.branches import Branches, BranchLink, carry, trace
 from wingbeat.orbits.many.transitions import families, marks_of
 from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.solve import find_optima
 from wingbeat.orbits.status import Status
-from wingbeat.reports.text import text_of
 from wingbeat.results.curve_report import curve_report
 
 SPEEDS = [5.0, 6.0, 7.0]

@@ -11,8 +11,8 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
+from wingbeat._base.errors import FileError
 from wingbeat.cli import main
-from wingbeat.errors import FileError
 from wingbeat.results import declared
 from wingbeat.results.netcdf import digest, netcdf_bytes
 from wingbeat.results.storage import inputs_hash, load_dataset, save_dataset
@@ -21,7 +21,7 @@ CHANGED, SEED = 150, 54
 MEASURED = """
 import sys, time
 from pathlib import Path
-from wingbeat.errors import FileError
+from wingbeat._base.errors import FileError
 from wingbeat.results.storage import load_dataset
 begun = time.perf_counter()
 try:

@@ -4,8 +4,8 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.notebooks import check_figure, check_table
+from wingbeat._base.nomenclature import NOMENCLATURE
 from wingbeat.cli import main
-from wingbeat.nomenclature import NOMENCLATURE
 
 
 @pytest.fixture(scope="module")

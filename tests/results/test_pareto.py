@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from wingbeat._base.errors import InvalidInputError
 from wingbeat.cli import main
-from wingbeat.errors import InvalidInputError
 from wingbeat.plots import pareto_page
 from wingbeat.results.pareto import ParetoFront
 

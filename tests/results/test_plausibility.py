@@ -11,12 +11,12 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
+from wingbeat._base.errors import InvalidInputError
+from wingbeat.animal.species import species_text, template
 from wingbeat.cli.app import main
-from wingbeat.errors import InvalidInputError
 from wingbeat.results.orbit_report import orbit_report
 from wingbeat.results.plausibility import statements
 from wingbeat.results.storage import save_dataset
-from wingbeat.species import species_text, template
 from wingbeat.studies.recipe import recipe_from
 
 # Those of an animal without muscle and tail, as the model `paper` has it.

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from wingbeat.kinematics import (
+from wingbeat.animal.kinematics import (
     flap_angle,
     parameter,
     pitch_angle,

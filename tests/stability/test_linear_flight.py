@@ -11,7 +11,7 @@ import wingbeat as wb
 from tests.helpers.programs import compiled
 from tests.helpers.reflight import dop853, refly_many
 from wingbeat._jax.config import jax
-from wingbeat.kinematics import parameter, with_parameters
+from wingbeat.animal.kinematics import parameter, with_parameters
 from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.mechanics.flights import state_rates
 from wingbeat.mechanics.glide import held_still

@@ -7,8 +7,8 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.reflight import refly
+from wingbeat._base.errors import InvalidInputError
 from wingbeat.cli import main
-from wingbeat.errors import InvalidInputError
 from wingbeat.orbits.problem.problem import PITCH_STATE
 from wingbeat.plots import manoeuvre_page
 from wingbeat.stability.beat_map import BeatMap

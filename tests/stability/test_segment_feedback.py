@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from wingbeat.kinematics import flap_angle, pitch_angle, with_parameters
+from wingbeat.animal.kinematics import flap_angle, pitch_angle, with_parameters
 from wingbeat.mechanics.flights import fly_through
 from wingbeat.stability.segment_feedback import _phases_of
 

@@ -5,7 +5,7 @@ import pytest
 
 import wingbeat as wb
 from tests.stability.test_inputs import BEATS, MORE, STOCK, at_top
-from wingbeat.kinematics import parameter, with_parameters
+from wingbeat.animal.kinematics import parameter, with_parameters
 from wingbeat.stability.inputs import compensation
 from wingbeat.stability.smooth_commands import changed_wingbeat, parameters_of, smoother
 

@@ -11,9 +11,9 @@ import xarray as xr
 
 import wingbeat as wb
 from tests.helpers.engines import Here
+from wingbeat._base.nomenclature import find, label_of
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.cli import main
-from wingbeat.nomenclature import find, label_of
 from wingbeat.orbits.solve import find_orbit
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.orbits.status import Status

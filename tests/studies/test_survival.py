@@ -17,10 +17,10 @@ import pytest
 import wingbeat as wb
 from tests.helpers.study_standin import BREAKS, CRASHES, HANGS, INFEASIBLE, LEAVES, RAISES
 from tests.helpers.terminals import needs_terminal, on_terminal
-from wingbeat.species import species_text
+from wingbeat._workers.affinity import usable_cores
+from wingbeat.animal.species import species_text
 from wingbeat.studies.engine import LocalProcesses
 from wingbeat.studies.lock import only_one
-from wingbeat.workers.affinity import usable_cores
 
 pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks for processes in /proc")
 CORES = usable_cores()

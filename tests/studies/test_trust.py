@@ -12,8 +12,8 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.engines import Here
+from wingbeat._base.errors import WingbeatError
 from wingbeat.cli import main
-from wingbeat.errors import WingbeatError
 from wingbeat.studies import work
 from wingbeat.studies.digests import Fingerprint, about_digest, row_digest
 from wingbeat.studies.driver import Stop

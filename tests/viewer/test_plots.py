@@ -8,7 +8,7 @@ import pytest
 from PIL import Image
 
 from tests.helpers.browsers import AXE, until
-from wingbeat.datasets import at_station
+from wingbeat._base.datasets import at_station
 
 VIEWER = "document.querySelector('.wb-viewer').viewer"
 PLOTS = f"{VIEWER}.plots"

@@ -16,8 +16,8 @@ from jax._src import compilation_cache
 from jax._src import config as state
 from jax._src.core import trace_state_clean
 
+from wingbeat._base.errors import Fault, InvalidInputError
 from wingbeat._jax.program_cache import keep_program, kept_program, program_folder
-from wingbeat.errors import Fault, InvalidInputError
 
 __all__ = ["at_default", "in_own_settings", "jax", "jnp", "own_settings", "register_record", "unchecked"]
 

@@ -25,11 +25,11 @@ from jax._src import xla_bridge
 from jax._src.core import trace_state_clean
 from jax.core import Tracer
 
+from wingbeat._base.errors import ForkError
 from wingbeat._jax.config import in_own_settings, jnp, own_settings
 from wingbeat._jax.program_cache import keep_program, kept_program
 from wingbeat._jax.repeats import without_repeats
 from wingbeat._version import __version__
-from wingbeat.errors import ForkError
 
 # Threads that trace at the same time slow one another down. If they take turns, XLA compiles one program while the
 # next is traced.

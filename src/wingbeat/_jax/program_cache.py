@@ -19,8 +19,8 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
-from wingbeat.errors import FileError, system_reason
-from wingbeat.files import write_atomically
+from wingbeat._base.errors import FileError, system_reason
+from wingbeat._base.files import write_atomically
 
 # How long a program is kept without being used [s], and how large all programs together may be [bytes]. The 25
 # programs of one orbit take 1.7 MB, those of all commands and tests with the changes of some months 98 MB in 2268

@@ -5,6 +5,7 @@
 'dickinson'
 """
 
+from wingbeat.aero import winds as winds
 from wingbeat.aero.animal_wings import (
     WING_ESTIMATES,
     Estimate,
@@ -72,6 +73,7 @@ __all__ = [
     "load_table",
     "thin_aerofoil_lift",
     "thin_aerofoil_moment",
+    "winds",
 ]
 
 

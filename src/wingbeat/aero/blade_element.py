@@ -12,6 +12,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from wingbeat._base.errors import FaultList, InvalidInputError
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import atan2
 from wingbeat._jax.elementwise_jvp import elementwise_jvp
@@ -20,7 +21,6 @@ from wingbeat.aero.inflow import INFLOWS
 from wingbeat.aero.sectional import sectional_kernel
 from wingbeat.aero.span_parts import ArmHandKernel, UpstrokeKernel, count_arm_strips
 from wingbeat.aero.unsteady import UNSTEADY, damping_couple, rotation_force
-from wingbeat.errors import FaultList, InvalidInputError
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Angles, PerStrip, PerStripBroadcast, Phases, Scalar

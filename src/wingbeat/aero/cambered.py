@@ -19,6 +19,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from wingbeat._base.errors import FaultList
 from wingbeat._jax.config import jnp, register_record
 from wingbeat._jax.exported import exported
 from wingbeat.aero.blends import Blend, jet_of
@@ -26,7 +27,6 @@ from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspe
 from wingbeat.aero.extension import check_extension
 from wingbeat.aero.formula import GRADES, check_range
 from wingbeat.aero.published import SuFan
-from wingbeat.errors import FaultList
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Angles, Scalar

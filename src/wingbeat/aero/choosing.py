@@ -10,6 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat._base.errors import Fault, FaultList, suggest
+from wingbeat._base.files import read_text
+from wingbeat._base.sheets import seems_to_be
 from wingbeat.aero.cambered import CamberedCoefficients
 from wingbeat.aero.coefficient_model import CoefficientModel, check_curve
 from wingbeat.aero.formula import FormulaCoefficients
@@ -17,9 +20,6 @@ from wingbeat.aero.function import FunctionCoefficients
 from wingbeat.aero.library import LIBRARY
 from wingbeat.aero.model_file import load_model
 from wingbeat.aero.table import load_table
-from wingbeat.errors import Fault, FaultList, suggest
-from wingbeat.files import read_text
-from wingbeat.sheets import seems_to_be
 
 
 def coefficients_of(given: Any) -> CoefficientModel:

@@ -27,11 +27,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
+from wingbeat._base.errors import FaultList
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import horner
 from wingbeat._jax.exported import exported
 from wingbeat.aero.blends import Blend, Function, Jet, Jets, even_blend, jet_of, odd_blend
-from wingbeat.errors import FaultList
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Angles, Scalar

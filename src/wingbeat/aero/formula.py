@@ -6,11 +6,11 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from wingbeat._base.errors import FaultList
 from wingbeat._jax.config import jnp, register_record
 from wingbeat._jax.elementary import sin
 from wingbeat.aero.coefficient_model import CoefficientModel, check_aspect_ratio
 from wingbeat.aero.extension import ExtendedKernel, check_extension, extend
-from wingbeat.errors import FaultList
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Angles, Scalar

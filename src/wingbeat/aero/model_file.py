@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from wingbeat._base.errors import Fault, FaultList, InvalidInputError
+from wingbeat._base.files import read_text, toml_tables
 from wingbeat.aero.cambered import CamberedCoefficients, CamberedTerms
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.aero.extension import check_extension
 from wingbeat.aero.fitted import Fitted, FittedCurve, FittedModel, FittedWing
 from wingbeat.aero.formula import CentreTerms, FormulaCoefficients, FormulaTerms
-from wingbeat.errors import Fault, FaultList, InvalidInputError
-from wingbeat.files import read_text, toml_tables
 
 KIND = "wing coefficients"
 MAX_BYTES = 1 << 16

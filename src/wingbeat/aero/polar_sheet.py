@@ -11,9 +11,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from wingbeat._base.errors import FaultList, suggest
+from wingbeat._base.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
 from wingbeat.aero.table_checks import check_possible
-from wingbeat.errors import FaultList, suggest
-from wingbeat.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
 
 QUANTITIES = ("C_L", "C_D", "C_M", "x_cp")
 REQUIRED = ("alpha_deg", "C_L", "C_D")

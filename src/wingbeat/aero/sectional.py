@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from wingbeat._base.errors import Fault, InvalidInputError
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import horner
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
-from wingbeat.errors import Fault, InvalidInputError
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Angles, Spline

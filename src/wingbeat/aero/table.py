@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.sheets import Sheet, same_name
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementary import horner
 from wingbeat.aero.blends import Jet
@@ -25,8 +27,6 @@ from wingbeat.aero.table_checks import (
     is_whole_turn,
     numbers,
 )
-from wingbeat.errors import FaultList
-from wingbeat.sheets import Sheet, same_name
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

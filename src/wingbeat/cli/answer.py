@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from wingbeat._base.errors import FileError, WingbeatError, first_line
 from wingbeat.cli.streams import StdoutError
-from wingbeat.errors import FileError, WingbeatError, first_line
 
 
 class Answer:

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 
 from cyclopts import App, CycloptsError, UnknownCommandError
 
+from wingbeat._base.errors import WingbeatError, suggest
 from wingbeat._version import __version__
 from wingbeat.cli.endings import EXIT_INTERRUPTED
 from wingbeat.cli.memory import memory_shortage
 from wingbeat.cli.streams import StdoutError, drop_stdout
-from wingbeat.errors import WingbeatError, suggest
 
 EXIT_GOOD = 0
 EXIT_BAD_INPUT = 2
@@ -59,12 +59,19 @@ _DEEPEST = 50
 # Longest line on stderr; the middle of a longer line is left out.
 _LINE = 600
 
-# Commands whose module has another name.
-_HOMES = {"app": "explorer"}
+# Commands of the two packages that know this one; this one knows them by these names alone.
+_COMPANIONS = {
+    "paper": "wingbeat_evidence",
+    "validate": "wingbeat_evidence",
+    "compare": "wingbeat_evidence",
+    "explore": "wingbeat_explorer",
+    "app": "wingbeat_explorer",
+}
 
 
-def _module(name: str) -> str:
-    return f"wingbeat.cli.{_HOMES.get(name, name)}"
+def module_of(name: str) -> str:
+    """Return the module of a command."""
+    return f"{_COMPANIONS[name]}.commands.{name}" if name in _COMPANIONS else f"wingbeat.cli.{name}"
 
 
 def build_app(chosen: str = "") -> App:
@@ -74,7 +81,7 @@ def build_app(chosen: str = "") -> App:
     """
     app = App(name="wingbeat", version=__version__, help=HELP, suppress_keyboard_interrupt=False)
     for name, text in COMMANDS.items():
-        app.command(f"{_module(name)}:{name}", name=name, **({} if name == chosen else {"help": text}))
+        app.command(f"{module_of(name)}:{name}", name=name, **({} if name == chosen else {"help": text}))
     return app
 
 
@@ -155,7 +162,7 @@ def _missing_command(error: ImportError) -> str | None:
     """Return the name of the command whose module is absent; None if an import failed for another reason."""
     cause = error.__cause__
     for name in COMMANDS:
-        if isinstance(cause, ModuleNotFoundError) and cause.name == _module(name):
+        if isinstance(cause, ModuleNotFoundError) and cause.name == module_of(name):
             return name
     return None
 

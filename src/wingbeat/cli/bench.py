@@ -20,8 +20,8 @@ def bench(
 
     No orbit starts from the result of another. The time of an orbit includes its certificate.
     """
+    from wingbeat._base.errors import FaultList
     from wingbeat.bench import measure
-    from wingbeat.errors import FaultList
 
     faults = FaultList()
     faults.whole("--batch", batch, 1, 100_000)

@@ -9,14 +9,14 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.nomenclature import NOMENCLATURE, for_people
 from wingbeat.aero import BladeElement
+from wingbeat.animal.species import Species
 from wingbeat.cli.filmed import DRAWS, film_lines, film_record, plus_minus
-from wingbeat.errors import FaultList
 from wingbeat.experiment import BodyPath, FilmedBeat, fit_body_path
 from wingbeat.mechanics.flight_model import FlightModel
-from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.results.carried import CarriedFlight, carry
-from wingbeat.species import Species
 
 # Numbers of the summary: what they are called, and what in the table of names has their unit.
 _NAMES = {

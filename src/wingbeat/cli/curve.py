@@ -8,6 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat._base.errors import FaultList
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.curve_report import drawn, print_curve
@@ -29,7 +30,6 @@ from wingbeat.cli.options import (
 )
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
-from wingbeat.errors import FaultList
 from wingbeat.plots.saving import save_figure
 from wingbeat.results.curve import REFINEMENTS, solve_curve
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from wingbeat.animal.vehicle import Air
 from wingbeat.cli.printing import print_report
 from wingbeat.cli.streams import plain_console
-from wingbeat.paper.measured_powers import published_for
+from wingbeat.plots.measured_powers import published_for
 from wingbeat.results.curve_report import curve_report
 from wingbeat.results.record import vehicle_from
-from wingbeat.vehicle import Air
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

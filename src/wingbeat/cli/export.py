@@ -8,9 +8,9 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat._base.errors import FaultList
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import Whole, check_outputs, unpacking
-from wingbeat.errors import FaultList
 from wingbeat.exports.save import SAMPLES, check_export
 from wingbeat.exports.save import export as write_gait
 from wingbeat.orbits.status import Status

@@ -10,6 +10,10 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.reports import Line
+from wingbeat._base.style import heading
+from wingbeat.aero.winds import Wind
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import Whole, check_files, check_outputs, named_numbers, unpacking
@@ -17,9 +21,7 @@ from wingbeat.cli.printing import print_report
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.streams import plain_console
 from wingbeat.cli.winds import Gust, Turbulence, WindSeed, wind_of
-from wingbeat.errors import FaultList
 from wingbeat.plots import gust_page, save_figure
-from wingbeat.reports import Line
 from wingbeat.results.orbit import load_orbit
 from wingbeat.stability.feedback import Feedback
 from wingbeat.stability.feedback import feedback as compute
@@ -28,8 +30,6 @@ from wingbeat.stability.feedback_report import STATE_UNITS, beats_of, feedback_r
 from wingbeat.stability.gust_flight import GustFlight, fly_gust
 from wingbeat.stability.gust_survey import MOST_FLIGHTS, GustSurvey, survey_gusts
 from wingbeat.stability.inputs import check_inputs
-from wingbeat.style import heading
-from wingbeat.winds import Wind
 
 FREE, HELD = "no feedback", "feedback"
 # The gust that is flown if none is given: upward at 2 m/s, for 0.3 s.

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
-from wingbeat.errors import FaultList
+from wingbeat._base.errors import FaultList
+from wingbeat._base.nomenclature import NOMENCLATURE, for_people, plain_unit, written
 from wingbeat.experiment import FilmedBeat, fit_film, read_film
 from wingbeat.experiment.film import WHOLE
-from wingbeat.nomenclature import NOMENCLATURE, for_people, plain_unit, written
 from wingbeat.results.rows import power_label
 
 if TYPE_CHECKING:

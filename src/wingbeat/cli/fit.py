@@ -10,13 +10,13 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.nomenclature import written_range
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import check_files, check_outputs
-from wingbeat.errors import FaultList
 from wingbeat.experiment import WingFit, fit_wing, load_measurements
-from wingbeat.nomenclature import written_range
 from wingbeat.plots import fit_page, save_figure
 
 

@@ -10,6 +10,8 @@ from typing import Annotated
 import numpy as np
 from cyclopts import Parameter
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.nomenclature import NOMENCLATURE, for_people
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
@@ -24,9 +26,7 @@ from wingbeat.cli.options import (
 )
 from wingbeat.cli.ranges import parse_range
 from wingbeat.cli.streams import plain_console
-from wingbeat.errors import FaultList
 from wingbeat.mechanics.glide import Glide
-from wingbeat.nomenclature import NOMENCLATURE, for_people
 from wingbeat.plots import glide_page, save_figure
 from wingbeat.results.glide import GlidePolar, glide_polar
 

@@ -8,6 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat._base.errors import Fault, FaultList, InvalidInputError
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
@@ -16,7 +17,6 @@ from wingbeat.cli.printing import print_report
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.streams import plain_console
 from wingbeat.cli.winds import Gust, wind_of
-from wingbeat.errors import Fault, FaultList, InvalidInputError
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
 from wingbeat.plots import manoeuvre_page, save_figure

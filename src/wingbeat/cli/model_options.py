@@ -13,10 +13,10 @@ from wingbeat.aero import EXTENSIONS, FORCE_POINTS, BladeElement, load_coefficie
 from wingbeat.aero.choosing import load_hand
 from wingbeat.aero.fitted import Fitted
 from wingbeat.aero.model_file import read_model
+from wingbeat.animal.species import Species, load_species
 from wingbeat.cli.options import Whole, with_settings
 from wingbeat.models import Model, model_of
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.species import Species, load_species
 
 _OF_COEFFICIENTS = ("aero", "extension", "blend_width_deg", "hand")
 

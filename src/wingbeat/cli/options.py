@@ -12,12 +12,12 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter, Token
 
-from wingbeat.errors import FaultList, FileError, InvalidInputError, first_line
-from wingbeat.files import writing
+from wingbeat._base.errors import FaultList, FileError, InvalidInputError, first_line
+from wingbeat._base.files import writing
+from wingbeat.animal.species import Species, parse_setting
 from wingbeat.orbits.problem.map_quantities import STABLE_RADIUS
 from wingbeat.results.aero_record import NotInFileError
 from wingbeat.results.saving import check_result_name
-from wingbeat.species import Species, parse_setting
 
 
 def _whole(type_: type, tokens: Sequence[Token]) -> int:

@@ -10,6 +10,9 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 from rich.console import Console
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.reports import Line
+from wingbeat.animal.species import Species
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.filmed import (
@@ -45,12 +48,10 @@ from wingbeat.cli.options import (
 from wingbeat.cli.printing import print_report
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.report import print_orbit
-from wingbeat.errors import FaultList
 from wingbeat.experiment import FilmedBeat
 from wingbeat.orbits.problem.filmed import filmed_problem
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
-from wingbeat.reports import Line
 from wingbeat.results.influence_report import influence_report
 from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.power import power_account
@@ -58,7 +59,6 @@ from wingbeat.results.sensitivities import Sensitivities
 from wingbeat.results.sensitivities import sensitivities as differentiate
 from wingbeat.results.solving import solve_orbit
 from wingbeat.results.spread import Spread, orbit_spread
-from wingbeat.species import Species
 
 _BESIDE_FROM = ("from_", "power", "json", "output", "plot", "sensitivities", "tornado")
 

@@ -8,6 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat._base.errors import FaultList
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
@@ -26,7 +27,6 @@ from wingbeat.cli.printing import print_report
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
 from wingbeat.cli.streams import plain_console
-from wingbeat.errors import FaultList
 from wingbeat.plots import pareto_page, save_figure
 from wingbeat.results.pareto import pareto_front
 from wingbeat.results.pareto_report import pareto_report

@@ -8,10 +8,10 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat._base.datasets import KIND
+from wingbeat._base.errors import FaultList
 from wingbeat.cli.curve_report import drawn
 from wingbeat.cli.options import check_outputs
-from wingbeat.datasets import KIND
-from wingbeat.errors import FaultList
 from wingbeat.plots import check_figure_name, power_page, save_figure, wingbeat_page
 from wingbeat.results.curve import Curve
 from wingbeat.results.storage import load_dataset

@@ -13,14 +13,14 @@ import numpy as np
 from cyclopts import Parameter
 from numpy.typing import NDArray
 
+from wingbeat._base.errors import FaultList, InvalidInputError
+from wingbeat._base.style import BLUE, ORANGE, PAGE, drawing, legend_below, new_figure
 from wingbeat.aero import CoefficientModel, load_coefficients, thin_aerofoil_lift, thin_aerofoil_moment
 from wingbeat.cli.answer import answer
 from wingbeat.cli.model_options import say_notes
 from wingbeat.cli.options import check_outputs
 from wingbeat.cli.ranges import parse_range
-from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.plots import check_figure_name, save_figure
-from wingbeat.style import BLUE, ORANGE, PAGE, drawing, legend_below, new_figure
 
 Columns = dict[str, list[float] | list[None]]
 

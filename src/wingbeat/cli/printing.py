@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from wingbeat.reports import Report, Tone
-from wingbeat.reports.text import lines_of
+from wingbeat._base.reports import Report, Tone
+from wingbeat._base.reports.text import lines_of
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -11,8 +11,8 @@ import time
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
+from wingbeat._base.leftovers import Leftover
 from wingbeat.cli.endings import EXIT_INTERRUPTED, EXIT_TERMINATED
-from wingbeat.workers.leftovers import Leftover
 
 if TYPE_CHECKING:
     from wingbeat.studies.driver import Stop, Tally

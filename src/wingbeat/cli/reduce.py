@@ -8,8 +8,8 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat._base.errors import FaultList, FileError, InvalidInputError
 from wingbeat.cli.options import check_outputs
-from wingbeat.errors import FaultList, FileError, InvalidInputError
 from wingbeat.experiment import LoadCellRun, read_run, reduce_runs
 
 MAX_NOTES = 10

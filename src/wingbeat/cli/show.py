@@ -8,10 +8,10 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat._base.datasets import KIND
 from wingbeat.cli.curve_report import print_curve
 from wingbeat.cli.report import flight_summary, print_flight, print_orbit
 from wingbeat.cli.streams import plain_console
-from wingbeat.datasets import KIND
 from wingbeat.results.curve import Curve
 from wingbeat.results.power import power_account
 from wingbeat.results.storage import load_dataset, parse_attributes

@@ -13,6 +13,9 @@ from cyclopts import Parameter
 from rich.console import Console
 from rich.table import Table
 
+from wingbeat._base.errors import FaultList
+from wingbeat.aero.winds import Wind
+from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.carried import carried, report_carried
@@ -39,9 +42,7 @@ from wingbeat.cli.options import (
     unpacking,
 )
 from wingbeat.cli.winds import Gust, Turbulence, WindSeed, wind_of
-from wingbeat.errors import FaultList
 from wingbeat.experiment import FilmedBeat
-from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.beat_by_beat import check_samples
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.orbits.problem.filmed import filmed_species
@@ -51,7 +52,6 @@ from wingbeat.results.flight import simulate as fly
 from wingbeat.results.orbit import load_orbit
 from wingbeat.results.record import beat_mean
 from wingbeat.results.warnings import crossing
-from wingbeat.winds import Wind
 
 _BESIDE_FROM = ("from_", "beats", "samples", "u", "w", "body_pitch_deg", "pitch_rate", "json", "output")
 _BESIDE_FROM += ("gust", "turbulence", "wind_seed")

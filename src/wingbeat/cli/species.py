@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import App, Parameter
 
+from wingbeat._base.errors import FileError
 from wingbeat.cli.streams import plain_console
-from wingbeat.errors import FileError
 
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from wingbeat.species import Species
+    from wingbeat.animal.species import Species
 
 species = App(name="species", help="Show the built-in animals or your own species file.")
 
@@ -45,12 +45,12 @@ def show(
 ) -> None:
     """List the built-in species; for a name or a file, show every number with its source."""
     if schema:
-        from wingbeat.species_schema import json_schema
+        from wingbeat.animal.species_schema import json_schema
 
         print(json_format.dumps(json_schema(), indent=2))
         return
 
-    from wingbeat.species import load_species, parse_setting, species_names
+    from wingbeat.animal.species import load_species, parse_setting, species_names
 
     if name is None:
         if alternative is not None or set_:
@@ -65,8 +65,8 @@ def show(
     if json:
         _print_json(chosen.as_dict())
     else:
+        from wingbeat.animal.species.report import species_report
         from wingbeat.cli.printing import print_report
-        from wingbeat.species.report import species_report
 
         print_report(species_report(chosen), plain_console())
 
@@ -85,7 +85,7 @@ def new(
     force: Annotated[bool, Parameter(negative="", help="Overwrite an existing file.")] = False,
 ) -> None:
     """Write a species file: a commented template, or a bird, bat or robot derived by scaling laws."""
-    from wingbeat.files import write_atomically
+    from wingbeat._base.files import write_atomically
 
     size = {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
     text = _new_text(kind, size, path.stem)
@@ -97,8 +97,8 @@ def new(
 
 def _new_text(kind: str | None, size: dict[str, float | None], name: str) -> str:
     """Return the text of the template, or of an animal of this size."""
-    from wingbeat.errors import FaultList
-    from wingbeat.species import bat, bird, robot, species_text, template
+    from wingbeat._base.errors import FaultList
+    from wingbeat.animal.species import bat, bird, robot, species_text, template
 
     faults = FaultList()
     for key, value in size.items():
@@ -117,7 +117,7 @@ def _new_text(kind: str | None, size: dict[str, float | None], name: str) -> str
 
 def _settings(texts: list[str], parse: Any) -> dict[str, Any]:
     """Return the settings; report all unreadable ones at once."""
-    from wingbeat.errors import FaultList, InvalidInputError
+    from wingbeat._base.errors import FaultList, InvalidInputError
 
     faults, values = FaultList(), {}
     for text in texts:
@@ -134,7 +134,7 @@ def _settings(texts: list[str], parse: Any) -> dict[str, Any]:
 
 
 def _no_name(option: str) -> Exception:
-    from wingbeat.errors import Fault, InvalidInputError
+    from wingbeat._base.errors import Fault, InvalidInputError
 
     fault = Fault(option, "no species", "needs a species to change", f"wingbeat species pigeon {option} ...")
     return InvalidInputError([fault])

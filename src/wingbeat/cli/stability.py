@@ -10,6 +10,8 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.reports import Line
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
@@ -31,10 +33,8 @@ from wingbeat.cli.printing import print_report
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
 from wingbeat.cli.streams import plain_console
-from wingbeat.errors import FaultList
 from wingbeat.orbits.status import Status
 from wingbeat.plots import save_figure, stability_page
-from wingbeat.reports import Line
 from wingbeat.results.orbit import Orbit, load_orbit
 from wingbeat.results.solving import solve_orbit, solve_orbits
 from wingbeat.stability.causes import StabilitySensitivities, stability_sensitivities

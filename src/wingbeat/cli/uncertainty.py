@@ -9,12 +9,13 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 from rich.console import Console
 
+from wingbeat._base.errors import FaultList, InvalidInputError
+from wingbeat._base.nomenclature import written
+from wingbeat._workers.affinity import core_count
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import SPECIES, Climb, Settings, Whole, WithinPlausible
 from wingbeat.cli.progress import progress_bar
-from wingbeat.errors import FaultList, InvalidInputError
-from wingbeat.nomenclature import written
 from wingbeat.orbits.many.uncertainty import ErrorBar
 from wingbeat.orbits.problem.path_functions import check_quantities
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -24,7 +25,6 @@ from wingbeat.results.influence_report import in_words, ranked_in_words
 from wingbeat.results.sensitivities import QUANTITIES, sensitivities
 from wingbeat.results.solving import solve_orbit
 from wingbeat.results.uncertainty import Comparison, check_draws, uncertainty_by_samples
-from wingbeat.workers.affinity import core_count
 
 _DEFAULT = (*QUANTITIES, "spectral_radius")
 

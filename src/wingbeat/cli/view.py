@@ -8,9 +8,9 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
+from wingbeat._base.errors import FaultList, InvalidInputError
 from wingbeat.cli.options import Whole, check_outputs, unpacking
 from wingbeat.cli.progress import progress_bar
-from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.results.orbit import load_orbit
 from wingbeat.results.storage import load_dataset
 from wingbeat.stability.feedback_checks import MOST_DELAY

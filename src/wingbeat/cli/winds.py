@@ -9,9 +9,9 @@ from typing import Annotated, Any
 import numpy as np
 from cyclopts import Parameter
 
+from wingbeat._base.errors import FaultList
+from wingbeat.aero.winds import LEVELS, CosineGust, DrydenTurbulence, Wind
 from wingbeat.cli.options import Whole, named_numbers
-from wingbeat.errors import FaultList
-from wingbeat.winds import LEVELS, CosineGust, DrydenTurbulence, Wind
 
 Gust = Annotated[
     list[str] | None,

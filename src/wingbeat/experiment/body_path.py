@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat.errors import FaultList
+from wingbeat._base.errors import FaultList
+from wingbeat._base.harmonics import HIGHEST_ORDER
 from wingbeat.experiment.film_fit import FilmedBeat
 from wingbeat.experiment.periodic_spline import Array, fit_law, fit_travel, fourier_columns, from_phase
-from wingbeat.harmonics import HIGHEST_ORDER
 
 # A film must show this share of a beat in one piece: in a shorter piece, travel and periodic motion look alike.
 _SHORTEST = 0.9

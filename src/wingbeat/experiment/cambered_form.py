@@ -13,9 +13,9 @@ from itertools import product
 
 import numpy as np
 
+from wingbeat._base.errors import FaultList
 from wingbeat.aero.animal_wings import WING_ESTIMATES
 from wingbeat.aero.cambered import CamberedTerms
-from wingbeat.errors import FaultList
 from wingbeat.experiment.forms import Array, BoxForm, any_terms, formula_of, value_and_slopes
 from wingbeat.experiment.regression import CurveFit, distrust, fit_curve
 

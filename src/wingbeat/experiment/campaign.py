@@ -13,12 +13,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.files import write_atomically
 from wingbeat.aero import SuFan
 from wingbeat.aero.formula import CentreTerms, FormulaTerms
-from wingbeat.errors import FaultList
 from wingbeat.experiment.forms import value_and_slopes
 from wingbeat.experiment.record import CHANNELS, COLUMN_UNITS, CONSTANT_UNITS, OPTIONAL_UNITS, LoadCellRun
-from wingbeat.files import write_atomically
 
 Array = NDArray[np.float64]
 _SU_FAN = SuFan()

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from wingbeat._base.errors import FaultList, InvalidInputError
 from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.fitted import FittedCurve
 from wingbeat.aero.model_file import read_model
-from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.experiment.wing_fit import WingFit
 
 MAX_COUNT = 100_000

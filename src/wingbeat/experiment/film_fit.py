@@ -15,12 +15,12 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat.errors import FaultList, InvalidInputError
+from wingbeat._base.errors import FaultList, InvalidInputError
+from wingbeat._base.harmonics import HIGHEST_ORDER
+from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat, span_ratio
+from wingbeat.animal.vehicle import Vehicle
 from wingbeat.experiment.film import FILMED, WHOLE, Film
 from wingbeat.experiment.periodic_spline import Array, FilmedLaw, fit_law, fourier_columns, from_phase
-from wingbeat.harmonics import HIGHEST_ORDER
-from wingbeat.kinematics import FREE_NAMES, Wingbeat, span_ratio
-from wingbeat.vehicle import Vehicle
 
 # How far below zero, in standard errors, noise may bring a retraction.
 _NOISE = 3.0

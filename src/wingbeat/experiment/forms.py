@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from wingbeat._base.errors import FaultList
 from wingbeat._jax.config import jax, unchecked
 from wingbeat.aero.cambered import CamberedTerms
 from wingbeat.aero.coefficient_model import at_angles
 from wingbeat.aero.formula import CentreTerms, FormulaTerms
-from wingbeat.errors import FaultList
 
 Array = NDArray[np.float64]
 Kind = type[FormulaTerms] | type[CentreTerms] | type[CamberedTerms]

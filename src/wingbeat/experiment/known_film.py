@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat.experiment.film import FILMED, Film
-from wingbeat.kinematics import (
+from wingbeat.animal.kinematics import (
     Wingbeat,
     chord_ratio,
     flap_angle,
@@ -18,6 +17,7 @@ from wingbeat.kinematics import (
     sweep_angle,
     tip_twist,
 )
+from wingbeat.experiment.film import FILMED, Film
 
 
 def _true(name: str, wingbeat: Wingbeat, phase: NDArray[np.float64], stroke_plane: float) -> Any:

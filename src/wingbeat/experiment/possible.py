@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.nomenclature import plain_unit
 from wingbeat.aero.table_checks import MAX_DRAG, MAX_LIFT
-from wingbeat.errors import FaultList
-from wingbeat.nomenclature import plain_unit
 
 if TYPE_CHECKING:
     from wingbeat.experiment.record import LoadCellRun

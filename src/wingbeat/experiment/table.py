@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.files import write_atomically
 from wingbeat._version import __version__
 from wingbeat.aero.polar_sheet import QUANTITIES, read_polar, reynolds_groups
-from wingbeat.errors import FaultList
-from wingbeat.files import write_atomically
 
 # NaN says that the quantity is undefined or not known there: no centre of pressure without a force.
 _MAY_BE_EMPTY = frozenset(("C_M", "C_M_sd", "C_M_se", "x_cp", "x_cp_sd", "x_cp_se", "reynolds"))

@@ -10,11 +10,12 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from wingbeat._base.errors import FaultList, InvalidInputError
+from wingbeat._base.files import write_atomically
 from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.aero.fitted import Fitted, FittedCurve, FittedModel, FittedWing
 from wingbeat.aero.polar_sheet import zero_lift
-from wingbeat.errors import FaultList, InvalidInputError
 from wingbeat.experiment.cambered_form import DragFit, DragForm, LiftForm, fit_drag, stall_notes
 from wingbeat.experiment.forms import BoxForm, CurveForm
 from wingbeat.experiment.judgement import failures, judge, model_failures
@@ -22,7 +23,6 @@ from wingbeat.experiment.model_text import model_text
 from wingbeat.experiment.regression import CurveFit, fit_curve
 from wingbeat.experiment.table import CoefficientTable
 from wingbeat.experiment.wing_forms import FORMS, WingForm
-from wingbeat.files import write_atomically
 
 # A spline through steps of one degree stays within 1e-4 of a smooth polar.
 _STEP_DEG = 1.0

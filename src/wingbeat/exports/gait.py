@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.nomenclature import NOMENCLATURE, Term
 from wingbeat._jax.config import jnp
 from wingbeat._jax.exported import jit_soon
-from wingbeat.errors import FaultList
-from wingbeat.kinematics import (
+from wingbeat.animal.kinematics import (
     Wingbeat,
     chord_ratio,
     flap_angle,
@@ -22,7 +23,6 @@ from wingbeat.kinematics import (
     tip_twist,
 )
 from wingbeat.mechanics.wing_motion import time_rates
-from wingbeat.nomenclature import NOMENCLATURE, Term
 from wingbeat.orbits.status import Status
 from wingbeat.results.flight import simulate
 from wingbeat.results.orbit import Orbit

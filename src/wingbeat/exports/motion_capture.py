@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat.errors import FileError, install_extra
+from wingbeat._base.errors import FileError, install_extra
+from wingbeat._base.files import writing
 from wingbeat.exports.gait import Gait
-from wingbeat.files import writing
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.wing_points import surface_points
 

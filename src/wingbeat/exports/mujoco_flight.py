@@ -6,11 +6,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.errors import FaultList, FileError, install_extra
+from wingbeat._base.errors import FaultList, FileError, install_extra
+from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.exports.gait import Laws, check_certified, gait_of, laws_at
 from wingbeat.exports.mujoco_joints import BODY_JOINTS, SIDES, WingJoints, wing_parts
 from wingbeat.exports.mujoco_model import KEY, mujoco_xml
-from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.beat_by_beat import Controller, commanded
 from wingbeat.mechanics.equations_of_motion import air_forces
 from wingbeat.mechanics.flight_model import State

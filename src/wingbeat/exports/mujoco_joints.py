@@ -13,11 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat.errors import FaultList
+from wingbeat._base.errors import FaultList
+from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.animal.vehicle import Wing
 from wingbeat.exports.gait import LAW_NAMES, Laws
-from wingbeat.kinematics import Wingbeat
 from wingbeat.mechanics.wing_motion import strips_of, twist_factors
-from wingbeat.vehicle import Wing
 
 SIDES = {"left": 1.0, "right": -1.0}
 BODY_JOINTS = ("x", "z", "body_pitch")

@@ -8,7 +8,8 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
-from wingbeat.errors import FaultList
+from wingbeat._base.errors import FaultList
+from wingbeat.animal.vehicle import Tail, Vehicle, Wing
 from wingbeat.exports.gait import Gait, laws_at
 from wingbeat.exports.mujoco_joints import (
     BODY_JOINTS,
@@ -21,7 +22,6 @@ from wingbeat.exports.mujoco_joints import (
     is_rigid,
     wing_parts,
 )
-from wingbeat.vehicle import Tail, Vehicle, Wing
 from wingbeat.viewer.shape import body_axes, tail_corners
 
 STEPS = 512

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from wingbeat._jax.config import jnp
 from wingbeat.aero.blade_element import StripForces, strip_forces, with_turning
 from wingbeat.aero.unsteady import added_inertia, added_mass
-from wingbeat.kinematics import Wingbeat, span_ratio
+from wingbeat.animal.kinematics import Wingbeat, span_ratio
 from wingbeat.mechanics.body_dynamics import body_air, pressure_offset
 from wingbeat.mechanics.flight_model import FlightModel, is_unsteady, unsteady_density
 from wingbeat.mechanics.frames import dot, from_world, to_world

@@ -7,11 +7,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat.errors import Fault, FaultList, InvalidInputError
-from wingbeat.kinematics import Wingbeat
+from wingbeat._base.errors import Fault, FaultList, InvalidInputError
+from wingbeat.aero.winds import Wind
+from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.flights import air_phases, fly_through
-from wingbeat.winds import Wind
 
 # Takes the number of beats flown and the state at the top of the stroke; returns the wingbeat of the next beat.
 Controller = Callable[[int, State], Wingbeat]

@@ -15,10 +15,10 @@ from wingbeat._jax.elementary import cos, sin
 from wingbeat._jax.elementwise_jvp import computed_once, fusion_barrier
 from wingbeat.aero.blade_element import StripForces, strip_forces
 from wingbeat.aero.tail import tail_force
+from wingbeat.animal.vehicle import Vehicle
 from wingbeat.mechanics.frames import dot, from_world, quarter_turn, to_world
 from wingbeat.mechanics.strip_sums import sum_over_strips
 from wingbeat.mechanics.wing_motion import WingMotion
-from wingbeat.vehicle import Vehicle
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Pair, PerStrip, Phases, Scalar, Triple

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING
 
 from wingbeat._jax.config import jnp
 from wingbeat._jax.exported import exported
-from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, span_ratio
+from wingbeat.animal.kinematics import Wingbeat, flap_angle, fold_angle, span_ratio
+from wingbeat.animal.vehicle import Vehicle
 from wingbeat.mechanics.wing_motion import air_chord, shape_at, strips_of, with_time_axes
 from wingbeat.mechanics.wing_shape import Strips, WingShape
-from wingbeat.vehicle import Vehicle
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Component, FlapAngles, PerStrip, PerStripBroadcast, Phases

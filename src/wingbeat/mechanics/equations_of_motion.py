@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import in_own_settings, jax, jnp
 from wingbeat._jax.exported import jit_soon
-from wingbeat.kinematics import Wingbeat
+from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.air_forces import AirForces, air_forces_on
 from wingbeat.mechanics.flight_model import FlightModel, is_unsteady
 from wingbeat.mechanics.wing_motion import strips_of

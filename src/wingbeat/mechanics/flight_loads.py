@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import exported
-from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
+from wingbeat.animal.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
 from wingbeat.mechanics.air_forces import air_forces_on
 from wingbeat.mechanics.body_dynamics import missing_loads
 from wingbeat.mechanics.flight_model import FlightModel, State, air_loads, body_rates, is_unsteady, motion_table

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from wingbeat._base.errors import FaultList
 from wingbeat._jax.config import at_default, jnp, register_record, unchecked
 from wingbeat._jax.elementwise_jvp import elementwise_jvp
 from wingbeat.aero.blade_element import BladeElement, blade_element_of
 from wingbeat.aero.inflow import check_descent, disc_area, induced_flow
-from wingbeat.errors import FaultList
-from wingbeat.kinematics import Wingbeat
+from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.body_dynamics import BodyLoads, accelerations, body_air, body_drag, wing_loads
 from wingbeat.mechanics.frames import dot, from_world
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude, wing_motion
-from wingbeat.vehicle import Air, Vehicle
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import BodyAcceleration, Component, Pair, Phases, PitchState, Scalar
@@ -117,7 +117,7 @@ class FlightModel:
     InvalidInputError, FileError : an `aero` that is none of these; inflow without a velocity, or with one at which
         the wings descend into their own wake.
 
-    >>> from wingbeat.species import load_species
+    >>> from wingbeat.animal.species import load_species
     >>> FlightModel(load_species("pigeon").vehicle, "dickinson").strips
     10
     """

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from wingbeat._base.errors import FaultList
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import exported, jit_soon
-from wingbeat.errors import FaultList
-from wingbeat.kinematics import Wingbeat
+from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.equations_of_motion import accelerations_from_torques
 from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from wingbeat._jax.config import jnp
 from wingbeat._jax.exported import exported
-from wingbeat.kinematics import Wingbeat, unpack
+from wingbeat.animal.kinematics import Wingbeat, unpack
 from wingbeat.mechanics.equations_of_motion import air_forces, equations_of_motion
 from wingbeat.mechanics.flight_model import FlightModel, at_velocity
 from wingbeat.mechanics.frames import stroke_pitch

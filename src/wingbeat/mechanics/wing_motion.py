@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import at_default, jax, jnp
 from wingbeat._jax.elementary import cos, sin
-from wingbeat.kinematics import (
+from wingbeat.animal.kinematics import (
     Wingbeat,
     chord_ratio,
     flap_angle,
@@ -22,11 +22,11 @@ from wingbeat.kinematics import (
     sweep_angle,
     tip_twist,
 )
+from wingbeat.animal.vehicle import Vehicle, Wing
 from wingbeat.mechanics.frames import dot, from_world, quarter_turn, stroke_pitch
 from wingbeat.mechanics.strip_sums import mass_moments
 from wingbeat.mechanics.unsteady_air import UnsteadyLoad, strip_motion, unsteady_loads_on_body
 from wingbeat.mechanics.wing_shape import Strips, WingShape
-from wingbeat.vehicle import Vehicle, Wing
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Pair, PerStrip, PerStripBroadcast, Phases, Scalar, Triple

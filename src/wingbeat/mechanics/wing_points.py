@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import exported
-from wingbeat.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
+from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
+from wingbeat.animal.vehicle import Vehicle
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.frames import stroke_pitch, to_world
 from wingbeat.mechanics.wing_motion import air_chord, chord_at, mass_points, strips_of, stroke_plane, wing_shape
 from wingbeat.mechanics.wing_shape import Strips
-from wingbeat.vehicle import Vehicle
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import (

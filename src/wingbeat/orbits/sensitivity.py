@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat.errors import Fault, InvalidInputError
-from wingbeat.kinematics import unpack
+from wingbeat._base.errors import Fault, InvalidInputError
+from wingbeat.animal.kinematics import unpack
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.certify import certify
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat.kinematics import Wingbeat
+from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.certify import Certificate
 from wingbeat.orbits.flight.floquet import monodromy, multipliers_of

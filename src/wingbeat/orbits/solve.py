@@ -8,7 +8,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from wingbeat.errors import FaultList
+from wingbeat._base.errors import FaultList
+from wingbeat._workers.affinity import core_count
 from wingbeat.orbits.infeasible.lower_bound import is_at_lower_bound
 from wingbeat.orbits.infeasible.without_orbit import Ending, unexplained, without_orbit
 from wingbeat.orbits.multistart import (
@@ -33,7 +34,6 @@ from wingbeat.orbits.problem.stable import asks_for_stability, minimises_map
 from wingbeat.orbits.solution import Optimum, Solution, better_of, families
 from wingbeat.orbits.starts import start_count, start_point, usual_most_starts
 from wingbeat.orbits.status import Status
-from wingbeat.workers.affinity import core_count
 
 
 def check_search(starts: int, seed: int, most_starts: int = 1) -> None:

@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from wingbeat.kinematics import parameter
+from wingbeat.animal.kinematics import parameter
 from wingbeat.orbits.options.search import SearchOptions
 from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.options.start_families import StartFamily

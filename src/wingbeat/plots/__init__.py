@@ -13,7 +13,6 @@ from wingbeat.plots.curve_page import Published as Published
 from wingbeat.plots.curve_page import curve_page as curve_page
 from wingbeat.plots.film_page import film_page as film_page
 from wingbeat.plots.fit_page import fit_page as fit_page
-from wingbeat.plots.flights_page import flights_page as flights_page
 from wingbeat.plots.glide_page import glide_page as glide_page
 from wingbeat.plots.gust_page import gust_page as gust_page
 from wingbeat.plots.gust_page import survey_page as survey_page
@@ -23,12 +22,10 @@ from wingbeat.plots.power_page import power_page as power_page
 from wingbeat.plots.saving import FIGURE_SUFFIXES as FIGURE_SUFFIXES
 from wingbeat.plots.saving import check_figure_name as check_figure_name
 from wingbeat.plots.saving import save_figure as save_figure
-from wingbeat.plots.second_opinion_page import second_opinion_page as second_opinion_page
 from wingbeat.plots.stability_page import stability_page as stability_page
 from wingbeat.plots.study_page import study_page as study_page
 from wingbeat.plots.terms_page import terms_page as terms_page
 from wingbeat.plots.tornado_page import tornado_page as tornado_page
-from wingbeat.plots.validation_page import validation_page as validation_page
 from wingbeat.plots.wingbeat_page import wingbeat_page as wingbeat_page
 
 __all__ = [
@@ -38,20 +35,17 @@ __all__ = [
     "curve_page",
     "film_page",
     "fit_page",
-    "flights_page",
     "glide_page",
     "gust_page",
     "manoeuvre_page",
     "pareto_page",
     "power_page",
     "save_figure",
-    "second_opinion_page",
     "stability_page",
     "study_page",
     "survey_page",
     "terms_page",
     "tornado_page",
-    "validation_page",
     "wingbeat_page",
 ]
 

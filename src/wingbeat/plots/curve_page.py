@@ -11,11 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.datasets import climb_text
-from wingbeat.errors import FaultList
-from wingbeat.nomenclature import axis_label, plain, readable_limit
-from wingbeat.results.curve_report import speed_in_words, speed_label
-from wingbeat.style import (
+from wingbeat._base.datasets import climb_text
+from wingbeat._base.errors import FaultList
+from wingbeat._base.nomenclature import axis_label, plain, readable_limit
+from wingbeat._base.style import (
     ALARM,
     BLUE,
     GREEN,
@@ -27,6 +26,7 @@ from wingbeat.style import (
     letter_panels,
     new_figure,
 )
+from wingbeat.results.curve_report import speed_in_words, speed_label
 
 if TYPE_CHECKING:
     import xarray as xr

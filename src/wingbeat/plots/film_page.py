@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from wingbeat._base.style import BLUE, COLUMN, PAGE, VERMILION, drawing, legend_below, letter_panels, new_figure
 from wingbeat.experiment import FilmedBeat
-from wingbeat.style import BLUE, COLUMN, PAGE, VERMILION, drawing, legend_below, letter_panels, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.experiment import CurveFit, WingFit
-from wingbeat.style import (
+from wingbeat._base.style import (
     BLUE,
     FONT,
     GREEN,
@@ -21,6 +20,7 @@ from wingbeat.style import (
     letter_panels,
     new_figure,
 )
+from wingbeat.experiment import CurveFit, WingFit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.errors import FaultList
-from wingbeat.style import (
+from wingbeat._base.errors import FaultList
+from wingbeat._base.style import (
     FIRST,
     GREEN,
     PAGE,

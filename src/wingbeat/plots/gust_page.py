@@ -8,10 +8,21 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base.style import (
+    FIRST,
+    GREY,
+    PAGE,
+    SECOND,
+    SHADE,
+    THIRD,
+    drawing,
+    dress,
+    legend_below,
+    letter_panels,
+)
+from wingbeat._base.style import new_figure as new_page
 from wingbeat.stability.gust_flight import GustFlight
 from wingbeat.stability.gust_survey import GustSurvey
-from wingbeat.style import FIRST, GREY, PAGE, SECOND, SHADE, THIRD, drawing, dress, legend_below, letter_panels
-from wingbeat.style import new_figure as new_page
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

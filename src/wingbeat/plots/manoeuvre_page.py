@@ -7,10 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wingbeat.kinematics import ANGLES
-from wingbeat.results.flight import Flight
-from wingbeat.stability.manoeuvre import Manoeuvre
-from wingbeat.style import (
+from wingbeat._base.style import (
     FIRST,
     GREY,
     MARKED,
@@ -25,6 +22,9 @@ from wingbeat.style import (
     letter_panels,
     new_figure,
 )
+from wingbeat.animal.kinematics import ANGLES
+from wingbeat.results.flight import Flight
+from wingbeat.stability.manoeuvre import Manoeuvre
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.datasets import downstrokes, flown
-from wingbeat.style import FIRST, FONT, SECOND, THIRD, dress, legend_above, shade_downstrokes
+from wingbeat._base.datasets import downstrokes, flown
+from wingbeat._base.style import FIRST, FONT, SECOND, THIRD, dress, legend_above, shade_downstrokes
 
 if TYPE_CHECKING:
     import xarray as xr

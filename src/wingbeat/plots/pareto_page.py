@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.datasets import climb_text
-from wingbeat.nomenclature import cf, for_people
-from wingbeat.style import (
+from wingbeat._base.datasets import climb_text
+from wingbeat._base.nomenclature import cf, for_people
+from wingbeat._base.style import (
     BLUE,
     GREEN,
     GREY,

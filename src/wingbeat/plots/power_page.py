@@ -6,9 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.datasets import downstrokes
-from wingbeat.results.power import SHARES, power_account
-from wingbeat.style import (
+from wingbeat._base.datasets import downstrokes
+from wingbeat._base.style import (
     FIRST,
     PAGE,
     SECOND,
@@ -21,6 +20,7 @@ from wingbeat.style import (
     new_figure,
     shade_downstrokes,
 )
+from wingbeat.results.power import SHARES, power_account
 
 if TYPE_CHECKING:
     import xarray as xr

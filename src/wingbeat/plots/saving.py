@@ -6,8 +6,8 @@ import os
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from wingbeat.errors import FaultList
-from wingbeat.files import writing
+from wingbeat._base.errors import FaultList
+from wingbeat._base.files import writing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -47,7 +47,7 @@ def save_figure(figure: Figure, path: str | PathLike[str]) -> None:
     """
     from matplotlib import rc_context
 
-    from wingbeat.notebook_figure import LONG_LINES
+    from wingbeat._base.notebook_figure import LONG_LINES
 
     faults = FaultList()
     check_figure_name(faults, "path", path)

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.stability.linear_report import MOVING
-from wingbeat.style import (
+from wingbeat._base.style import (
     BLUE,
     GREEN,
     GREY,
@@ -24,6 +23,7 @@ from wingbeat.style import (
     letter_panels,
     new_figure,
 )
+from wingbeat.stability.linear_report import MOVING
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.errors import FaultList
-from wingbeat.nomenclature import label_of, plain_unit
-from wingbeat.style import ALARM, FONT, MARKED, PAGE, drawing, in_words, letter_panels, new_figure
+from wingbeat._base.errors import FaultList
+from wingbeat._base.nomenclature import label_of, plain_unit
+from wingbeat._base.style import ALARM, FONT, MARKED, PAGE, drawing, in_words, letter_panels, new_figure
 
 if TYPE_CHECKING:
     import pandas as pd

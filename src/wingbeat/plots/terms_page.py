@@ -5,7 +5,17 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from wingbeat.style import FIRST, PAGE, SECOND, THIRD, drawing, heading, legend_above, letter_panels, new_figure
+from wingbeat._base.style import (
+    FIRST,
+    PAGE,
+    SECOND,
+    THIRD,
+    drawing,
+    heading,
+    legend_above,
+    letter_panels,
+    new_figure,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

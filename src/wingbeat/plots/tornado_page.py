@@ -6,9 +6,8 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Any
 
-from wingbeat.nomenclature import label_of, written
-from wingbeat.results.sensitivities import Sensitivities
-from wingbeat.style import (
+from wingbeat._base.nomenclature import label_of, written
+from wingbeat._base.style import (
     BLUE,
     PAGE,
     VERMILION,
@@ -19,6 +18,7 @@ from wingbeat.style import (
     letter_panels,
     new_figure,
 )
+from wingbeat.results.sensitivities import Sensitivities
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -6,12 +6,12 @@ import json
 import textwrap
 from typing import TYPE_CHECKING, Any
 
-from wingbeat.datasets import climb_text
-from wingbeat.errors import FaultList
+from wingbeat._base.datasets import climb_text
+from wingbeat._base.errors import FaultList
+from wingbeat._base.style import ALARM, GOOD, PAGE, drawing, heading, in_words, letter_panels, new_figure
 from wingbeat.plots.panels import draw_loads, draw_motion, draw_portraits, flown, mean_power
 from wingbeat.results.plausibility import statements
 from wingbeat.results.rows import limits_in_words, mass_of
-from wingbeat.style import ALARM, GOOD, PAGE, drawing, heading, in_words, letter_panels, new_figure
 
 if TYPE_CHECKING:
     import xarray as xr

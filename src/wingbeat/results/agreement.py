@@ -14,11 +14,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base.datasets import SHAPE, STATE_NAMES
+from wingbeat._base.errors import is_number
 from wingbeat._jax.config import own_settings
 from wingbeat.aero import BladeElement, SuFan
-from wingbeat.datasets import SHAPE, STATE_NAMES
-from wingbeat.errors import is_number
-from wingbeat.kinematics import Wingbeat, parameter
+from wingbeat.animal.kinematics import Wingbeat, parameter
+from wingbeat.animal.vehicle import Air
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.stroke_distances import SYMMETRY
 from wingbeat.orbits.infeasible.relaxation import Relaxation
@@ -50,12 +51,11 @@ from wingbeat.results.series_agreement import (
     demand,
     same,
 )
-from wingbeat.vehicle import Air
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from wingbeat.species import Species
+    from wingbeat.animal.species import Species
 
 # Quantities of an orbit keep to their limits to this share.
 _OF_LIMIT = 1e-3

@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from wingbeat._base.datasets import KIND
+from wingbeat._base.errors import FaultList
 from wingbeat._version import __version__
-from wingbeat.datasets import KIND
-from wingbeat.errors import FaultList
-from wingbeat.kinematics import Wingbeat
+from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.animal.species import Species
 from wingbeat.mechanics.beat_by_beat import check_samples
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.flight.beat import mean_positive
 from wingbeat.results.dataset import evaluate_carried, flight_dataset
 from wingbeat.results.record import beat_mean, shape_attribute, vehicle_record, wingbeat_record
 from wingbeat.results.saving import Saveable
-from wingbeat.species import Species
 
 if TYPE_CHECKING:
     import xarray as xr

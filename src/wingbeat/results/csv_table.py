@@ -13,7 +13,7 @@ import math
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat.datasets import KIND
+from wingbeat._base.datasets import KIND
 from wingbeat.results.columns import leaves, result_unit
 
 if TYPE_CHECKING:

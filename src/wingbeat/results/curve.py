@@ -11,13 +11,14 @@ from concurrent.futures import ThreadPoolExecutor
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from wingbeat.errors import FaultList
+from wingbeat._base.errors import FaultList
+from wingbeat._base.reports import Report, Reported, drawn
+from wingbeat._workers.affinity import core_count
 from wingbeat.orbits.many.branches import Branches, trace
 from wingbeat.orbits.many.transitions import marks_of
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
-from wingbeat.reports import Report, Reported, drawn
 from wingbeat.results.characteristic import characteristic_speeds, next_speeds
 from wingbeat.results.csv_table import frame_of
 from wingbeat.results.curve_dataset import POINTS, best_line, best_of, curve_dataset, is_mean_power
@@ -27,7 +28,6 @@ from wingbeat.results.provenance import inputs_of
 from wingbeat.results.record import finite_or_none
 from wingbeat.results.saving import Saveable
 from wingbeat.results.storage import load_dataset
-from wingbeat.workers.affinity import core_count
 
 if TYPE_CHECKING:
     import pandas as pd

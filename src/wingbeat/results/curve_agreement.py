@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.datasets import STATE_NAMES
-from wingbeat.harmonics import harmonic_place
-from wingbeat.kinematics import PARAMETER_NAMES
+from wingbeat._base.datasets import STATE_NAMES
+from wingbeat._base.harmonics import harmonic_place
+from wingbeat.animal.kinematics import PARAMETER_NAMES
 from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.problem.plausible import judged_names
 from wingbeat.orbits.status import Status
@@ -25,7 +25,7 @@ from wingbeat.results.series_agreement import demand, same
 if TYPE_CHECKING:
     import xarray as xr
 
-    from wingbeat.species import Species
+    from wingbeat.animal.species import Species
 
 _LISTS = ("marks", "constraints")
 # Numbers that every certified orbit has, moving or not.

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base.datasets import KIND
+from wingbeat._base.harmonics import harmonic_place
+from wingbeat._base.nomenclature import NOMENCLATURE, attributes_of, cf, label_of
 from wingbeat._version import __version__
-from wingbeat.datasets import KIND
-from wingbeat.harmonics import harmonic_place
-from wingbeat.kinematics import NAMED_IF_ON, PARAMETER_NAMES, in_use
+from wingbeat.animal.kinematics import NAMED_IF_ON, PARAMETER_NAMES, in_use
 from wingbeat.mechanics.flight_model import State
-from wingbeat.nomenclature import NOMENCLATURE, attributes_of, cf, label_of
 from wingbeat.orbits.many.branches import Branches
 from wingbeat.orbits.many.transitions import BOUNDS, Mark, certified, families, marks_of
 from wingbeat.orbits.problem.problem import OrbitProblem

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.kinematics import Wingbeat, chord_ratio, tip_twist
+from wingbeat._base.nomenclature import NOMENCLATURE, attributes_of
+from wingbeat._base.nomenclature.series import SERIES, SERIES_WHERE_ON
+from wingbeat.animal.kinematics import Wingbeat, chord_ratio, tip_twist
 from wingbeat.mechanics.flight_loads import Loads, MissingLoads, carried_loads, flight_loads
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.wing_points import CORNERS, strip_corners
-from wingbeat.nomenclature import NOMENCLATURE, attributes_of
-from wingbeat.nomenclature.series import SERIES, SERIES_WHERE_ON
 from wingbeat.results.forms import SERIES_DIMS
 
 if TYPE_CHECKING:

@@ -11,19 +11,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from wingbeat._base.datasets import KIND
+from wingbeat._base.errors import FaultList
+from wingbeat._base.nomenclature import NOMENCLATURE, attributes_of
 from wingbeat._version import __version__
-from wingbeat.datasets import KIND
-from wingbeat.errors import FaultList
-from wingbeat.kinematics import Wingbeat
+from wingbeat.aero.winds import Wind
+from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.animal.species import Species
 from wingbeat.mechanics.beat_by_beat import Controller, check_samples, check_wind, fly_beats
 from wingbeat.mechanics.flight_model import FlightModel, State, state_of
 from wingbeat.mechanics.flights import fly_torque_driven
-from wingbeat.nomenclature import NOMENCLATURE, attributes_of
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.record import shape_attribute, vehicle_record, wingbeat_record
 from wingbeat.results.saving import Saveable
-from wingbeat.species import Species
-from wingbeat.winds import Wind
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -134,7 +134,7 @@ def simulate(
     beats : number of wingbeats.
     samples : samples per wingbeat.
     wind : velocity of the air, forward and up [m/s]: two numbers, or a function of times [s] such as those of
-        `wingbeat.winds`. It must be smooth over a 64th of a beat. Loads of the air's own acceleration are left out.
+        `wb.winds`. It must be smooth over a 64th of a beat. Loads of the air's own acceleration are left out.
     controller : function of the number of beats flown and the state at the top of the stroke; it returns the
         wingbeat of the next beat. Inputs of `linearise` change a wingbeat without a jump of the wing.
     species : what flies; drawings of the flight show its shape. The flight itself does not depend on it.

@@ -6,10 +6,10 @@ import json
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat.datasets import KIND, SHAPE
-from wingbeat.errors import control_in, is_number
-from wingbeat.nomenclature.series import SERIES, SERIES_WHERE_ON
-from wingbeat.species_schema.models import KINDS
+from wingbeat._base.datasets import KIND, SHAPE
+from wingbeat._base.errors import control_in, is_number
+from wingbeat._base.nomenclature.series import SERIES, SERIES_WHERE_ON
+from wingbeat.animal.species_schema.models import KINDS
 
 if TYPE_CHECKING:
     import xarray as xr

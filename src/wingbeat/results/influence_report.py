@@ -6,10 +6,10 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from wingbeat.nomenclature import written
+from wingbeat._base.nomenclature import written
+from wingbeat._base.reports import Line, Report, Row, Table
 from wingbeat.orbits.many.uncertainty import ErrorBar
 from wingbeat.orbits.sensitivity import Sensitivity
-from wingbeat.reports import Line, Report, Row, Table
 
 if TYPE_CHECKING:
     from wingbeat.results.sensitivities import Sensitivities

@@ -6,8 +6,8 @@ import math
 import re
 from typing import Any, NamedTuple
 
+from wingbeat._base.style import in_words
 from wingbeat.orbits.problem.problem import PATH_NAMES
-from wingbeat.style import in_words
 
 # Numbers of which all but one determine the last, at a given speed and for a given vehicle.
 _RELATED = (

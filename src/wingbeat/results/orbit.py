@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.kinematics import Wingbeat
+from wingbeat._base.reports import Report, Reported, drawn
+from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.certify import Certificate, certify
 from wingbeat.orbits.infeasible.relaxation import Relaxation
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
-from wingbeat.reports import Report, Reported, drawn
 from wingbeat.results.csv_table import frame_of
 from wingbeat.results.dataset import evaluate, flight_dataset
 from wingbeat.results.orbit_report import orbit_report

@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.reports import Report, Reported, drawn
 from wingbeat._version import __version__
-from wingbeat.errors import FaultList
 from wingbeat.orbits.many.series import find_series
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.limits import Constraint
@@ -20,7 +21,6 @@ from wingbeat.orbits.problem.quantities import Quantity
 from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.starts import start_count
 from wingbeat.orbits.status import Status
-from wingbeat.reports import Report, Reported, drawn
 from wingbeat.results.columns import table_of
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.pareto_report import pareto_report

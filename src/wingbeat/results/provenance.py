@@ -6,8 +6,12 @@ import json
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat.errors import InvalidInputError
-from wingbeat.kinematics import Wingbeat
+from wingbeat._base.errors import InvalidInputError
+from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.animal.species import Species
+from wingbeat.animal.species.shape import shape_from, shape_record
+from wingbeat.animal.species_schema import Range, number_from
+from wingbeat.animal.vehicle import Air
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.limits import Constraint
 from wingbeat.orbits.problem.origin import origin_from
@@ -15,10 +19,6 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity, named_objective, named_quantity
 from wingbeat.results.aero_record import OWN, SET_ANEW, NotInFileError, aero_from, aero_inputs
 from wingbeat.results.record import vehicle_from, vehicle_record, wingbeat_record
-from wingbeat.species import Species
-from wingbeat.species.shape import shape_from, shape_record
-from wingbeat.species_schema import Range, number_from
-from wingbeat.vehicle import Air
 
 
 def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOptions = DEFAULTS) -> dict[str, Any]:

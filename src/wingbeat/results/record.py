@@ -8,11 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat._base.datasets import SHAPE, at_station
 from wingbeat._jax.config import at_default
 from wingbeat._version import __version__
-from wingbeat.actuators import Motor, Muscle, Springs
-from wingbeat.datasets import SHAPE, at_station
-from wingbeat.kinematics import NAMED_IF_ON, Wingbeat
+from wingbeat.animal.actuators import Motor, Muscle, Springs
+from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
+from wingbeat.animal.species import Species
+from wingbeat.animal.vehicle import Body, Tail, Vehicle, Wing
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.beat import Beat, mean_positive
 from wingbeat.orbits.problem.drive import drive_numbers
@@ -22,8 +24,6 @@ from wingbeat.orbits.status import Status
 from wingbeat.results.aero_record import aero_record
 from wingbeat.results.plausibility import plausibility
 from wingbeat.results.warnings import orbit_warnings
-from wingbeat.species import Species
-from wingbeat.vehicle import Body, Tail, Vehicle, Wing
 
 # Parts that a vehicle may lack.
 _PARTS = {"tail": Tail, "muscle": Muscle, "motor": Motor, "springs": Springs}

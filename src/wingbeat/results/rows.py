@@ -7,12 +7,12 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from wingbeat.datasets import STATE_NAMES
-from wingbeat.nomenclature import NOMENCLATURE, cf, find, for_people, plain_unit, readable_limit
+from wingbeat._base.datasets import STATE_NAMES
+from wingbeat._base.nomenclature import NOMENCLATURE, cf, find, for_people, plain_unit, readable_limit
+from wingbeat._base.style import in_words
 from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
 from wingbeat.orbits.problem.report import loads_in_words, model_rows, place_in_words
 from wingbeat.results.limits import SetBy, called, set_by_limit
-from wingbeat.style import in_words
 
 Rows = list[tuple[str, str]]
 # The metabolic power of a live animal, as it is measured, holds more.

@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base.errors import Fault, FaultList, InvalidInputError
+from wingbeat._base.reports import Report, Reported, drawn
 from wingbeat.aero.fitted import Fitted
-from wingbeat.errors import Fault, FaultList, InvalidInputError
 from wingbeat.orbits.many.uncertainty import (
     ErrorBar,
     ParameterSpread,
@@ -21,7 +22,6 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity, named_quantity
 from wingbeat.orbits.sensitivity import OptimumSlopes, Sensitivity
 from wingbeat.orbits.status import Status
-from wingbeat.reports import Report, Reported, drawn
 from wingbeat.results.columns import table_of
 from wingbeat.results.influence_report import influence_report
 from wingbeat.results.orbit import Orbit

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base.datasets import STATE_NAMES
 from wingbeat._jax.config import own_settings
-from wingbeat.datasets import STATE_NAMES
-from wingbeat.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
+from wingbeat.animal.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
 
 if TYPE_CHECKING:
-    from wingbeat.species import Species
+    from wingbeat.animal.species import Species
 
 # Record and series come of two compiled programs, which may differ in a number's last digits.
 _RELATIVE, ABSOLUTE = 1e-6, 1e-9

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat.kinematics import Wingbeat, parameter
+from wingbeat.animal.kinematics import Wingbeat, parameter
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import search_near
 from wingbeat.results.limit_share import LimitShare, limit_share

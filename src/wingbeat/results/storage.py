@@ -11,10 +11,10 @@ from collections.abc import Callable
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from wingbeat.datasets import KIND, STATE_NAMES
-from wingbeat.errors import FileError, is_number, system_reason
-from wingbeat.files import write_atomically
-from wingbeat.nomenclature import NOMENCLATURE
+from wingbeat._base.datasets import KIND, STATE_NAMES
+from wingbeat._base.errors import FileError, is_number, system_reason
+from wingbeat._base.files import write_atomically
+from wingbeat._base.nomenclature import NOMENCLATURE
 from wingbeat.results.declared import MOST_DECLARED, UnfitFileError, check_declared
 from wingbeat.results.forms import FORMS, check_form, from_json
 from wingbeat.results.netcdf import netcdf_bytes, own_content

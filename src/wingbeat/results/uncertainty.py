@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.nomenclature import PRECISION
 from wingbeat.aero.fitted import Fitted
-from wingbeat.errors import FaultList
-from wingbeat.nomenclature import PRECISION
 from wingbeat.orbits.many.uncertainty import ErrorBar, Samples, sample_orbits
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.parameters import parameters_of

@@ -6,16 +6,16 @@ import math
 
 import numpy as np
 
+from wingbeat._base.nomenclature import NOMENCLATURE
 from wingbeat.aero import CamberedCoefficients, CoefficientModel
-from wingbeat.kinematics import ANGLES, Wingbeat
+from wingbeat.animal.kinematics import ANGLES, Wingbeat
+from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.clearance import flap_angles, has_room, lateral_corners
-from wingbeat.nomenclature import NOMENCLATURE
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.infeasible.lower_bound import is_at_lower_bound
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
-from wingbeat.vehicle import Air, Vehicle
 
 # The wake matters at speeds up to about three times the induced velocity of hover. At that speed it changes alpha
 # by about 10 %.

@@ -8,7 +8,7 @@ import numpy as np
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import exported
-from wingbeat.kinematics import Wingbeat
+from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat.kinematics import Wingbeat
+from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import fly_through
 from wingbeat.orbits.flight.shooting import flier

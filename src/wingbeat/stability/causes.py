@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base.reports import Report, Reported, drawn
 from wingbeat.orbits.flight.floquet import multipliers_of
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.map_quantities import MAP_QUANTITIES, MapQuantity
-from wingbeat.reports import Report, Reported, drawn
 from wingbeat.results.columns import table_of
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.sensitivities import Sensitivities, sensitivities

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat.errors import FaultList, InvalidInputError, suggest
-from wingbeat.kinematics import Wingbeat, parameter, with_parameters
+from wingbeat._base.errors import FaultList, InvalidInputError, suggest
+from wingbeat.animal.kinematics import Wingbeat, parameter, with_parameters
 from wingbeat.stability.feedback_options import FeedbackOptions
 
 # What a wingbeat allows, beyond which no command may go; half the frequency, for slower beats are no small change.

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.reports import Report, Reported
 from wingbeat._version import __version__
-from wingbeat.errors import FaultList
-from wingbeat.kinematics import Wingbeat, parameter
-from wingbeat.reports import Report, Reported
+from wingbeat.animal.kinematics import Wingbeat, parameter
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.command_limits import command_limits
 from wingbeat.stability.feedback_checks import check_delay, check_late, noise_of, weights_of

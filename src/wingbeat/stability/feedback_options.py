@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from wingbeat.harmonics import SHARES
-from wingbeat.kinematics import ANGLES
+from wingbeat._base.harmonics import SHARES
+from wingbeat.animal.kinematics import ANGLES
 from wingbeat.orbits.options.checks import check_options
 from wingbeat.stability.options import LinearOptions
 

@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat.aero.winds import Wind
 from wingbeat.orbits.problem.problem import PITCH_STATE
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.feedback import Feedback
 from wingbeat.stability.feedback_options import DEFAULTS as SCALES
 from wingbeat.stability.many_options import DEFAULTS, ManyOptions
-from wingbeat.winds import Wind
 
 SAMPLES = 64  # in each beat
 

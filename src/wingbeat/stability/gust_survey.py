@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.errors import FaultList
-from wingbeat.reports import Report, Reported, drawn
+from wingbeat._base.errors import FaultList
+from wingbeat._base.reports import Report, Reported, drawn
+from wingbeat.aero.winds import CosineGust
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.feedback import Feedback, feedback
 from wingbeat.stability.feedback_report import survey_report
 from wingbeat.stability.many_flights import simulate_many
 from wingbeat.stability.many_options import DEFAULTS, ManyOptions
 from wingbeat.stability.segment_feedback import SegmentFeedback
-from wingbeat.winds import CosineGust
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -8,7 +8,7 @@ import numpy as np
 
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import exported
-from wingbeat.kinematics import Wingbeat, unpack
+from wingbeat.animal.kinematics import Wingbeat, unpack
 from wingbeat.mechanics.fixed_steps import fly_beat_in_steps
 from wingbeat.mechanics.flight_model import FlightModel
 

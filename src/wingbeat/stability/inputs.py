@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from wingbeat._base.errors import FaultList, suggest
+from wingbeat._base.harmonics import FIRST_ORDER, HIGHEST_ORDER
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import exported
-from wingbeat.errors import FaultList, suggest
-from wingbeat.harmonics import FIRST_ORDER, HIGHEST_ORDER
-from wingbeat.kinematics import (
+from wingbeat.animal.kinematics import (
     FREE_NAMES,
     Wingbeat,
     flap_angle,
@@ -27,7 +27,7 @@ from wingbeat.kinematics import (
     tip_twist,
     unpack,
 )
-from wingbeat.vehicle import Vehicle
+from wingbeat.animal.vehicle import Vehicle
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Free, LawJumps, Phases

@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base.errors import FaultList, install_extra
+from wingbeat._base.reports import Report, Reported, drawn
 from wingbeat._version import __version__
-from wingbeat.errors import FaultList, install_extra
-from wingbeat.kinematics import Wingbeat, flap_angle
+from wingbeat.animal.kinematics import Wingbeat, flap_angle
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.stroke_map import StrokeMap, stroke_map
 from wingbeat.orbits.problem.problem import PITCH_STATE, OrbitProblem
 from wingbeat.orbits.status import Status
-from wingbeat.reports import Report, Reported, drawn
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.averaged import averaged_jacobian

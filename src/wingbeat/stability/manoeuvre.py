@@ -9,9 +9,10 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat._base.errors import FaultList
 from wingbeat._version import __version__
-from wingbeat.errors import FaultList
-from wingbeat.kinematics import parameter
+from wingbeat.aero.winds import Wind
+from wingbeat.animal.kinematics import parameter
 from wingbeat.orbits.problem.problem import SPEED_LIMITS
 from wingbeat.orbits.status import Status
 from wingbeat.results.flight import Flight, simulate
@@ -28,7 +29,6 @@ from wingbeat.stability.smooth_commands import top_of
 from wingbeat.stability.speed_schedule import Road, road_back, road_to, schedule, steady_start
 from wingbeat.stability.steady_flight import SteadyFlight, scales_of
 from wingbeat.stability.transition import Transition, transition
-from wingbeat.winds import Wind
 
 Progress = Callable[[int, int], None]
 _MOST_BEATS = 300  # the matrix of more takes a gigabyte

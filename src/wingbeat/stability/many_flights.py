@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat.errors import FaultList
-from wingbeat.kinematics import parameter
+from wingbeat._base.errors import FaultList
+from wingbeat.aero.winds import Wind
+from wingbeat.animal.kinematics import parameter
 from wingbeat.mechanics.beat_by_beat import air_at, check_wind
 from wingbeat.mechanics.flights import fly_through
 from wingbeat.orbits.problem.problem import PITCH_STATE
@@ -26,7 +27,6 @@ from wingbeat.stability.inputs import Compensation
 from wingbeat.stability.many_options import DEFAULTS, ManyOptions
 from wingbeat.stability.segment_feedback import SegmentFeedback, bump_parameters
 from wingbeat.stability.smooth_commands import smoother
-from wingbeat.winds import Wind
 
 _STATE = ("z", *PITCH_STATE)
 

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat._base.reports import Report, Reported
 from wingbeat.orbits.problem.problem import PITCH_STATE
-from wingbeat.reports import Report, Reported
 from wingbeat.stability.linear_report import mode_report
 
 # A multiplier whose imaginary part is below this share of its modulus is real.

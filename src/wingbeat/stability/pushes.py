@@ -7,7 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from wingbeat.errors import FaultList
+from wingbeat._base.errors import FaultList
+from wingbeat.aero.winds import CosineGust
 from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import Orbit
@@ -15,7 +16,6 @@ from wingbeat.stability.feedback import Feedback, feedback
 from wingbeat.stability.gust_flight import SAMPLES, GustFlight, fly_gust
 from wingbeat.stability.many_options import DEFAULTS, ManyOptions
 from wingbeat.viewer.pushes import Push
-from wingbeat.winds import CosineGust
 
 # The air's velocity of each gust, forward and up, over the size of the gust.
 DIRECTIONS = {"upward": (0.0, 1.0), "downward": (0.0, -1.0), "head": (-1.0, 0.0), "tail": (1.0, 0.0)}

@@ -11,9 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat.errors import FaultList
-from wingbeat.harmonics import HIGHEST_ORDER
-from wingbeat.kinematics import Wingbeat, parameter, stroke_phase, with_parameters
+from wingbeat._base.errors import FaultList
+from wingbeat._base.harmonics import HIGHEST_ORDER
+from wingbeat.aero.winds import Wind
+from wingbeat.animal.kinematics import Wingbeat, parameter, stroke_phase, with_parameters
 from wingbeat.mechanics.beat_by_beat import air_at, check_wind
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import air_phases, fly_through
@@ -22,7 +23,6 @@ from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.feedback_options import DEFAULTS, FeedbackOptions
 from wingbeat.stability.riccati import periodic_linear_quadratic
-from wingbeat.winds import Wind
 
 _LAWS = ("flap", "pitch")
 _STATE = ("z", "body_pitch", "u", "w", "pitch_rate")

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from wingbeat._base.harmonics import FIRST_ORDER
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import exported
-from wingbeat.harmonics import FIRST_ORDER
-from wingbeat.kinematics import Wingbeat, parameter, unpack, with_parameters
+from wingbeat.animal.kinematics import Wingbeat, parameter, unpack, with_parameters
 from wingbeat.stability.inputs import LAWS, Compensation, law_jumps, laws_at
 
 if TYPE_CHECKING:

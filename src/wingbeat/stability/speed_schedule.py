@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat.kinematics import parameter
+from wingbeat.animal.kinematics import parameter
 from wingbeat.orbits.status import Status
 from wingbeat.results.solving import solve_orbit
 from wingbeat.stability.beat_map import BeatMap

@@ -7,11 +7,11 @@ import time
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
-from wingbeat.errors import WorkerError
+from wingbeat._base.errors import WorkerError
+from wingbeat._workers.affinity import cores_of
+from wingbeat._workers.main import Message
+from wingbeat._workers.process import WorkerProcess
 from wingbeat.studies.units import Outcome, Unit
-from wingbeat.workers.affinity import cores_of
-from wingbeat.workers.main import Message
-from wingbeat.workers.process import WorkerProcess
 
 # There are as many processes as cores, so each has one thread.
 _ONE_THREAD = {

@@ -9,12 +9,12 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from wingbeat._base.errors import FaultList
+from wingbeat._base.nomenclature import plain_unit
 from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.aero.choosing import load_hand
-from wingbeat.errors import FaultList
+from wingbeat.animal.species import Species, load_species
 from wingbeat.models import Model, model_of
-from wingbeat.nomenclature import plain_unit
-from wingbeat.species import Species, load_species
 from wingbeat.studies.form import StudyForm
 from wingbeat.studies.objective import as_inputs
 from wingbeat.studies.recipe import OF_COEFFICIENTS, OF_ELEMENTS

@@ -14,11 +14,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from wingbeat._base.errors import Fault, FaultList, InvalidInputError, WingbeatError
 from wingbeat._version import NUMERICAL_VERSION
-from wingbeat.errors import Fault, FaultList, InvalidInputError, WingbeatError
-from wingbeat.species.settings import NO_SUCH_PATH, settable
-from wingbeat.species_schema import shown
-from wingbeat.species_schema.faults import dotted
+from wingbeat.animal.species.settings import NO_SUCH_PATH, settable
+from wingbeat.animal.species_schema import shown
+from wingbeat.animal.species_schema.faults import dotted
 from wingbeat.studies.form import StudyForm, number
 from wingbeat.studies.makers import makers_of
 from wingbeat.studies.recipe import MOTION, OF_COEFFICIENTS, OF_ELEMENTS, Recipe

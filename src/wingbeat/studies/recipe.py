@@ -10,19 +10,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from wingbeat._base.errors import FaultList, suggest
+from wingbeat._base.nomenclature import plain_unit
 from wingbeat.aero import BladeElement
 from wingbeat.aero.choosing import load_hand
-from wingbeat.errors import FaultList, suggest
-from wingbeat.nomenclature import plain_unit
+from wingbeat.animal.species import Species
+from wingbeat.animal.species.settings import NO_SUCH_PATH, settable
+from wingbeat.animal.species_schema import KEYS, Key, shown, spoken
 from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, parameters_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.aero_record import aero_from
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.provenance import inputs_of, species_from
-from wingbeat.species import Species
-from wingbeat.species.settings import NO_SUCH_PATH, settable
-from wingbeat.species_schema import KEYS, Key, shown, spoken
 from wingbeat.studies.objective import described, from_inputs
 
 # Every point has values of these, whatever is varied; the limit of the payload is that of `Species.with_payload`.

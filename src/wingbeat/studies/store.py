@@ -11,8 +11,8 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from wingbeat._base.errors import FileError
 from wingbeat._version import NUMERICAL_VERSION, __version__
-from wingbeat.errors import FileError
 from wingbeat.studies.database import (
     APPLICATION,
     FORM,

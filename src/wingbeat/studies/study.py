@@ -9,11 +9,12 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from wingbeat.errors import Fault, FaultList, FileError, InvalidInputError
-from wingbeat.nomenclature import label_of, plain_unit
+from wingbeat._base.errors import Fault, FaultList, FileError, InvalidInputError
+from wingbeat._base.nomenclature import label_of, plain_unit
+from wingbeat._workers.affinity import core_count
+from wingbeat.animal.species_schema import shown
 from wingbeat.orbits.many.batch import check_processes
 from wingbeat.results.orbit import Orbit
-from wingbeat.species_schema import shown
 from wingbeat.studies.driver import Progress, Stop, Tally, drive, listening
 from wingbeat.studies.engine import Engine, LocalProcesses
 from wingbeat.studies.form import check_form, read_form
@@ -26,7 +27,6 @@ from wingbeat.studies.salvage import Salvaged, salvage
 from wingbeat.studies.store import Store
 from wingbeat.studies.summary import Summary
 from wingbeat.studies.table import frame_of, save_table, to_dataset, varied_numbers
-from wingbeat.workers.affinity import core_count
 
 if TYPE_CHECKING:
     import pandas as pd

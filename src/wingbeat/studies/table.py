@@ -11,10 +11,10 @@ from datetime import UTC, datetime
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
+from wingbeat._base.errors import FaultList, WingbeatError, install_extra, is_number
+from wingbeat._base.files import write_atomically
+from wingbeat._base.nomenclature import cf, label_of, plain_unit
 from wingbeat._version import NUMERICAL_VERSION
-from wingbeat.errors import FaultList, WingbeatError, install_extra, is_number
-from wingbeat.files import write_atomically
-from wingbeat.nomenclature import cf, label_of, plain_unit
 from wingbeat.results.columns import flat
 from wingbeat.results.netcdf import netcdf_bytes
 from wingbeat.studies.store import Row, Store

@@ -11,6 +11,7 @@ import time
 from collections.abc import Hashable, Iterator, Mapping
 from typing import Any, NamedTuple
 
+from wingbeat._workers.main import Context
 from wingbeat.orbits.many.batch import best_of_guesses, find_with_known
 from wingbeat.orbits.many.warm_start import Answers, Known, kind, numbers_of
 from wingbeat.orbits.solution import Solution
@@ -19,7 +20,6 @@ from wingbeat.orbits.status import Status
 from wingbeat.results.record import orbit_record
 from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
 from wingbeat.studies.units import Outcome, Unit, failed
-from wingbeat.workers.main import Context
 
 # Number of recipes that a process keeps set up.
 _KEPT = 64

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.datasets import flown
-from wingbeat.files import writing
-from wingbeat.style import GREEN, drawing
-from wingbeat.vehicle import Body
+from wingbeat._base.datasets import flown
+from wingbeat._base.files import writing
+from wingbeat._base.style import GREEN, drawing
+from wingbeat.animal.vehicle import Body
 from wingbeat.viewer.scene import scene, tail_of
 from wingbeat.viewer.shape import body_axes
 

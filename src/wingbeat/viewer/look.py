@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.datasets import SHAPE
-from wingbeat.species_schema import COLOURS, EXTREMITIES, TRUNK
-from wingbeat.style import SCHEMATIC
-from wingbeat.vehicle import Body, Tail, Wing
+from wingbeat._base.datasets import SHAPE
+from wingbeat._base.style import SCHEMATIC
+from wingbeat.animal.species_schema import COLOURS, EXTREMITIES, TRUNK
+from wingbeat.animal.vehicle import Body, Tail, Wing
 from wingbeat.viewer.shape import body_axes, tail_corners
 
 if TYPE_CHECKING:

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat.datasets import KIND, climb_text, downstrokes, flown
-from wingbeat.errors import FaultList, FileError
-from wingbeat.nomenclature import NOMENCLATURE, for_people
-from wingbeat.vehicle import Tail
+from wingbeat._base.datasets import KIND, climb_text, downstrokes, flown
+from wingbeat._base.errors import FaultList, FileError
+from wingbeat._base.nomenclature import NOMENCLATURE, for_people
+from wingbeat.animal.vehicle import Tail
 from wingbeat.viewer.look import look_of
 from wingbeat.viewer.pushes import Push
 from wingbeat.viewer.shape import tail_corners

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from wingbeat.vehicle import Body, Tail
+from wingbeat.animal.vehicle import Body, Tail
 
 _WATER = 1000.0  # kg/m3, the density that makes an ellipsoid of the body's mass and inertia
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat.kinematics import Wingbeat
+from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.flights import RTOL, Steps, fly_through
 

@@ -13,7 +13,7 @@ import numpy as np
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementwise_jvp import fusion_barrier
 from wingbeat._jax.exported import exported
-from wingbeat.kinematics import Wingbeat
+from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
 from wingbeat.mechanics.flights import Steps
 from wingbeat.orbits.flight.runge_kutta import ALONG, PLACES, WEIGHTS

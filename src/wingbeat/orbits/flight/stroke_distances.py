@@ -13,12 +13,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat.kinematics import Wingbeat
+from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.animal.vehicle import Vehicle
 from wingbeat.mechanics.clearance import LEADING, TRAILING, flap_angles, lateral_corner, lateral_corners
 from wingbeat.mechanics.wing_motion import strips_of
 from wingbeat.mechanics.wing_shape import Strips
 from wingbeat.orbits.flight.path_maxima import PARTS
-from wingbeat.vehicle import Vehicle
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Samples, StrokeIndices, StrokeRows, StrokeSeries

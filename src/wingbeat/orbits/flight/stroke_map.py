@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat.kinematics import Wingbeat, parameter
+from wingbeat.animal.kinematics import Wingbeat, parameter
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.flight.shooting import Flown, flier
 

@@ -6,8 +6,8 @@ import dataclasses
 import math
 
 from wingbeat.aero.blade_element import BladeElement
+from wingbeat.animal.vehicle import Tail
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.vehicle import Tail
 
 INFLOW, UNSTEADY, UPSTROKE, HAND, TAIL = "inflow", "unsteady", "upstroke_factor", "hand", "tail"
 TERMS = (INFLOW, UNSTEADY, UPSTROKE, HAND, TAIL)

@@ -8,7 +8,8 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
-from wingbeat.errors import FaultList
+from wingbeat._base.errors import FaultList
+from wingbeat._workers.process_map import process_map
 from wingbeat.orbits.many.warm_start import Answers, Group, Known, group_similar, numbers_of
 from wingbeat.orbits.nlp.newton_kkt import ReducedHessian
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
@@ -17,7 +18,6 @@ from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, check_search, correct_guess, find_beside, find_orbit
 from wingbeat.orbits.starts import start_count
 from wingbeat.orbits.status import Status
-from wingbeat.workers.process_map import process_map
 
 T = TypeVar("T")
 R = TypeVar("R")

@@ -11,6 +11,7 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
+from wingbeat._workers.affinity import core_count
 from wingbeat.orbits.many.along import SPEED, Along
 from wingbeat.orbits.nlp.local_search import Candidate, as_candidate, refine
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
@@ -20,7 +21,6 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, certified_optimum, find_optima, find_orbit
 from wingbeat.orbits.status import Status
-from wingbeat.workers.affinity import core_count
 
 T = TypeVar("T")
 R = TypeVar("R")

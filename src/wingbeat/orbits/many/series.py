@@ -6,14 +6,14 @@ import dataclasses
 import functools
 from collections.abc import Sequence
 
-from wingbeat.errors import FaultList
+from wingbeat._base.errors import FaultList
+from wingbeat._workers.process_map import in_processes
 from wingbeat.orbits.many.batch import check_processes
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, better_of
 from wingbeat.orbits.solve import Progress, find_orbit, search_near
 from wingbeat.orbits.status import Status
-from wingbeat.workers.process_map import in_processes
 
 
 def find_series(

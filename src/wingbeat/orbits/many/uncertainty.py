@@ -9,7 +9,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.nomenclature import PRECISION
+from wingbeat._base.nomenclature import PRECISION
+from wingbeat._workers.process_map import in_processes
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.parameters import Parameter
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -17,7 +18,6 @@ from wingbeat.orbits.problem.quantities import Quantity
 from wingbeat.orbits.sensitivity import Sensitivity
 from wingbeat.orbits.solve import Progress, correct_guess, find_orbit, search_near
 from wingbeat.orbits.status import Status
-from wingbeat.workers.process_map import in_processes
 
 # A uniform spread's standard deviation, as a share of its width.
 _UNIFORM = 1 / math.sqrt(12)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat.kinematics import Wingbeat
+from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.orbits.flight.certify import Certificate, certify
 from wingbeat.orbits.nlp.local_search import Candidate, optimality, optimise
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from wingbeat.kinematics import Wingbeat
+from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.orbits.flight.beat import Beat, flown_beat
 from wingbeat.orbits.flight.certify import Certificate
 from wingbeat.orbits.problem.problem import OrbitProblem

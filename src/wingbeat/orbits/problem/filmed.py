@@ -7,10 +7,10 @@ import math
 from collections.abc import Mapping
 from typing import Any, Protocol
 
-from wingbeat.kinematics import Wingbeat
+from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.animal.species import Species
+from wingbeat.animal.vehicle import Vehicle
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.species import Species
-from wingbeat.vehicle import Vehicle
 
 # How far filmed wing pitch may be moved to trim the flight, if too little else is free [rad].
 _TRIM_RANGE = math.radians(20.0)

@@ -6,12 +6,12 @@ import dataclasses
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
+from wingbeat._base.harmonics import harmonic_place
+from wingbeat._base.nomenclature import plain_unit
 from wingbeat.aero import CoefficientModel
-from wingbeat.harmonics import harmonic_place
-from wingbeat.kinematics import FREE_NAMES, Wingbeat, in_use, parameter, with_parameters
-from wingbeat.nomenclature import plain_unit
+from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat, in_use, parameter, with_parameters
+from wingbeat.animal.species import Species
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.species import Species
 
 CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms", "wing": "terms"}
 _AXES = ("x", "y", "z")
@@ -79,7 +79,7 @@ def parameters_of(problem: OrbitProblem) -> list[Parameter]:
 
     The terms of a cambered wing have names such as ``aero.wing.lift_slope``.
 
-    >>> from wingbeat.species import load_species
+    >>> from wingbeat.animal.species import load_species
     >>> found = parameters_of(OrbitProblem(load_species("pigeon"), speed=10.0))
     >>> [p.path for p in found][:3], found[0].value
     (['body.mass', 'body.pitch_inertia', 'body.drag_area'], 0.276)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from wingbeat.errors import FaultList
-from wingbeat.kinematics import FREE_NAMES, parameter
+from wingbeat._base.errors import FaultList
+from wingbeat.animal.kinematics import FREE_NAMES, parameter
+from wingbeat.animal.species import Range, Species
+from wingbeat.animal.species.plausibility import JUDGED
+from wingbeat.animal.vehicle import Air
 from wingbeat.orbits.problem.limits import Constraint
 from wingbeat.orbits.problem.quantities import QUANTITIES
-from wingbeat.species import Range, Species
-from wingbeat.species.plausibility import JUDGED
-from wingbeat.vehicle import Air
 
 _WAY_OUT = "leave out 'plausible', or correct the range in the species file"
 # A fixed number or the Reynolds number may exceed the end of a range by rounding.

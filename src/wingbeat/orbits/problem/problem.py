@@ -10,11 +10,13 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat._base.errors import FaultList, InvalidInputError, suggest
+from wingbeat._base.harmonics import harmonic_place
 from wingbeat.aero import SuFan
 from wingbeat.aero.blade_element import blade_element_of
-from wingbeat.errors import FaultList, InvalidInputError, suggest
-from wingbeat.harmonics import harmonic_place
-from wingbeat.kinematics import ANGLES, FREE_NAMES, Wingbeat, parameter, with_parameters
+from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, Wingbeat, parameter, with_parameters
+from wingbeat.animal.species import Species
+from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.problem.limits import Constraint, WingbeatLimit, read_limits
 from wingbeat.orbits.problem.origin import Origin
@@ -23,8 +25,6 @@ from wingbeat.orbits.problem.plausible import drawn_in, plausible_limits
 from wingbeat.orbits.problem.quantities import Frequency, Quantity, named_objective
 from wingbeat.orbits.problem.report import ReportedProblem
 from wingbeat.orbits.problem.unknowns import Unknowns, check_tilts
-from wingbeat.species import Species
-from wingbeat.vehicle import Air, Vehicle
 
 PATH_NAMES = ("body_pitch", "flap")  # bounded along the whole path; flap is that of arm and hand
 PITCH_STATE = ("body_pitch", "u", "w", "pitch_rate")
@@ -67,7 +67,7 @@ class OrbitProblem(ReportedProblem):
     ------
     InvalidInputError : an impossible speed; unknown names; bounds that are missing, crossed or not finite.
 
-    >>> from wingbeat.species import load_species
+    >>> from wingbeat.animal.species import load_species
     >>> OrbitProblem(load_species("pigeon"), speed=10.0).free[0]
     'frequency'
     """

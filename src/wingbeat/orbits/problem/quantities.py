@@ -14,31 +14,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from wingbeat._base.errors import FaultList, suggest
+from wingbeat._base.nomenclature import NOMENCLATURE, plain, plain_unit
 from wingbeat._jax.config import jnp
-from wingbeat.errors import FaultList, suggest
-from wingbeat.nomenclature import NOMENCLATURE, plain, plain_unit
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.path_maxima import spread
 from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
-from wingbeat.orbits.problem.map_quantities import MAP_QUANTITIES, MapQuantity
+from wingbeat.orbits.problem.map_quantities import MAP_QUANTITIES
 from wingbeat.orbits.problem.quantity import Quantity
 from wingbeat.orbits.problem.springs import SpringCost
-
-__all__ = [
-    "MAP_QUANTITIES",
-    "QUANTITIES",
-    "Frequency",
-    "MapQuantity",
-    "PowerCost",
-    "Quantity",
-    "SpringPower",
-    "named_objective",
-    "named_quantity",
-]
-
-
-def __dir__() -> list[str]:
-    return __all__
 
 
 @dataclass(frozen=True)

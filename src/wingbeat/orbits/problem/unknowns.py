@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat.errors import FaultList
-from wingbeat.vehicle import Vehicle
+from wingbeat._base.errors import FaultList
+from wingbeat.animal.vehicle import Vehicle
 
 
 @dataclass(frozen=True)

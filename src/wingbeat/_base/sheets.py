@@ -1,0 +1,292 @@
+"""The head of a measurement file: ``# key = value`` lines, and the names of columns with their units."""
+
+from __future__ import annotations
+
+import csv
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wingbeat._base.errors import FaultList, FileError
+from wingbeat._base.files import read_text
+
+# A record of 30 s at 10 kHz has some 20 MB.
+MAX_BYTES = 1 << 26
+# A list of forty bad cells helps as much as a longer one.
+MAX_CELL_FAULTS = 40
+# A file needs some twenty constants. More lines than these are not ours, and would fill the memory.
+MAX_CONSTANTS = 1000
+# No instrument gives larger numbers, and their squares would overflow.
+_LARGEST = 1e100
+# What programs write where there is no value, in lower case: pandas, NumPy, MATLAB, R, LabVIEW, spreadsheets.
+NO_VALUE = frozenset(
+    {"", "nan", "-nan", "na", "n/a", "#n/a", "null", "none", "<na>", "1.#qnan", "-1.#ind", "nan(ind)"}
+)
+_SAME = {
+    "n·m": "n m",
+    "n*m": "n m",
+    "nm": "n m",
+    "n.m": "n m",
+    "°": "deg",
+    "degrees": "deg",
+    "seconds": "s",
+    "-": "",
+    "1": "",
+}
+
+
+# What programs and instruments write: a pattern at the beginning, # lines left out, and what to do with the file.
+_COPY_POLAR = (
+    "write its angle, lift and drag as a CSV table with the columns alpha_deg, C_L, C_D, separated by commas"
+)
+_COPY_LOADS = (
+    "write a CSV table with the columns time, normal_force, tangential_force, moment (about mid-chord) and "
+    "alpha_deg, and above it the lines '# speed = ..' and so on, see wingbeat reduce --help"
+)
+_COPY_POINTS = (
+    "wingbeat reads angles, not points: compute the flap angle of each frame and write a CSV table with the "
+    "columns time, flap_deg"
+)
+_KNOWN_FILES = (
+    (r"labview measurement", f"a measurement file of LabVIEW (.lvm); {_COPY_LOADS}"),
+    (r"ati (daq|industrial|net f/t)|.{0,400}?^calibration,ft\d", f"a log of an ATI force sensor; {_COPY_LOADS}"),
+    (
+        r"([^\n]*,)?\s*fx\b[^\n]*\bfy\b[^\n]*\bfz\b",
+        f"a log of a force sensor with the axes Fx, Fy, Fz; {_COPY_LOADS}",
+    ),
+    (r"scorer,|[^\n]*\nbodyparts,", f"points tracked by DeepLabCut; {_COPY_POINTS}"),
+    (r"\w*pt1_x,", f"points tracked by DLTdv; {_COPY_POINTS}"),
+    (r"[^\n]*_ncams,", f"points tracked by Anipose; {_COPY_POINTS}"),
+    (r"[^\n]*(frame_idx|track,)[^\n]*\.score", f"points tracked by SLEAP; {_COPY_POINTS}"),
+    (r"pathfiletype", f"marker points of OpenSim or a motion-capture system (.trc); {_COPY_POINTS}"),
+    (r"xfoil polar\.", f"a polar from an airfoil site (XFOIL, with lines of text above it); {_COPY_POLAR}"),
+    (r"(xfoil|xflr5) ", f"a polar of XFOIL or XFLR5; {_COPY_POLAR}, and its Re in a column reynolds"),
+    (r"!.*(airfoilinfo|numalf)|aerodyn", f"an airfoil table of AeroDyn; {_COPY_POLAR}"),
+    (r"<(!doctype|html)", "a web page, not a table; download the table itself"),
+)
+# Files that hold no text.
+_BINARY = {
+    **dict.fromkeys((".xlsx", ".xls", ".ods"), "a spreadsheet; save its table as CSV"),
+    **dict.fromkeys((".mat", ".h5", ".hdf5"), "a file of MATLAB or HDF5; write its table as CSV (writetable)"),
+    **{".tdms": f"a file of LabVIEW; {_COPY_LOADS}", ".c3d": f"marker points (C3D); {_COPY_POINTS}"},
+}
+# How many characters of a file show what it is.
+_FIRST = 4000
+
+
+class Heading(NamedTuple):
+    """A name, and the unit that follows it in brackets; None without one."""
+
+    name: str
+    unit: str | None
+
+
+class Sheet(NamedTuple):
+    """The parts of a CSV file: constants by key, column names, and cells; constants and cells with their row."""
+
+    file: str
+    constants: dict[str, tuple[int, str]]
+    header_row: int
+    header: list[str]
+    rows: list[tuple[int, str]]
+
+
+def split_unit(text: str) -> Heading:
+    """Return a column name or key without its unit, and the unit.
+
+    >>> split_unit("normal_force [N]")
+    Heading(name='normal_force', unit='N')
+    >>> split_unit("time")
+    Heading(name='time', unit=None)
+    """
+    match = re.fullmatch(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*", text)
+    name, square, round_ = match.groups() if match else (text.strip(), None, None)
+    unit = square if square is not None else round_
+    return Heading(name, None if unit is None else unit.strip())
+
+
+def check_unit(faults: FaultList, where: str, unit: str | None, wanted: str) -> None:
+    """Note a fault if the given unit differs from the unit in which the column is read."""
+    if unit is None:
+        return
+    plain = re.sub(r"\s+", " ", unit.strip().lower().replace("^", "").replace("²", "2").replace("³", "3"))
+    plain = re.sub(r"\s*/\s*", "/", plain)
+    if _SAME.get(plain, plain) == wanted.lower():
+        return
+    rule = f"is not the expected unit, [{wanted}]" if wanted else "is a unit, but this quantity has none"
+    fix = f"convert the numbers to {wanted} and write [{wanted}]" if wanted else "leave the brackets out"
+    faults.add(where, unit, rule, fix)
+
+
+def same_name(text: str) -> str:
+    """Return a name without its unit, in lower case, of letters and digits only: spellings of one name agree.
+
+    >>> same_name("C_L"), same_name("c l [-]"), same_name("Wing Speed (m/s)")
+    ('cl', 'cl', 'wingspeed')
+    """
+    return re.sub(r"[\W_]", "", split_unit(text).name.lower())
+
+
+def seems_to_be(text: str) -> str | None:
+    r"""Return what a file that is not a CSV table seems to be, and what to do with it; None if nothing shows it.
+
+    >>> seems_to_be("a;b;c\n1,5;2;3\n")
+    'a table with semicolons between its columns and decimal commas; write commas between the columns and ...'
+    """
+    lines = [line for line in text[:_FIRST].splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    head = "\n".join(lines).lstrip()
+    for pattern, words in _KNOWN_FILES:
+        if re.match(pattern, head, re.IGNORECASE | re.DOTALL | re.MULTILINE):
+            return words
+    if not lines or "," in lines[0]:
+        return None
+    for sign, name in ((";", "semicolons"), ("\t", "tabs")):
+        if lines[0].strip().count(sign):
+            decimal = any(re.search(r"\d,\d", line) for line in lines[1:])
+            commas = " and decimal commas" if decimal else ""
+            points = " and points in the numbers" if decimal else ""
+            return f"a table with {name} between its columns{commas}; write commas between the columns{points}"
+    if len(lines) > 1 and all(len(line.split()) > 1 for line in lines[:2]):
+        return "a table with spaces between its columns; write commas between the columns"
+    return None
+
+
+def read_sheet(path: str | Path) -> Sheet:
+    """Split a CSV file into its constants (``# name = value``) and its table, without converting numbers.
+
+    Blank rows are left out, and so are rows of commas alone, which spreadsheets write for them.
+
+    Raises
+    ------
+    FileError : the file is missing or cannot be read.
+    InvalidInputError : it is empty, it is of another format, or a constant appears twice in any spelling.
+    """
+    path = Path(path)
+    faults = FaultList()
+    constants: dict[str, tuple[int, str]] = {}
+    given: dict[str, str] = {}
+    table: list[tuple[int, str]] = []
+    try:
+        whole = read_text(path, limit=MAX_BYTES)
+        words = seems_to_be(whole)
+    except FileError:
+        words, whole = _BINARY.get(path.suffix.lower()), path.suffix
+        if words is None or not path.is_file():
+            raise
+    if words:
+        faults.add(path.name, whole.lstrip().partition("\n")[0].strip(), f"this seems to be {words}")
+        faults.raise_if_any()
+    for row, line in enumerate(whole.splitlines(), start=1):
+        text = line.strip()
+        if text.startswith("#"):
+            key, equals, value = text.lstrip("# ").partition("=")
+            name = key.strip()
+            plain = same_name(name)
+            if not equals or not plain or name.startswith("note:"):
+                continue  # a line of text, or of = signs
+            earlier = given.setdefault(plain, name)
+            if name in constants or earlier != name:
+                also = "" if earlier == name else f" (above as {earlier})"
+                faults.add(f"{path.name} row {row}", name, f"appears twice{also}", "keep one")
+            elif len(constants) == MAX_CONSTANTS:
+                rule = f"is one of more than {MAX_CONSTANTS} lines '# name = value'"
+                faults.add(f"{path.name} row {row}", name, rule, "is it the right file?")
+                break
+            else:
+                constants[name] = (row, value.strip())
+        elif text.strip(", \t"):
+            table.append((row, text))
+    if not table and not faults.faults:
+        faults.add(f"{path.name} row 1", "", "the file holds no table", "the first row names the columns")
+    faults.raise_if_any()
+    header = _cells(table[0][1])
+    if all(_is_number(cell) for cell in header):
+        rule = "holds numbers, but the first row of the table must name the columns"
+        faults.add(f"{path.name} row {table[0][0]}", table[0][1], rule, "write the names without # in front")
+    faults.raise_if_any()
+    return Sheet(path.name, constants, table[0][0], header, table[1:])
+
+
+def parse_numbers(
+    faults: FaultList, sheet: Sheet, names: list[str], *, blank: frozenset[str] = frozenset()
+) -> NDArray[np.float64]:
+    """Return the numbers of all rows, shape (rows, columns); a cell that is not a number is noted and becomes NaN.
+
+    Parameters
+    ----------
+    names : the columns' names in messages; the cells of a column with the name "" are not read, and become NaN.
+    blank : the columns where a cell may be empty or one of `NO_VALUE`, such as NA, which gives NaN.
+    """
+    if sheet.rows and not blank and all(names):
+        try:  # the quick way, for files in which nothing is wrong
+            numbers = np.loadtxt([text for _, text in sheet.rows], delimiter=",", ndmin=2, comments=None)
+        except ValueError:
+            numbers = np.empty((0, 0))
+        # Not a number compares as False.
+        if numbers.shape == (len(sheet.rows), len(names)) and (np.abs(numbers) <= _LARGEST).all():
+            return numbers
+    values = np.full((len(sheet.rows), len(names)), np.nan)
+    widths = {len(_cells(text)) for _, text in sheet.rows[:MAX_CELL_FAULTS]}
+    if len(sheet.rows) > 1 and len(widths) == 1 and (width := widths.pop()) != len(names):
+        rule = f"and all others have {width} cells, but the header names {len(names)} columns"
+        row, text = sheet.rows[0]
+        fix = "write decimal points, not commas" if width == 2 * len(names) else "name every column"
+        if all(text.endswith(",") for _, text in sheet.rows):
+            fix = "drop the commas at the ends of the rows"
+        faults.add(f"{sheet.file} row {row}", text, rule, fix)
+        return values
+    enough = len(faults.faults) + MAX_CELL_FAULTS
+    for i, (row, text) in enumerate(sheet.rows):
+        if len(faults.faults) > enough:
+            faults.add(
+                sheet.file, f"{MAX_CELL_FAULTS} faults and more", "too many to list", "is it the right file?"
+            )
+            break
+        cells = _cells(text)
+        if len(cells) != len(names):
+            rule = f"has {len(cells)} cells, but the header names {len(names)} columns"
+            faults.add(f"{sheet.file} row {row}", text, rule, "write decimal points, not commas")
+            continue
+        for k, (name, cell) in enumerate(zip(names, cells, strict=True)):
+            if name and (name not in blank or cell.lower() not in NO_VALUE):
+                values[i, k] = _number(faults, f"{sheet.file} row {row}, column {name}", cell)
+    return values
+
+
+def _cells(text: str) -> list[str]:
+    try:
+        return [cell.strip() for cell in next(csv.reader([text]))]
+    except csv.Error:  # a cell of more than 131072 characters
+        return [text]
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return True
+
+
+def _number(faults: FaultList, where: str, cell: str) -> float:
+    try:
+        number = float(cell)
+    except ValueError:
+        number = None
+    if cell.lower() in NO_VALUE:
+        rule = "has no value" if cell else "is empty"
+        faults.add(where, cell, f"{rule}, but this column needs one in each row", "give the value or drop the row")
+        return np.nan
+    if number is None:
+        faults.add(where, cell, "is not a number", "write one number with a decimal point, or drop the row")
+        return np.nan
+    if not np.isfinite(number):
+        faults.add(where, number, "must be finite", "drop the row or give a value")
+        return np.nan
+    if abs(number) > _LARGEST:
+        faults.add(where, number, "is larger than any measurement", "drop the row or give a value")
+        return np.nan
+    return number

@@ -1,0 +1,257 @@
+"""A bird, a bat or a robot from its mass, wing span and wing area; laws or guesses give all other numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from numbers import Real
+from typing import Any
+
+from wingbeat._base.errors import FaultList, suggest
+from wingbeat.animal.species.deriving import BAT, BIRD, ROBOT, Kind, bat_beat, derive, single
+from wingbeat.animal.species.loading import species_of
+from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.settings import plain
+from wingbeat.animal.species.tail_laws import tail_numbers
+from wingbeat.animal.species_schema import KEYS, Number, Numbers, SpeciesText, check_value, shown, spoken, to_si
+
+
+def _own_name(path: str) -> str:
+    """Return the keyword of a number; it includes the part's name only for a wing's mass and a tail's numbers."""
+    part, _, name = path.rpartition(".")
+    if path == "vehicle.wing.mass" or part == "vehicle.tail":
+        return f"{part.removeprefix('vehicle.')}_{name}"
+    return name
+
+
+# What may be given beside mass, span and area: every number of a species file by its own name.
+_MEASURED = {
+    _own_name(path): (path, key)
+    for key in KEYS
+    if key.path not in ("vehicle.mass", "vehicle.body.mass")
+    for path in key.spellings
+}
+# Limits within which the laws work: shares of the whole mass or the span; wide limits for the rest.
+_SHARES = {"wing_mass": ("mass", 1e-6, 0.5), "semi_span": ("wing_span", 0.01, 1.0)}
+_LIMITS = {"frequency": (1e-3, 1e4), "density": (1e-3, 1e3), "gravity": (1e-3, 1e3)}
+# A span is longer than its chord; one of more than a hundred chords is a slip of units.
+_MOST_CHORDS = 100.0
+
+
+def bird(
+    *,
+    mass: float,
+    wing_span: float,
+    wing_area: float,
+    name: str = "bird",
+    common_name: str = "",
+    scientific_name: str = "",
+    tail: bool = False,
+    **measured: Any,
+) -> Species:
+    """Return a bird from its mass, wing span and wing area.
+
+    The rest follows from published scaling laws. Each such number's source says ``derived``, the law and where it
+    was read; its plausible range is the spread of animals around the law.
+
+    Parameters
+    ----------
+    mass : of the whole bird [kg].
+    wing_span : tip to tip [m].
+    wing_area : both wings and the body between them [m2].
+    name, common_name, scientific_name : its names.
+    tail : whether it gets a tail, spread by 60 degrees, from the laws of `wingbeat.animal.species.tail_laws`.
+    measured : any number of a species file, by its name; it replaces the one from the laws: ``wing_mass``,
+        ``pitch_inertia``, ``semi_span``, ``chord``, ``frequency``, ``flap_amplitude_deg``, ``density``,
+        ``tail_area`` and so on.
+
+    Raises
+    ------
+    InvalidInputError : a number that is not positive or not finite, an area larger than the square of the span, or
+        an unknown name; all faults are listed at once.
+
+    >>> import wingbeat as wb
+    >>> crow = wb.bird(mass=0.3, wing_span=0.62, wing_area=0.06)
+    >>> crow.numbers["vehicle.wing.mass"].source[:38]
+    'derived: 0.0706 m^1.098 at m = 0.3 kg '
+    """
+    size = {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
+    return _species(BIRD, size, (name, common_name, scientific_name), measured, tail=tail)
+
+
+def bat(
+    *,
+    mass: float,
+    wing_span: float,
+    wing_area: float,
+    name: str = "bat",
+    common_name: str = "",
+    scientific_name: str = "",
+    **measured: Any,
+) -> Species:
+    """Return a bat from its mass, wing span and wing area, with twist and fold.
+
+    The rest follows from published scaling laws, as in `bird`. No law of bats' wing mass was found: 7 % of the
+    whole mass for each wing is a guess, and its source says so.
+
+    Parameters
+    ----------
+    mass : of the whole bat [kg].
+    wing_span : tip to tip [m].
+    wing_area : both wings and the body between them [m2].
+    name, common_name, scientific_name : its names.
+    measured : as in `bird`.
+
+    Raises
+    ------
+    InvalidInputError : as in `bird`.
+
+    >>> import wingbeat as wb
+    >>> wb.bat(mass=0.028, wing_span=0.362, wing_area=0.0163).wingbeat.twist_ratio
+    1.6
+    """
+    size = {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
+    return _species(BAT, size, (name, common_name, scientific_name), measured)
+
+
+def robot(
+    *,
+    mass: float,
+    wing_span: float,
+    wing_area: float,
+    frequency_range: tuple[float, float] | None = None,
+    name: str = "robot",
+    common_name: str = "",
+    scientific_name: str = "",
+    **measured: Any,
+) -> Species:
+    """Return a flapping robot from its mass [kg], wing span [m] and wing area [m2], like `bird`.
+
+    The wings are rigid. No law of robots was found. Masses and inertias are scaled by isometry from single robots;
+    the stock frequency is that of a bird of this size. Give the numbers that you know of your robot.
+
+    Parameters
+    ----------
+    mass, wing_span, wing_area, name, common_name, scientific_name, measured : as in `bird`.
+    frequency_range : lowest and highest wingbeat frequency of its motor [Hz]; by default a wide guess,
+        and a warning says so if an orbit is at one of these bounds.
+
+    Raises
+    ------
+    InvalidInputError : as in `bird`, and a frequency range that is not (lowest, highest).
+
+    >>> import wingbeat as wb
+    >>> wb.robot(mass=0.026, wing_span=0.62, wing_area=0.055, frequency_range=(1, 5)).bounds["frequency"]
+    (1.0, 5.0)
+    """
+    size = {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
+    return _species(ROBOT, size, (name, common_name, scientific_name), measured, frequency_range)
+
+
+def _species(
+    kind: Kind,
+    size: dict[str, Any],
+    names: tuple[Any, Any, Any],
+    measured: Mapping[str, Any],
+    frequency_range: Any = None,
+    tail: Any = False,
+) -> Species:
+    faults = FaultList()
+    if not isinstance(tail, bool):
+        faults.add("tail", shown(tail), "must be True or False", "give its numbers as tail_area= and so on")
+    for where, text in zip(("name", "common_name", "scientific_name"), names, strict=True):
+        if (
+            not isinstance(text, str)
+            or not (text.isprintable() and text.strip() == text)
+            or (where == "name" and not text)
+        ):
+            faults.add(where, shown(text), "must be a text on one line", "for example 'jackdaw'")
+    content = SpeciesText(*names, kind.name)
+    _check_size(size, faults)
+    for name, value in measured.items():
+        _put(content.numbers, name, plain(value), size, faults)
+    limits = _checked_range(frequency_range, faults)
+    faults.raise_if_any()
+    mass, span, area = (float(value) for value in size.values())
+    _check_laws(kind, content.numbers, mass, area, faults)
+    faults.raise_if_any()
+    derive(kind, content, mass, span, area, limits)
+    for path, number in tail_numbers(mass).items() if tail else ():
+        content.numbers.setdefault(path, number)
+    content.numbers.written["vehicle.mass"] = "mass", size["mass"]
+    return species_of(content, faults)
+
+
+def _check_size(size: dict[str, Any], faults: FaultList) -> None:
+    mass, span, area = size.values()
+    faults.number("mass", mass, at_least=1e-6, at_most=1e3, unit="kg", fix="give the whole mass in kg")
+    good = faults.number(
+        "wing_span", span, at_least=1e-3, at_most=1e2, unit="m", fix="give the span tip to tip in m"
+    )
+    if (
+        not faults.number("wing_area", area, above=0, unit="m2", fix="give the area of both wings in m2")
+        or not good
+    ):
+        return
+    if area > span * span:
+        faults.add("wing_area", area, f"is larger than the square of the span, {span * span:g} m2", "use m and m2")
+    elif area * _MOST_CHORDS < span * span:
+        faults.add(
+            "wing_area", area, f"is less than {1 / _MOST_CHORDS:g} of the square of the span", "use m and m2"
+        )
+
+
+def _check_laws(kind: Kind, given: Numbers, mass: float, area: float, faults: FaultList) -> None:
+    """Note an area for which the law of bats' amplitude, a logarithm, gives no wingbeat."""
+    if kind is not BAT or "wingbeat.flap_amplitude" in given:
+        return
+    _, amplitude = bat_beat(mass, area)
+    if single(amplitude) <= 0:
+        faults.add(
+            "wing_area", area, "is outside the range of the law for bats' flap_amplitude", "give flap_amplitude="
+        )
+
+
+def _put(numbers: Numbers, name: str, value: Any, size: dict[str, Any], faults: FaultList) -> None:
+    """Add a measured number, or note why it cannot be one."""
+    if name not in _MEASURED:
+        faults.add(spoken(name), shown(value), "is not a number of a species", suggest(name, _MEASURED))
+        return
+    path, key = _MEASURED[name]
+    if not check_value(key, name, value, faults):
+        return
+    if key.path in numbers:
+        faults.add(name, shown(value), f"is given as {numbers.written[key.path][0]} too", "keep one of the two")
+    elif _possible(name, value, size, faults):
+        numbers.put(key, Number(to_si(value, path), key.unit, "given"), name, value)
+
+
+def _possible(name: str, value: Any, size: dict[str, Any], faults: FaultList) -> bool:
+    """Say whether the laws can use a measured number."""
+    if name in _LIMITS:
+        low, high = _LIMITS[name]
+        return faults.number(name, value, at_least=low, at_most=high)
+    if name not in _SHARES or not isinstance(size[_SHARES[name][0]], Real):
+        return True
+    whole, low, high = _SHARES[name]
+    if low * size[whole] <= value <= high * size[whole]:
+        return True
+    faults.add(
+        name,
+        value,
+        f"must be {low:g} to {high:g} times the {whole} of {size[whole]:g}",
+        "give that of one wing, in kg or m",
+    )
+    return False
+
+
+def _checked_range(limits: Any, faults: FaultList) -> tuple[float, float] | None:
+    if limits is None:
+        return None
+    where = "frequency_range"
+    if not isinstance(limits, tuple | list) or len(limits) != 2:
+        faults.add(where, shown(limits), "must be (lowest, highest)", "give both in Hz")
+    elif all([faults.number(where, value, above=0, unit="Hz") for value in limits]):
+        if limits[0] < limits[1]:
+            return float(limits[0]), float(limits[1])
+        faults.add(where, limits, "must have its low end below its high end", "write (lowest, highest)")
+    return None

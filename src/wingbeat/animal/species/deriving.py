@@ -1,0 +1,242 @@
+"""The unmeasured numbers of an animal, its bounds and alternatives, from mass, wing span and wing area."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from wingbeat._base.nomenclature import plain_unit
+from wingbeat.animal.species import scaling
+from wingbeat.animal.species.building import default_of
+from wingbeat.animal.species.plausibility import plausible_of_bats, plausible_of_birds, plausible_of_robots
+from wingbeat.animal.species.scaling import Law
+from wingbeat.animal.species_schema import Alternative, Bound, Number, Numbers, Range, SpeciesText
+from wingbeat.animal.vehicle import Air
+
+_SPEED = 7.0  # m/s, of a bat's stock wingbeat: in the middle of the speeds that the law's spread covers
+# Bounds of the frequency in a search. Two frequencies determine them: the stock one, and that of the cruising law
+# of birds, which depends on size, weight and air. The lower bound is the first factor times the lower frequency;
+# the upper bound is the second factor times the higher one. For a pigeon, the bounds are 1 to 30 Hz. In 63 flights
+# of derived animals and robots (1 g to 10 kg, at 0.5 to 1.6 times the speed at which the lift coefficient is 0.6),
+# the minimum frequency was 0.98 to 1.74 times the frequency of the cruising law.
+_WIDE = 1 / 8, 4.0
+_SU_FAN = "Su et al., arXiv 2302.09602"
+
+
+@dataclass(frozen=True)
+class Kind:
+    """The laws of birds, bats or robots, and guesses where there is no law."""
+
+    name: str
+    wing_length: Law
+    wing_mass: Law
+    pitch_inertia: Law
+    flap_inertia: Law | None
+    aspect_ratios: tuple[tuple[float, float], str]
+    recovery: dict[str, float]
+    recovery_source: str
+    plausible: Callable[[float, float, float], dict[str, Range]]
+
+
+BIRD = Kind(
+    "bird",
+    scaling.BIRD_SEMI_SPAN,
+    scaling.BIRD_WING_MASS,
+    scaling.BIRD_PITCH_INERTIA,
+    scaling.BIRD_FLAP_INERTIA,
+    scaling.BIRD_ASPECT_RATIO,
+    {"span_retraction": 0.3, "twist_ratio": 1.0, "fold_amplitude": 0.0},
+    f"guess: as the pigeon of {_SU_FAN}, who give no retraction",
+    plausible_of_birds,
+)
+BAT = Kind(
+    "bat",
+    scaling.HALF_SPAN,
+    scaling.BAT_WING_MASS,
+    scaling.BAT_PITCH_INERTIA,
+    scaling.BAT_FLAP_INERTIA,
+    scaling.BAT_ASPECT_RATIO,
+    {"span_retraction": 0.0, "twist_ratio": 1.6, "fold_amplitude": math.radians(10)},
+    f"guess: as the bat of {_SU_FAN}",
+    plausible_of_bats,
+)
+ROBOT = Kind(
+    "robot",
+    scaling.HALF_SPAN,
+    scaling.ROBOT_WING_MASS,
+    scaling.ROBOT_PITCH_INERTIA,
+    None,
+    scaling.ROBOT_ASPECT_RATIO,
+    {"span_retraction": 0.0, "twist_ratio": 1.0, "fold_amplitude": 0.0},
+    "guess: rigid wings",
+    plausible_of_robots,
+)
+
+
+def derive(
+    kind: Kind, content: SpeciesText, mass: float, span: float, area: float, frequencies: tuple[float, float] | None
+) -> None:
+    """Fill in what `content` does not give.
+
+    Parameters
+    ----------
+    kind : the kind of animal, with its laws.
+    content : the measured numbers, by path; the others are added to it.
+    mass, span, area : mass of the whole animal [kg], span tip to tip [m], area of both wings [m2].
+    frequencies : bounds of the wingbeat frequency [Hz]; None for wide ones around the stock frequency.
+    """
+    found = _vehicle(kind, content.numbers, mass, span, area) | _air()
+    air = [single(content.numbers.get(path, found[path])) for path in ("air.density", "air.gravity")]
+    found |= _wingbeat(kind, mass, span, area, *air)
+    for path, number in found.items():
+        content.numbers.setdefault(path, number)
+    stock = content.numbers["wingbeat.frequency"]
+    usual = [single(stock)]
+    if "wingbeat.frequency" in found and stock is found["wingbeat.frequency"]:
+        usual.append(scaling.BIRD_FREQUENCY(mass, span, area, *air))
+    content.free, content.path = _bounds(usual, frequencies)
+    content.written = {name: (f"free.{name}", list(bound.bounds)) for name, bound in content.free.items()}
+    content.plausible = kind.plausible(mass, area / span, single(content.numbers["air.viscosity"]))
+    content.alternatives = _alternatives(kind, mass)
+
+
+def _shoulder(mass: float, span: float) -> Number:
+    half_width = scaling.BODY_HALF_WIDTH.number(mass)
+    beside = f"guess: level with the body's centre of mass; half the body's width to the side, {half_width.source}"
+    return Number((0.0, single(half_width), 0.0), "m", beside, (-0.02 * span, 0.08 * span))
+
+
+def _vehicle(kind: Kind, given: Numbers, mass: float, span: float, area: float) -> dict[str, Number]:
+    length = given.get("vehicle.wing.semi_span", kind.wing_length.number(span))
+    wing_mass = given.get("vehicle.wing.mass", kind.wing_mass.number(mass))
+    drag = scaling.BODY_DRAG_AREA.number(mass)
+    drag_source = f"{_SU_FAN}, have no body drag; top of the range {drag.source}"
+    if kind.flap_inertia is None:
+        exponent = scaling.ROBOT_MASS_EXPONENT.number()
+    else:
+        exponent = scaling.mass_exponent(kind.flap_inertia, single(wing_mass), single(length))
+    vertical = "guess: near vertical is the best in cruise (Parslew 2015, J R Soc Interface 12:20140953, on birds)"
+    return {
+        "vehicle.mass": _whole(kind, mass, span),
+        "vehicle.body.pitch_inertia": kind.pitch_inertia.number(mass),
+        "vehicle.body.drag_area": Number(0.0, "m2", drag_source, (0.0, _range(drag)[1])),
+        "vehicle.wing.semi_span": length,
+        "vehicle.wing.chord": _chord(kind, span, area),
+        "vehicle.wing.mass": wing_mass,
+        "vehicle.wing.mass_exponent": exponent,
+        "vehicle.wing.shoulder": _shoulder(mass, span),
+        "vehicle.wing.stroke_plane_angle": _guess("vehicle.wing.stroke_plane_angle", None, 45, 110, vertical),
+    }
+
+
+def _whole(kind: Kind, mass: float, span: float) -> Number:
+    """Return the given mass, with a range only if no bird of this span has it: what somebody measured is exact."""
+    if kind is not BIRD:
+        return Number(mass, "kg", "given")
+    usual = scaling.BIRD_MASS.number(span)
+    low, high = _range(usual)
+    if low <= mass <= high:
+        return Number(mass, "kg", "given")
+    return Number(mass, "kg", f"given; range {usual.source}", (low, high))
+
+
+def _chord(kind: Kind, span: float, area: float) -> Number:
+    chord = scaling.MEAN_CHORD.number(span, area)
+    (low, high), whose = kind.aspect_ratios
+    ratio = span * span / area
+    if low <= ratio <= high:
+        return chord
+    odd = f"; range: aspect ratio {low:g} to {high:g}, {whose}"
+    return chord._replace(source=chord.source + odd, range=(span / high, span / low))
+
+
+def _air() -> dict[str, Number]:
+    standard, limits = Air(), {"density": (0.8, 1.35), "viscosity": (1.2e-5, 2.0e-5), "gravity": (9.78, 9.84)}
+    source = "guess: standard air at sea level"
+    return {
+        f"air.{name}": Number(value, plain_unit(name), source, limits[name])
+        for name, value in dataclasses.asdict(standard).items()
+    }
+
+
+def _wingbeat(kind: Kind, mass: float, span: float, area: float, density: Any, gravity: Any) -> dict[str, Number]:
+    if kind is BAT:
+        frequency, amplitude = bat_beat(mass, area)
+    else:
+        law = scaling.BIRD_FREQUENCY if kind is BIRD else scaling.ROBOT_FREQUENCY
+        frequency = law.number(mass, span, area, density, gravity)
+        amplitude = scaling.BIRD_FLAP_AMPLITUDE.number(span)
+        if kind is ROBOT:
+            amplitude = scaling.ROBOT_FLAP_AMPLITUDE.number()
+    ranges = {"span_retraction": (0.0, 0.5), "twist_ratio": (1.0, 2.0), "fold_amplitude": (0.0, math.radians(30))}
+    found = {
+        f"wingbeat.{name}": Number(value, plain_unit(name), kind.recovery_source, ranges[name])
+        for name, value in kind.recovery.items()
+    }
+    return found | {
+        "wingbeat.frequency": frequency,
+        "wingbeat.flap_mean": _guess("wingbeat.flap_mean", 0, -30, 30),
+        "wingbeat.flap_amplitude": amplitude,
+        "wingbeat.pitch_mean": _guess("wingbeat.pitch_mean", 8, -30, 40),
+        "wingbeat.pitch_amplitude": _guess("wingbeat.pitch_amplitude", 15, 0, 60),
+        "wingbeat.wrist": Number(0.5, "1", "guess: half the span; without a fold it has no effect", (0.3, 0.7)),
+    }
+
+
+def bat_beat(mass: float, area: float) -> tuple[Number, Number]:
+    """Return frequency [Hz] and flap amplitude [rad] of a bat of this mass [kg] and wing area [m2]."""
+    return scaling.BAT_FREQUENCY.number(mass, _SPEED), scaling.BAT_FLAP_AMPLITUDE.number(_SPEED, area)
+
+
+def _guess(path: str, degrees: float | None, low: float, high: float, source: str = "first guess") -> Number:
+    value = default_of(path) if degrees is None else math.radians(degrees)
+    return Number(value, "rad", source, (math.radians(low), math.radians(high)))
+
+
+def _bounds(usual: list[float], given: tuple[float, float] | None) -> tuple[dict[str, Bound], dict[str, Bound]]:
+    """Return the bounds of the free parameters and those along the path; `usual` holds typical frequencies [Hz]."""
+    low, high = _WIDE[0] * min(usual), _WIDE[1] * max(usual)
+    frequency = Bound((low, high), "guess: an eighth to four times what the laws of the frequency give", True)
+    if given is not None:
+        frequency = Bound(given, "given")
+
+    def angles(low: float, high: float, reason: str) -> Bound:
+        return Bound((math.radians(low), math.radians(high)), reason, True)
+
+    reach = "the shoulder's reach, a guess"
+    free = {
+        "frequency": frequency,
+        "flap_mean": angles(-30, 30, reach),
+        "flap_amplitude": angles(5, 70, "guess: wide around what animals show"),
+        "pitch_mean": angles(-30, 40, reach),
+        "pitch_amplitude": angles(0, 60, reach),
+    }
+    path = {
+        "body_pitch": angles(-60, 60, "steeper is a manoeuvre, not forward flight"),
+        "flap": angles(-90, 90, f"{reach}: upright above and below; no measurement found"),
+    }
+    return free, path
+
+
+def _alternatives(kind: Kind, mass: float) -> dict[str, Alternative]:
+    drag, rigid = Numbers(), Numbers()
+    drag["vehicle.body.drag_area"] = scaling.BODY_DRAG_AREA.number(mass)
+    found = {"body-drag": Alternative("the drag of the body, which Su et al. leave out; the law of birds", drag)}
+    if kind is BIRD:
+        rigid["wingbeat.span_retraction"] = Number(0.0, "1", "guess: the lower end of its range")
+        found["rigid-span"] = Alternative("a wing that keeps its span, to see how much depends on the guess", rigid)
+    return found
+
+
+def single(number: Number) -> float:
+    """Return the value of a number that is not a list."""
+    assert not isinstance(number.value, tuple), "of the numbers here the chord alone may be a list"
+    return number.value
+
+
+def _range(number: Number) -> tuple[float, float]:
+    assert number.range is not None, "every law has a spread"
+    return number.range

@@ -1,0 +1,333 @@
+"""The record of a species, and the two ways to change its numbers."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, cast
+
+from wingbeat._base.errors import FaultList, suggest
+from wingbeat._base.nomenclature import plain_unit
+from wingbeat._base.reports import Report, Reported
+from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.animal.species.building import (
+    BODY,
+    WHOLE,
+    WING,
+    build_records,
+    check_parts,
+    complete_parts,
+    default_of,
+    derive_body,
+    in_order,
+    words,
+)
+from wingbeat.animal.species.muscle_laws import muscle_numbers
+from wingbeat.animal.species.plausibility import ACTIVATION, UNKNOWN, range_of, range_of_tilt
+from wingbeat.animal.species.report import species_report
+from wingbeat.animal.species.settings import plain, settable
+from wingbeat.animal.species.shape import Shape
+from wingbeat.animal.species.tail_laws import tail_numbers
+from wingbeat.animal.species.warnings import find_warnings
+from wingbeat.animal.species_schema import (
+    KEYS,
+    Alternative,
+    Number,
+    Numbers,
+    Range,
+    check_value,
+    to_si,
+)
+from wingbeat.animal.vehicle import Air, Vehicle
+
+_BY_HAND = "set by hand"
+_SET_BY_HAND = f"{_BY_HAND} in place of"
+
+
+@dataclass(frozen=True)
+class Species(Reported):
+    """An animal or a robot, its stock wingbeat and the air it flies in.
+
+    Parameters
+    ----------
+    name, common_name, scientific_name : its names.
+    kind : ``"bird"``, ``"bat"`` or ``"robot"``; empty if the file does not say it.
+    vehicle, wingbeat, air : the records; in the wingbeat, the free parameters hold a first guess.
+    free : the free parameters of the wingbeat.
+    bounds : lowest and highest value of each free parameter, in SI units and radians.
+    guessed_bounds : the names in `free` and in `path_bounds` whose bounds are a guess.
+    path_bounds : limits along the whole path: ``body_pitch``, and ``flap`` of arm and hand [rad].
+    reasons : the reason for each bound.
+    numbers : every number by its path, with unit, source and plausible range.
+    alternatives : named sets of other numbers.
+    plausible : plausible ranges of numbers of the flown wingbeat, by their names in the record; see
+        `plausible_range`.
+    warnings : what looks wrong, such as a number outside its plausible range.
+    shape : how it looks, for drawings alone; None if the file does not say it.
+
+    >>> from wingbeat.animal.species import load_species
+    >>> pigeon = load_species("pigeon")
+    >>> round(pigeon.vehicle.mass, 3), pigeon.vehicle.wing.semi_span
+    (0.316, 0.279)
+    >>> heavier = pigeon.with_values({"wing.mass": 0.025})
+    >>> round(heavier.vehicle.mass, 3)
+    0.326
+    """
+
+    name: str
+    common_name: str
+    scientific_name: str
+    kind: str
+    vehicle: Vehicle
+    wingbeat: Wingbeat
+    air: Air
+    free: tuple[str, ...]
+    bounds: dict[str, tuple[float, float]]
+    guessed_bounds: frozenset[str]
+    path_bounds: dict[str, tuple[float, float]]
+    reasons: dict[str, str]
+    numbers: dict[str, Number]
+    alternatives: dict[str, Alternative]
+    plausible: dict[str, Range]
+    warnings: tuple[str, ...]
+    shape: Shape | None = None
+
+    def plausible_range(self, name: str, speed: float) -> Range:
+        """Return the plausible range of a number at a flight speed; both ends are None if nothing is known.
+
+        Parameters
+        ----------
+        name : as in the record's ``plausibility``; for a parameter of the wingbeat, the species' own range applies.
+        speed : of the flight [m/s].
+
+        >>> from wingbeat.animal.species import load_species
+        >>> load_species("bat").plausible_range("strouhal", 10.0)[:2]
+        (0.2, 0.4)
+        >>> load_species("bat").plausible_range("strouhal", 2.0)[:2]
+        (None, None)
+        """
+        if name == "tail_tilt":
+            return range_of_tilt(self.numbers)
+        if f"wingbeat.{name}" in self.numbers:
+            return range_of(self.numbers[f"wingbeat.{name}"])
+        known = self.plausible.get(name, ACTIVATION if name == "peak_activation" else None)
+        if known is None:
+            return Range(None, None, plain_unit(name), UNKNOWN)
+        if known.speeds is None or known.speeds[0] <= speed <= known.speeds[1]:
+            return known
+        slowest, fastest = known.speeds
+        where = f"nothing is known at {speed:g} m/s, only from {slowest:.3g} to {fastest:.3g} m/s"
+        return Range(None, None, known.unit, f"{where}: {known.source}", known.speeds)
+
+    def _report(self) -> Report:
+        return species_report(self)
+
+    def with_values(self, values: Mapping[str, Any]) -> Species:
+        """Return this species with some numbers set.
+
+        Nothing else changes, so a new wing mass changes the whole mass.
+
+        Parameters
+        ----------
+        values : paths as in the orbit record (``wing.mass``, ``wingbeat.twist_ratio``, ``air.density``) and their
+            values in SI units; the value of an angle is in degrees if its path ends in ``_deg``.
+
+        Raises
+        ------
+        InvalidInputError : an unknown path, a path given twice, a wrong type or shape, or an impossible value.
+        """
+        faults, given = FaultList(), Numbers()
+        for path, value in values.items():
+            value = plain(value)
+            key = settable(path, value, faults)
+            if key is None or not check_value(key, path, value, faults):
+                continue
+            if key.path in given:
+                other = given.written[key.path][0]
+                faults.add(path, value, f"is given as {other} too", "keep one of the two")
+                continue
+            old = self.numbers.get(key.path)
+            number = Number(to_si(value, path), key.unit, self._by_hand(key.path), old and old.range)
+            given.put(key, number, path, value)
+        return self._rebuilt(self.numbers | given, given, faults)
+
+    def with_record(self, record: Vehicle | Wingbeat) -> Species:
+        """Return this species with its vehicle or its stock wingbeat replaced, and its `numbers` to match.
+
+        Parameters
+        ----------
+        record : a vehicle or a wingbeat.
+        """
+        section, parts = "wingbeat", {"wingbeat": record}
+        if isinstance(record, Vehicle):
+            section, parts = "vehicle", {"vehicle": record, **{f"vehicle.{n}": r for n, r in vars(record).items()}}
+        numbers = dict(self.numbers)
+        for key in KEYS:
+            part, _, name = key.path.rpartition(".")
+            if part not in parts:
+                continue
+            old, value = numbers.pop(key.path, None), getattr(parts[part], name, None)
+            if old is not None and value == old.value:
+                numbers[key.path] = old
+            elif value is not None and (
+                old is not None or value != default_of(key.path)
+            ):  # None: of a part that it lacks
+                numbers[key.path] = Number(value, key.unit, self._by_hand(key.path), old and old.range)
+        complete_parts(numbers)
+        changed = dataclasses.replace(self, **{section: record})
+        if changed.vehicle.tail is None and not changed.wingbeat.tail_tilt:
+            numbers.pop("wingbeat.tail_tilt", None)
+        return dataclasses.replace(changed, numbers=in_order(numbers))
+
+    def is_set_by_hand(self, path: str) -> bool:
+        """Return whether a number was set, by `with_values` or ``--set``, after the species was made.
+
+        Parameters
+        ----------
+        path : of the number.
+        """
+        return path in self.numbers and self.numbers[path].source.startswith(_BY_HAND)
+
+    def _by_hand(self, path: str) -> str:
+        """Return the source of a number that is set in place of this species' own."""
+        old = self.numbers.get(path)
+        if old is None:
+            return _BY_HAND
+        if old.source.startswith(_SET_BY_HAND):
+            return old.source
+        return f"{_SET_BY_HAND} {words(path, old)}" + (f": {old.source}" if old.source else "")
+
+    def with_payload(self, payload: float) -> Species:
+        """Return this species with a load at the body's centre of mass; the body is heavier, nothing else changes.
+
+        Parameters
+        ----------
+        payload : mass of the load [kg].
+
+        Raises
+        ------
+        InvalidInputError : a payload that is negative, not finite, or not a number.
+
+        >>> from wingbeat.animal.species import load_species
+        >>> round(load_species("pigeon").with_payload(0.03).vehicle.mass, 3)
+        0.346
+        """
+        faults = FaultList()
+        faults.number("payload", payload, at_least=0, unit="kg", fix="0 is no load")
+        faults.raise_if_any()
+        return self.with_values({"body.mass": self.vehicle.body.mass + payload}) if payload else self
+
+    def with_tail(self) -> Species:
+        """Return this species with the tail that laws of birds give for its mass, spread by 60 degrees.
+
+        The sources of its numbers say ``derived``; see `animal.species.tail_laws`. The mass does not change.
+
+        Raises
+        ------
+        InvalidInputError : the changed numbers do not make a valid vehicle.
+
+        >>> from wingbeat.animal.species import load_species
+        >>> round(load_species("pigeon").with_tail().vehicle.tail.arm, 3)
+        0.164
+        """
+        return self.with_derived(tail_numbers(self.vehicle.mass))
+
+    def with_muscle(self) -> Species:
+        """Return this species with the flight muscle that laws give for its mass.
+
+        The sources of its numbers say ``derived``; see `animal.species.muscle_laws`. The mass does not change.
+
+        Raises
+        ------
+        InvalidInputError : its kind is neither bird nor bat.
+
+        >>> from wingbeat.animal.species import load_species
+        >>> round(load_species("pigeon").with_muscle().vehicle.muscle.mass, 4)
+        0.0442
+        """
+        faults = FaultList()
+        if self.kind not in ("bird", "bat"):
+            fix = 'write kind = "bird" or kind = "bat" into its file, or give the numbers muscle.* yourself'
+            faults.add("kind", self.kind, "has no laws of muscle", fix)
+        faults.raise_if_any()
+        return self.with_derived(muscle_numbers(self.vehicle.mass, self.kind == "bat"))
+
+    def with_derived(self, numbers: Mapping[str, Number]) -> Species:
+        """Return this species with numbers that laws gave, with their own sources and ranges.
+
+        Parameters
+        ----------
+        numbers : by their paths.
+
+        Raises
+        ------
+        InvalidInputError : the changed numbers do not make a valid vehicle.
+        """
+        found = Numbers()
+        found.update(numbers)
+        return self._rebuilt(self.numbers | found, found, FaultList())
+
+    def with_alternative(self, name: str) -> Species:
+        """Return this species with the numbers of one of its `alternatives`.
+
+        Heavier wings make a lighter body, unless the alternative also sets the mass of the body or of the whole.
+
+        Parameters
+        ----------
+        name : of the alternative.
+
+        Raises
+        ------
+        InvalidInputError : there is no alternative of this name.
+        """
+        faults = FaultList()
+        if name not in self.alternatives:
+            fix = suggest(str(name), self.alternatives) if self.alternatives else f"{self.name} has none"
+            faults.add("alternative", name, "is unknown", fix)
+            faults.raise_if_any()
+        return self._patched(self.alternatives[name].numbers, faults)
+
+    def _patched(self, patch: Numbers, faults: FaultList) -> Species:
+        numbers = dict(self.numbers)
+        for path, number in patch.items():
+            old = numbers.get(path)
+            numbers[path] = number if number.range else number._replace(range=old and old.range)
+        if BODY not in patch and {WHOLE, WING} & patch.keys():
+            derive_body(numbers, patch, faults)
+        return self._rebuilt(numbers, patch, faults)
+
+    def _rebuilt(self, numbers: dict[str, Number], given: Numbers, faults: FaultList) -> Species:
+        """Return a copy with other numbers; records are checked, whole mass and warnings computed again."""
+        complete_parts(numbers)
+        check_parts(numbers, faults)
+        records = build_records(numbers, given, faults)
+        faults.raise_if_any()
+        numbers = in_order(numbers)
+        mass, whole = records["vehicle"].mass, numbers[WHOLE]
+        if not math.isclose(mass, cast(float, whole.value), rel_tol=1e-12):
+            numbers = numbers | {WHOLE: whole._replace(value=mass, source="body.mass and both wings")}
+        changed = dataclasses.replace(self, numbers=numbers, **records)
+        return dataclasses.replace(changed, warnings=find_warnings(changed))
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return everything as plain numbers, lists and texts, fit for JSON.
+
+        ``vehicle``, ``wingbeat`` and ``air`` are as in an orbit record, except that the wingbeat has every law.
+        """
+        plain = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
+        for record in ("vehicle", "wingbeat", "air"):
+            plain[record] = dataclasses.asdict(plain[record])
+        plain["vehicle"] = {part: record for part, record in plain["vehicle"].items() if record is not None}
+        plain["guessed_bounds"] = sorted(self.guessed_bounds)
+        plain["shape"] = self.shape and self.shape.drawn() | {"numbers": self.shape.numbers}
+        return _jsonable(plain)
+
+
+def _jsonable(value: Any) -> Any:
+    if hasattr(value, "_asdict"):
+        value = value._asdict()
+    if isinstance(value, dict):
+        return {key: _jsonable(item) for key, item in value.items()}
+    return [_jsonable(item) for item in value] if isinstance(value, tuple | list) else value

@@ -1,0 +1,191 @@
+"""The shape of a species file as pydantic models, made from the list of keys, and as a JSON schema."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Callable, Iterable
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, TypeAdapter, create_model
+
+from wingbeat.animal.species_schema.keys import (
+    COLOUR,
+    COVERS,
+    FREE,
+    KEYS,
+    LOOKS,
+    PARTS,
+    PATH,
+    PLAUSIBLE,
+    SHAPE,
+    Key,
+)
+
+_STRICT = ConfigDict(strict=True, extra="forbid")
+_Finite = Annotated[float, Field(allow_inf_nan=False)]
+_Pair = Annotated[list[_Finite], Field(min_length=2, max_length=2)]
+# Tags appear in pydantic's error paths; the blank keeps them apart from any key of a file.
+TAGS = NUMBER, LIST, TABLE = " number", " list", " table"
+
+KINDS = ("bird", "bat", "robot")
+NUMBER_FIELDS = ["value", "unit", "source", "range"]
+
+
+def _kind(value: Any) -> str:
+    return TABLE if isinstance(value, dict) else LIST if isinstance(value, list) else NUMBER
+
+
+_SHAPES: dict[str, Any] = {
+    "number": _Finite,
+    "stations": Annotated[
+        Annotated[_Finite, Tag(NUMBER)] | Annotated[list[_Finite], Field(min_length=2), Tag(LIST)],
+        Discriminator(_kind),
+    ],
+    "vector": Annotated[list[_Finite], Field(min_length=3, max_length=3)],
+    "list": list[_Finite],
+    "edge": Annotated[list[_Finite], Field(min_length=2)],
+    "cover": Literal[COVERS],
+    "colour": Annotated[str, Field(pattern=f"^{COLOUR}$")],
+}
+ADAPTERS = {shape: TypeAdapter(kind, config=ConfigDict(strict=True)) for shape, kind in _SHAPES.items()}
+
+
+def _bare_or_table(bare: Any, table: type[BaseModel]) -> Any:
+    def kind(value: Any) -> str:
+        return TABLE if isinstance(value, dict) else NUMBER
+
+    return Annotated[Annotated[bare, Tag(NUMBER)] | Annotated[table, Tag(TABLE)], Discriminator(kind)]
+
+
+@functools.cache
+def _sourced(shape: str) -> Any:
+    """Return the type of a number: bare, or a table with unit, source and plausible range."""
+    plausible = Field(default=None, description="lowest and highest plausible value")
+    kinds = [(_SHAPES[shape], ...), (str, ""), (str, ""), (_Pair, plausible)]
+    fields: dict[str, Any] = dict(zip(NUMBER_FIELDS, kinds, strict=True))
+    table = create_model(f"Sourced_{shape}", __config__=_STRICT, **fields)
+    return _bare_or_table(_SHAPES[shape], table)
+
+
+class BoundTable(BaseModel):
+    """Bounds with their unit and reason."""
+
+    model_config = _STRICT
+    bounds: _Pair
+    unit: str = ""
+    reason: str = ""
+    guessed: bool = Field(default=False, description="true: a warning names this bound if an orbit is at it")
+
+
+class RangeTable(BaseModel):
+    """A plausible range, open at an end that is not given, with its unit and source."""
+
+    model_config = _STRICT
+    low: _Finite | None = None
+    high: _Finite | None = None
+    unit: str = ""
+    source: str = ""
+    speeds: _Pair | None = Field(
+        default=None,
+        description="lowest and highest flight speed at which this range applies [m/s]; all speeds if not given",
+    )
+
+
+def _table(name: str, fields: dict[str, Any], required: list[str], **extra: Any) -> type[BaseModel]:
+    """Return a model in which all fields are optional; only the JSON schema marks the required ones.
+
+    The module `reading` notes missing fields, because an angle may have either of two names.
+    """
+    rules = [{"oneOf": [{"required": [n]} for n in names.split()]} for names in required]
+    schema: dict[str, Any] = ({"allOf": rules} if rules else {}) | extra
+    config = ConfigDict(strict=True, extra="forbid", json_schema_extra=schema)
+    return create_model(name, __config__=config, **fields)
+
+
+def _leaves(keys: Iterable[Key], kind_of: Callable[[Key], Any]) -> dict[str, Any]:
+    fields: dict[str, Any] = {}
+    for key in keys:
+        kind = kind_of(key)
+        for path in key.spellings:
+            unit = "deg" if path != key.path else key.unit
+            text = f"{key.meaning} [{unit}]" if unit else key.meaning
+            fields[path.rsplit(".", 1)[1]] = (kind, Field(default=None, description=text))
+    return fields
+
+
+def _bounded(_: Key) -> Any:
+    return _bare_or_table(_Pair, BoundTable)
+
+
+def _section(
+    prefix: str, complete: bool, inner: dict[str, Any] | None = None, optional: tuple[str, ...] = ()
+) -> Any:
+    """Return the field of one table. TOML has no null, so an absent table is simply not checked.
+
+    A complete table must have those tables of `inner` that are not `optional`.
+    """
+    own = [key for key in KEYS if key.path.rpartition(".")[0] == prefix]
+    required = [" ".join(p.rpartition(".")[2] for p in key.spellings) for key in own if key.required]
+    name = prefix.replace(".", " ").title().replace(" ", "") + ("" if complete else "Change")
+    inner = inner or {}
+    required += [part for part in inner if part not in optional]
+    return (
+        _table(name, _leaves(own, lambda key: _sourced(key.shape)) | inner, required if complete else []),
+        None,
+    )
+
+
+def _sections(complete: bool) -> dict[str, Any]:
+    inner = {part: _section(f"vehicle.{part}", complete) for part in ("body", "wing", *PARTS)}
+    sections = {"vehicle": _section("vehicle", complete, inner, tuple(PARTS))}
+    return sections | {part: _section(part, complete) for part in ("wingbeat", "air")}
+
+
+def _shape() -> Any:
+    """Return the field of the table that says how the animal looks; its texts stand alone, without a source."""
+    colours = [key for key in LOOKS if key.part == "colours"]
+    inner = {"colours": (_table("Colours", _leaves(colours, _bare), [key.name for key in colours]), None)}
+    own = _leaves([key for key in LOOKS if key not in colours], _bare)
+    numbers = _leaves(SHAPE, lambda key: _sourced(key.shape))
+    required = ["cover", *(key.name for key in SHAPE if key.required), "colours"]
+    return _table("Shape", own | numbers | inner, required), None
+
+
+def _bare(key: Key) -> Any:
+    return _SHAPES[key.shape]
+
+
+_Alternative = create_model(
+    "Alternative",
+    __config__=_STRICT,
+    reason=(str, Field(default="", description="one line: why to try this")),
+    **_sections(complete=False),
+)
+SpeciesFile = _table(
+    "SpeciesFile",
+    {
+        "name": (str, Field(default=None, min_length=1)),
+        "common_name": (str, ""),
+        "scientific_name": (str, ""),
+        "kind": (Literal[KINDS], Field(default=None, description="kind of flyer; selects the scaling laws")),
+        **_sections(complete=True),
+        "free": (_table("Free", _leaves(FREE, _bounded), []), None),
+        "path": (_table("Path", _leaves(PATH, _bounded), []), None),
+        "plausible": (_table("Plausible", _leaves(PLAUSIBLE, lambda _: RangeTable), []), None),
+        "shape": _shape(),
+        "alternatives": (dict[str, _Alternative], None),
+    },
+    ["vehicle", "wingbeat"],
+    title="wingbeat species file",
+    description="Values are in SI units and radians; a key that ends in _deg is in degrees. Give either "
+    "vehicle.mass or vehicle.body.mass.",
+)
+
+
+def json_schema() -> dict[str, Any]:
+    """Return the JSON schema of a species file, for editors that complete and check TOML.
+
+    >>> json_schema()["title"]
+    'wingbeat species file'
+    """
+    return SpeciesFile.model_json_schema()

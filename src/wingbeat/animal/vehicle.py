@@ -1,0 +1,249 @@
+"""Records of body, wing, tail, vehicle and air, in SI units; each checks its numbers."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+from wingbeat._base.errors import FaultList
+from wingbeat._jax.config import register_record
+from wingbeat.animal.actuators import Drive, Motor, Muscle, Springs
+
+
+@register_record
+@dataclass(frozen=True)
+class Body:
+    """The body without its wings.
+
+    Parameters
+    ----------
+    mass : mass without wings [kg].
+    pitch_inertia : moment of inertia about the pitch axis through its own centre of mass [kg m2].
+    drag_area : drag coefficient times frontal area [m2]; 0, as in the paper, means no body drag.
+
+    Raises
+    ------
+    InvalidInputError : a mass or inertia that is not positive, a negative drag area, a number that is not finite.
+
+    >>> import wingbeat as wb
+    >>> body = wb.Body(mass=0.276, pitch_inertia=3.6e-4, drag_area=5e-4)
+    >>> round(wb.Vehicle(body, wb.Wing(semi_span=0.279, chord=0.112, mass=0.020)).mass, 3)
+    0.316
+    """
+
+    mass: float
+    pitch_inertia: float
+    drag_area: float = 0.0
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        faults.number("body.mass", self.mass, above=0, unit="kg", fix="give the mass without the wings")
+        faults.number("body.pitch_inertia", self.pitch_inertia, above=0, unit="kg m2")
+        faults.number("body.drag_area", self.drag_area, at_least=0, unit="m2", fix="0 means no body drag")
+        faults.raise_if_any()
+
+
+@register_record
+@dataclass(frozen=True)
+class Wing:
+    """One wing (the left one; the right one is its mirror image).
+
+    Parameters
+    ----------
+    semi_span : length from shoulder to tip at mid-downstroke [m].
+    chord : chord [m], one number or a tuple at equally spaced stations from root to tip.
+    mass : mass of one wing [kg].
+    mass_exponent : exponent p in the strip masses ``(1 - s/L)**p``; 0 is a uniform wing.
+    shoulder : position of the shoulder in body axes (forward, left, up) [m].
+    stroke_plane_angle : angle of the stroke plane from the body axis [rad]; pi/2 is a vertical plane.
+
+    Raises
+    ------
+    InvalidInputError : a length or mass that is not positive, a negative exponent, fewer than two stations of the
+        chord, a shoulder that is not three numbers, a number that is not finite.
+
+    >>> import wingbeat as wb
+    >>> wing = wb.Wing(semi_span=0.3, chord=(0.12, 0.10, 0.04), mass=0.02, mass_exponent=2.0)
+    >>> round(wing.mean_chord, 3)
+    0.09
+    """
+
+    semi_span: float
+    chord: float | tuple[float, ...]
+    mass: float
+    mass_exponent: float = 0.0
+    shoulder: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    stroke_plane_angle: float = math.pi / 2
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        faults.number("wing.semi_span", self.semi_span, above=0, unit="m")
+        self._check_chord(faults)
+        faults.number("wing.mass", self.mass, above=0, unit="kg", fix="give the mass of one wing")
+        faults.number("wing.mass_exponent", self.mass_exponent, at_least=0, fix="0 is a uniform wing")
+        self._check_shoulder(faults)
+        faults.angle("wing.stroke_plane_angle", self.stroke_plane_angle)
+        faults.raise_if_any()
+
+    def _check_chord(self, faults: FaultList) -> None:
+        fix = "give one chord, or the chords at two or more stations from root to tip"
+        if not isinstance(self.chord, list | tuple):
+            faults.number("wing.chord", self.chord, above=0, unit="m", fix=fix)
+            return
+        object.__setattr__(self, "chord", tuple(self.chord))
+        if len(self.chord) < 2:
+            faults.add("wing.chord", self.chord, "has fewer than two stations", fix)
+        for i, chord in enumerate(self.chord):
+            faults.number(f"wing.chord[{i}]", chord, above=0, unit="m")
+
+    def _check_shoulder(self, faults: FaultList) -> None:
+        if not isinstance(self.shoulder, list | tuple) or len(self.shoulder) != 3:
+            faults.add("wing.shoulder", self.shoulder, "must be three numbers", "forward, left, up, in m")
+            return
+        object.__setattr__(self, "shoulder", tuple(self.shoulder))
+        for axis, value in zip("xyz", self.shoulder, strict=True):
+            faults.number(f"wing.shoulder.{axis}", value, unit="m")
+
+    @property
+    def mean_chord(self) -> float:
+        """Mean of the piecewise linear chord along the span [m]."""
+        if not isinstance(self.chord, tuple):
+            return self.chord
+        inner = sum(self.chord) - 0.5 * (self.chord[0] + self.chord[-1])
+        return inner / (len(self.chord) - 1)
+
+
+@register_record
+@dataclass(frozen=True)
+class Tail:
+    """A tail: a flat surface that turns with the body; the body's mass includes the tail's.
+
+    Parameters
+    ----------
+    area : [m2].
+    arm : distance of its aerodynamic centre behind the body's centre of mass, along the body axis [m]; negative for
+        a surface ahead of it.
+    lift_slope : slope of its lift coefficient [1/rad].
+    drag_coefficient : drag coefficient at zero lift.
+    height : height of its aerodynamic centre above the body axis through the centre of mass [m].
+    incidence : angle of its chord above the body axis, leading edge up positive [rad]; `Wingbeat.tail_tilt` is
+        added to it.
+
+    Raises
+    ------
+    InvalidInputError : an area or slope that is not positive, a negative drag coefficient, a number that is not
+        finite.
+
+    >>> import dataclasses, wingbeat as wb
+    >>> pigeon = wb.load_species("pigeon").vehicle
+    >>> tailed = dataclasses.replace(pigeon, tail=wb.Tail(area=0.008, arm=0.12, lift_slope=1.6))
+    >>> pigeon.tail is None, tailed.tail.area
+    (True, 0.008)
+    """
+
+    area: float
+    arm: float
+    lift_slope: float
+    drag_coefficient: float = 0.0
+    height: float = 0.0
+    incidence: float = 0.0
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        faults.number("tail.area", self.area, above=0, unit="m2", fix="leave the tail out if there is none")
+        faults.number("tail.arm", self.arm, unit="m")
+        fix = "for a slender tail, give pi/2 times its aspect ratio"
+        faults.number("tail.lift_slope", self.lift_slope, above=0, unit="1/rad", fix=fix)
+        faults.number("tail.drag_coefficient", self.drag_coefficient, at_least=0)
+        faults.number("tail.height", self.height, unit="m")
+        faults.angle("tail.incidence", self.incidence)
+        faults.raise_if_any()
+
+
+@register_record
+@dataclass(frozen=True)
+class Vehicle:
+    """An animal or a robot: its body, its two equal wings, perhaps a tail, and what drives the wings.
+
+    Attributes
+    ----------
+    body : the body without its wings.
+    wing : the left wing; the right one is its mirror image.
+    tail : the tail; None, as in the paper, means no tail.
+    muscle, motor : what drives the flap hinges, if it is known; neither changes the flight, only what it costs.
+    springs : springs at the flap hinges; they reduce or increase the torque that muscle or motor must give.
+
+    >>> pigeon = Vehicle(Body(0.276, 3.6e-4), Wing(0.279, 0.112, 0.020, mass_exponent=2.0))
+    >>> round(pigeon.mass, 3)
+    0.316
+    """
+
+    body: Body
+    wing: Wing
+    tail: Tail | None = None
+    muscle: Muscle | None = None
+    motor: Motor | None = None
+    springs: Springs | None = None
+
+    @property
+    def mass(self) -> Any:
+        """Total mass: body and both wings [kg].
+
+        Theory: equation ``whole-mass``.
+        """
+        return self.body.mass + 2 * self.wing.mass
+
+    @property
+    def drive(self) -> Drive:
+        """What drives the flap hinges."""
+        return Drive(self.muscle, self.motor, self.springs)
+
+    @property
+    def passive(self) -> Vehicle:
+        """The vehicle without muscle, motor and springs: the parts that determine a flight."""
+        return Vehicle(self.body, self.wing, self.tail)
+
+
+@register_record
+@dataclass(frozen=True)
+class Air:
+    """The air and the gravity that a vehicle flies in.
+
+    Parameters
+    ----------
+    density : [kg/m3].
+    viscosity : kinematic viscosity [m2/s].
+    gravity : [m/s2].
+
+    Raises
+    ------
+    InvalidInputError : a density or viscosity that is not positive, a negative gravity, a number that is not
+        finite.
+
+    >>> import wingbeat as wb
+    >>> high = wb.Air(density=0.9)
+    >>> round(high.reynolds(10.0, 0.1))
+    66667
+    """
+
+    density: float = 1.225
+    viscosity: float = 1.5e-5
+    gravity: float = 9.81
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        faults.number("air.density", self.density, above=0, unit="kg/m3")
+        faults.number("air.viscosity", self.viscosity, above=0, unit="m2/s")
+        faults.number("air.gravity", self.gravity, at_least=0, unit="m/s2")
+        faults.raise_if_any()
+
+    def reynolds(self, speed: Any, chord: Any) -> Any:
+        """Return the Reynolds number of a chord [m] at a speed [m/s].
+
+        Parameters
+        ----------
+        speed : [m/s], any shape.
+        chord : [m], of a shape that broadcasts with `speed`.
+        """
+        return speed * chord / self.viscosity

@@ -1,0 +1,13 @@
+from .measured_motion.comparison import Validation as Validation
+from .measured_motion.comparison import ValidationRow as ValidationRow
+from .measured_motion.comparison import validate as validate
+from .measured_motion.reading import read_strip_case as read_strip_case
+from .measured_motion.reading import shipped_cases as shipped_cases
+from .measured_motion.strip_case import StripCase as StripCase
+from .second_opinion.comparison import SecondOpinion as SecondOpinion
+from .second_opinion.comparison import compare_with_lattice as compare_with_lattice
+from .second_opinion.lattice import LatticeOptions as LatticeOptions
+from .whole_flights.measured import MeasuredFlights as MeasuredFlights
+from .whole_flights.measured import read_measured_flights as read_measured_flights
+from .whole_flights.prediction import Prediction as Prediction
+from .whole_flights.prediction import predict_flights as predict_flights

@@ -1,0 +1,147 @@
+"""``wingbeat validate``: air loads on measured motions, and whole flights, against what was measured."""
+
+from __future__ import annotations
+
+import json as json_format
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+
+from wingbeat._base.errors import FaultList
+from wingbeat._base.files import write_atomically
+from wingbeat.aero import EXTENSIONS
+from wingbeat.cli.answer import answer
+from wingbeat.cli.app import EXIT_GOOD
+from wingbeat.cli.options import Whole, check_files, check_outputs
+from wingbeat.cli.printing import print_report
+from wingbeat.cli.streams import plain_console
+from wingbeat.plots import save_figure
+from wingbeat_evidence.commands.whole_flights import is_whole_flights, validate_flights
+from wingbeat_evidence.measured_motion import Validation, read_strip_case, shipped_cases
+from wingbeat_evidence.measured_motion import validate as validated
+from wingbeat_evidence.measured_motion.figure import validation_page
+from wingbeat_evidence.measured_motion.page import validation_text
+from wingbeat_evidence.measured_motion.report import validation_report
+from wingbeat_evidence.whole_flights import measured_animals
+
+
+def validate(
+    case: Annotated[
+        str | None,
+        Parameter(
+            help="A strip-motion case (.toml), an animal whose flights were measured, or a file of measured "
+            "flights (.toml). If left out: the strip-motion cases of the package."
+        ),
+    ] = None,
+    /,
+    *,
+    aero: Annotated[
+        list[str] | None,
+        Parameter(
+            negative=(),
+            help="Coefficients: su-fan, dickinson, ..., a table (.csv) or a fit (.toml); repeat for several. "
+            "If left out: all models.",
+        ),
+    ] = None,
+    extension: Annotated[
+        str | None,
+        Parameter(help=f"Extension to angles outside the fit, for all models: {', '.join(EXTENSIONS)}."),
+    ] = None,
+    unsteady: Annotated[
+        str | None,
+        Parameter(
+            help="Unsteady terms: none, thin-aerofoil or thin-aerofoil-wake, which adds the lag of the wake. If "
+            "left out: a row for each."
+        ),
+    ] = None,
+    inflow: Annotated[
+        str | None, Parameter(help="Induced flow: none or momentum. If left out: a row for each.")
+    ] = None,
+    induced_factor: Annotated[
+        float | None, Parameter(help="Ratio of induced power to that of an ideal disc; default 1.2.")
+    ] = None,
+    model: Annotated[
+        str | None, Parameter(help="Whole flights: the model, animal or paper; default animal.")
+    ] = None,
+    draws: Annotated[
+        Whole | None,
+        Parameter(
+            help="Whole flights: number of random draws of the animal's numbers. The band of each predicted "
+            "quantity goes from the 10th to the 90th percentile of the certified draws. Default 0: no band."
+        ),
+    ] = None,
+    seed: Annotated[Whole | None, Parameter(help="Whole flights: seed of starts and draws; default 0.")] = None,
+    json: Annotated[bool, Parameter(negative="", help="Print one JSON object and nothing else.")] = False,
+    plot: Annotated[Path | None, Parameter(help="Draw the comparison: .png, .pdf or .svg.")] = None,
+    output: Annotated[
+        Path | None, Parameter(name=["--output", "-o"], help="Write the page (.md), with a figure of each case.")
+    ] = None,
+) -> int:
+    """Compute air loads on a measured motion, or an animal's whole flights, and compare them with measurements.
+
+    With a strip-motion case, or if no case is named, the command computes the loads of every coefficient model.
+
+    The rows of a coefficient model add terms step by step: no terms, then rotation and added mass, then the lag of
+    the wake, each with and without momentum inflow. One row is recommended, by a rule that never sees the measured
+    force. A case is a TOML file with tables of strips and forces (.csv) beside it. With `--json`, several cases are
+    a list under `cases`.
+
+    With an animal, the command predicts its flights at the measured speeds by a model; nothing is fitted. Exit
+    code 3: none of these flights is certified.
+
+    Examples: wingbeat validate case.toml --aero su-fan --plot case.png; wingbeat validate -o
+    docs/evidence/validation.md; wingbeat validate pigeon --draws 100 -o pigeon.md
+    """
+    faults = FaultList()
+    if output is not None and output.suffix.lower() != ".md":
+        faults.add("--output", str(output), "is not a page", "end it in .md")
+    if plot is not None and case is None:
+        faults.add("--plot", str(plot), "draws one case", "name the case, or write the page with -o")
+    if extension is not None:
+        faults.choice("--extension", extension, EXTENSIONS)
+    check_files(faults, output, plot=plot)
+    loads = {"--aero": aero, "--extension": extension, "--unsteady": unsteady, "--inflow": inflow}
+    loads |= {"--induced-factor": induced_factor}
+    flights = {"--model": model, "--draws": draws, "--seed": seed}
+    whole = case is not None and is_whole_flights(case)
+    for name, value in (loads if whole else flights).items():
+        if value is not None:
+            faults.add(name, value, f"does not apply to {'whole flights' if whole else 'strip-motion cases'}")
+    faults.raise_if_any()
+    if case is not None and whole:
+        return validate_flights(case, model or "animal", draws or 0, seed or 0, json, plot, output)
+    paths = shipped_cases() if case is None else [Path(case)]
+    cases = [read_strip_case(path) for path in paths]
+    pictures = [] if output is None else [output.with_name(f"{output.stem}_{_slug(one.name)}.png") for one in cases]
+    check_outputs(output, plot, *pictures)
+    factor = 1.2 if induced_factor is None else induced_factor
+    found = [validated(one, aero, unsteady, inflow, factor, extension) for one in cases]
+    with answer() as given:
+        given.show(lambda: _print(found, case is None, json))
+        given.save(plot, lambda path: save_figure(validation_page(found[0]), path), named=True)
+        if output is not None:
+            page = validation_text(found, [picture.name for picture in pictures])
+            given.save(output, lambda path: write_atomically(path, page), named=True)
+        for picture, one in zip(pictures, found, strict=False):
+            given.save(picture, lambda path, one=one: save_figure(validation_page(one), path), named=True)
+    return EXIT_GOOD
+
+
+def _print(found: list[Validation], every: bool, json: bool) -> None:
+    """Print the comparisons; after those of every case of the package, the animals with measured flights."""
+    if json:
+        said = [one.to_dict() for one in found]
+        listed = {"cases": said, "whole_flights": measured_animals()} if every else said[0]
+        print(json_format.dumps(listed, indent=2, allow_nan=False))
+        return
+    for one in found:
+        print_report(validation_report(one), plain_console())
+    if every:
+        animals = ", ".join(measured_animals())
+        plain_console().print(f"For `wingbeat validate ANIMAL`, animals with measured whole flights: {animals}")
+
+
+def _slug(name: str) -> str:
+    """Return a text reduced to letters and digits, as part of a file name."""
+    return "".join(sign if sign.isascii() and (sign.isalnum() or sign in "-_") else "-" for sign in name)[:80]

@@ -1,0 +1,258 @@
+"""The form: animal, flight, air loads, search, bounds and every number of the animal."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+from wingbeat._base.errors import InvalidInputError
+from wingbeat._base.nomenclature import NOMENCLATURE, for_people
+from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, INFLOWS, LIBRARY, UNSTEADY
+from wingbeat.animal.species import Species, species_names
+from wingbeat.models import model_of
+from wingbeat.orbits.problem.quantities import QUANTITIES
+from wingbeat.studies.recipe import OF_ELEMENTS
+from wingbeat_explorer import default_speeds
+from wingbeat_explorer.app.checked import NO_YES, truth_in
+from wingbeat_explorer.app.face import animals
+from wingbeat_explorer.app.formatting import from_shown, sentence
+from wingbeat_explorer.app.numbers import Numbers
+from wingbeat_explorer.app.scenario import Scenario, own_species, species_in
+from wingbeat_explorer.app.widgets import Field, box, button, choice_field, number_field, slider, tag, text_field
+from wingbeat_explorer.models import EXPLORER_MODELS, name_of
+
+_OWN = "(loaded file)"
+_CHOICES = ("aero", "extension", "force_point", "airspeed", "unsteady", "inflow", "hand", "minimise")
+_FASTEST = 25.0  # m/s, the right end of the slider; faster is typed
+
+
+class Controls:
+    """The controls of one page.
+
+    Parameters
+    ----------
+    scenario : the choices that the controls show at first.
+    change : called with the choices that were changed.
+    """
+
+    def __init__(self, scenario: Scenario, change: Callable[..., Any]) -> None:
+        self._scenario, self._change = scenario, change
+        self._fields: dict[str, Field] = {}
+        self._species = "", ""
+
+    def build_flight(self, solve: Callable[[], Any]) -> None:
+        """Make the main controls: animal and flight; `solve` is called when the visitor asks for it."""
+        now = self._scenario
+        with box("Animal and flight", "first"):
+            self._own = (_OWN, f"{now.species} (loaded file)") if now.species_file else None
+            self._animal_place = tag("div")
+            with self._animal_place:
+                self._build_animal()
+            self._fields["speed"] = number_field("Speed", f"{now.speed:g}", self._number("speed"), unit="m/s")
+            self._slider = slider("Speed [m/s]", now.speed, 0.0, _FASTEST, 0.1, self._number("speed"))
+            self._fields["climb"] = number_field("Climb", f"{now.climb:g}", self._number("climb"), unit="m/s")
+            whole = [(name, one.title) for name, one in EXPLORER_MODELS.items() if one.coefficients is None]
+            self._fields["model"] = choice_field("Flight model", whole, _flight_model(now), self._choose_model)
+            quantities = [(name, _quantity(name)) for name in QUANTITIES]
+            self._fields["minimise"] = choice_field("Minimise", quantities, now.minimise, self._word("minimise"))
+            button("Solve", solve, "primary", title="Search again from every start")
+
+    def _build_animal(self) -> None:
+        own = [self._own] if self._own else []
+        value = _OWN if self._scenario.species_file else self._scenario.species
+        self._fields["species"] = choice_field("Animal", [*own, *animals()], value, self._choose_animal)
+
+    def build_loads(self) -> None:
+        """Make the controls of air loads, search, bounds and numbers."""
+        now = self._scenario
+        with box("Air loads"):
+            models, points = [[(name, name) for name in each] for each in (LIBRARY, FORCE_POINTS)]
+            reach = [(name, name) for name in EXTENSIONS]
+            self._fields["aero"] = choice_field("Model", models, now.aero, self._word("aero"))
+            self._fields["extension"] = choice_field("Extension", reach, now.extension, self._word("extension"))
+            self._fields["force_point"] = choice_field(
+                "Force acts at", points, now.force_point, self._word("force_point")
+            )
+            speeds = [(name, name) for name in AIRSPEEDS]
+            self._fields["airspeed"] = choice_field("Airspeed", speeds, now.airspeed, self._word("airspeed"))
+            terms, flows = [[(name, name) for name in each] for each in (UNSTEADY, INFLOWS)]
+            self._fields["unsteady"] = choice_field("Unsteady terms", terms, now.unsteady, self._word("unsteady"))
+            self._fields["inflow"] = choice_field("Induced flow", flows, now.inflow, self._word("inflow"))
+            self._fields["induced_factor"] = number_field(
+                "Induced factor", f"{now.induced_factor:g}", self._number("induced_factor")
+            )
+            hands = [("none", "none"), *models]
+            self._fields["hand"] = choice_field("Model of the hand", hands, now.hand, self._word("hand"))
+            for name, label in (
+                ("hand_from", "Hand begins at span fraction"),
+                ("upstroke_factor", "Upstroke factor"),
+            ):
+                self._fields[name] = number_field(label, f"{getattr(now, name):g}", self._number(name))
+            width, strips = f"{now.blend_width_deg:g}", str(now.strips)
+            self._fields["blend_width_deg"] = number_field(
+                "Half width of the blends", width, self._number("blend_width_deg"), unit="deg"
+            )
+            self._fields["strips"] = number_field("Strips of a wing", strips, self._whole("strips"))
+        with box("Solver"):
+            starts = "" if now.starts is None else str(now.starts)
+            hint = "empty: the default number"
+            self._fields["starts"] = number_field("Starts", starts, self._whole("starts"), hint=hint)
+            self._fields["seed"] = number_field("Seed", str(now.seed), self._whole("seed"))
+            answers, answer = [(word, word) for word in NO_YES], NO_YES[now.within_plausible]
+            self._fields["within_plausible"] = choice_field(
+                "Keep to plausible ranges",
+                answers,
+                answer,
+                lambda text: self._change(within_plausible=truth_in(text)),
+            )
+            hint = "such as peak_power<=30, body_pitch_range<=10 deg; separate limits by commas"
+            limits = ", ".join(now.limits)
+            self._fields["limits"] = text_field("Within limits", limits, self._limits, hint=hint)
+        self._numbers_place = tag("div", classes="numbers")
+        self._build_numbers()
+
+    def _build_numbers(self) -> None:
+        self._species = _animal_of(self._scenario)
+        self._numbers_place.clear()
+        with self._numbers_place:
+            self._numbers = Numbers(species_in(self._scenario), self._scenario, self._change)
+
+    def show(self, scenario: Scenario) -> None:
+        """Show another scenario."""
+        before, self._scenario = self._scenario, scenario
+        if _animal_of(scenario) != self._species:
+            self._own = (_OWN, f"{scenario.species} (loaded file)") if scenario.species_file else None
+            self._animal_place.clear()
+            with self._animal_place:
+                self._build_animal()
+            self._build_numbers()
+        elif scenario.values != before.values or scenario.bounds != before.bounds:
+            self._numbers.show(scenario)
+        for name in ("speed", "climb", "blend_width_deg", "induced_factor", "hand_from", "upstroke_factor"):
+            self._fields[name].show(f"{getattr(scenario, name):g}")
+        for name in _CHOICES:
+            self._fields[name].show(getattr(scenario, name))
+        self._fields["model"].show(_flight_model(scenario))
+        self._fields["within_plausible"].show(NO_YES[scenario.within_plausible])
+        for name in ("strips", "starts", "seed"):
+            value = getattr(scenario, name)
+            self._fields[name].show("" if value is None else str(value))
+        self._fields["limits"].show(", ".join(scenario.limits))
+        if self._slider.props.get("value") != f"{scenario.speed:g}":
+            self._slider.props["value"] = f"{scenario.speed:g}"
+
+    def refuse(self, refusals: list[list[str]]) -> list[str]:
+        """Show each fault beside its control; return the faults that belong to no control."""
+        told: dict[Field, list[str]] = {}
+        homeless = []
+        for where, message in refusals:
+            field = self._field_of(where)
+            if field is None:
+                homeless.append(sentence(where, message))
+            else:
+                told.setdefault(field, []).append(message)
+        for field in [*self._fields.values(), *self._numbers.fields]:
+            field.refuse("; ".join(told.get(field, [])))
+        return homeless
+
+    def _field_of(self, where: str) -> Field | None:
+        aliases = {"coefficients": "aero", "quantity": "minimise", "constraint": "limits", "subject_to": "limits"}
+        name = aliases.get(where.partition("[")[0], where)
+        return self._fields.get(name) or self._numbers.field_of(where)
+
+    def choose(self, **asked: Any) -> None:
+        """Change animal, model or speed, as the controls do.
+
+        Parameters
+        ----------
+        asked : what is to change: species, model (its name in the face), speed [m/s].
+        """
+        if "species" in asked:
+            self._choose_animal(asked["species"], asked.get("model"))
+        elif "model" in asked:
+            self._choose_model(asked["model"])
+        else:
+            self._change(**asked)
+
+    def _choose_animal(self, name: str, model: str | None = None) -> None:
+        if name not in species_names():  # the loaded file, which is chosen already
+            return
+        # The changed numbers belonged to another animal, and a model depends on the kind of flyer.
+        species = own_species(Scenario(species=name))
+        if model is None and self._scenario.model != "paper":
+            model = self._scenario.face_model
+        loads = {} if model is None else _modelled(model, species)
+        speed, sweep = speeds_for(species, self._scenario.speed)
+        self._change(species=name, species_file="", values={}, bounds={}, speed=speed, sweep=sweep, **loads)
+
+    def _choose_model(self, name: str) -> None:
+        """Take the air loads and objective of a model; drop changed numbers, which the new model may not have."""
+        try:
+            chosen = _modelled(name, own_species(self._scenario))
+        except InvalidInputError as error:
+            self._fields["model"].refuse("; ".join(fault.fix for fault in error.faults))
+            return
+        self._change(values={}, bounds={}, **chosen)
+
+    def _word(self, name: str) -> Callable[[str], None]:
+        return lambda text: self._change(**{name: text})
+
+    def _number(self, name: str) -> Callable[[str], None]:
+        def act(text: str) -> None:
+            if (value := self._fields[name].number(text)) is not None:
+                self._change(**{name: value})
+
+        return act
+
+    def _whole(self, name: str) -> Callable[[str], None]:
+        def act(text: str) -> None:
+            value = from_shown(text, "", several=False)
+            if name == "starts" and not text.strip():
+                self._change(starts=None)
+            elif isinstance(value, float) and value == math.floor(value):
+                self._change(**{name: int(value)})
+            else:
+                self._fields[name].refuse(f"{text[:30]!r} is not a whole number")
+
+        return act
+
+    def _limits(self, text: str) -> None:
+        self._change(limits=tuple(part.strip() for part in text.split(",") if part.strip()))
+
+
+def choices_of(name: str, species: Species) -> dict[str, Any]:
+    """Return the choices of the page that a model makes for a species."""
+    model = model_of(name, species)
+    loads = {place: getattr(model.aero, place) for place in OF_ELEMENTS if place != "strips"}
+    return {"aero": model.aero.coefficients.name, "minimise": model.objective(model.species(species)), **loads}
+
+
+def _modelled(name: str, species: Species) -> dict[str, Any]:
+    """Return the choices of the page for a model by its name in the face."""
+    meant = EXPLORER_MODELS[name]
+    chosen = {"model": meant.model, "within_plausible": meant.within_plausible, **choices_of(meant.model, species)}
+    return chosen | ({} if meant.coefficients is None else {"aero": meant.coefficients})
+
+
+def speeds_for(species: Species, speed: float) -> tuple[float, tuple[float, float, float]]:
+    """Return a speed for an animal, the present one if it may fly so, and the range of its curve [m/s]."""
+    speeds = default_speeds(species)
+    first, last = speeds[0], speeds[-1]
+    step = max(math.ceil((last - first) / 6) / 2, 0.5)
+    return speed if first <= speed <= last else speeds[len(speeds) // 2], (first, last, step)
+
+
+def _animal_of(scenario: Scenario) -> tuple[str, str]:
+    """Return the species and its model, which together determine the numbers on the page."""
+    return scenario.species_file or scenario.species, scenario.model
+
+
+def _flight_model(scenario: Scenario) -> str:
+    """Return the model's name in the drawer, which has the coefficients in a field of their own."""
+    return name_of(scenario.model, "", scenario.within_plausible)
+
+
+def _quantity(name: str) -> str:
+    _, unit = for_people(NOMENCLATURE[name].unit)
+    return name.replace("_", " ") + (f" [{unit.replace('s2', 's²')}]" if unit else "")

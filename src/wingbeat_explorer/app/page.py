@@ -1,0 +1,264 @@
+"""The page: its layout, and how choices, answers and files go from one part to the other."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from contextlib import AbstractContextManager
+from typing import TYPE_CHECKING, Any
+
+from nicegui import Client, ui
+
+from wingbeat._base.errors import InvalidInputError
+from wingbeat_explorer.app.answer import Answer, Brief, Influence
+from wingbeat_explorer.app.controls import Controls
+from wingbeat_explorer.app.curve import Curve, drawn
+from wingbeat_explorer.app.curve_panel import CurvePanel
+from wingbeat_explorer.app.errands import Errands
+from wingbeat_explorer.app.face import Face
+from wingbeat_explorer.app.links import from_plain, from_query, to_query
+from wingbeat_explorer.app.pins import Pins
+from wingbeat_explorer.app.scenario import Scenario
+from wingbeat_explorer.app.session import Session
+from wingbeat_explorer.app.trouble import Trouble
+from wingbeat_explorer.app.widgets import button, choice_field, folded, part, run_script, set_class, tag
+
+if TYPE_CHECKING:
+    from wingbeat_explorer.app.house import House
+
+_THEMES = (("system", "System"), ("light", "Light"), ("dark", "Dark"))
+_ACCEPT = ".toml,.nc,.json"
+
+
+class Page:
+    """The page of one visitor; it is the `View` of its session.
+
+    Parameters
+    ----------
+    name : of the session.
+    house : what all visitors share.
+    query : query of the page's address, which may hold a scenario.
+    """
+
+    def __init__(self, name: str, house: House, query: str) -> None:
+        self.name, self._house, self._first = name, house, house.first
+        self._client: Client = ui.context.client
+        self._refusals, scenario = [], self._first.scenario
+        try:
+            scenario = from_query(query) if query else scenario
+        except InvalidInputError as error:
+            self._refusals = [f"The link was not understood. {fault}" for fault in error.faults]
+        self._is_ready = scenario.asks_as(self._first.scenario)
+        self._session = Session(name, house.pool, scenario, self)
+        self._curve = Curve(self._session, self._show_curve)
+        self._curve_shown: dict[str, Any] | None = None
+        self._marks: set[str] = set()
+        self._errands = Errands(self._session, house.downloads, self)
+        self._build(scenario)
+        self._asked = False
+        self._client.on_connect(self._come)
+
+    def _come(self) -> None:
+        """Solve the scenario in the address once a browser has connected; fetching the page starts nothing.
+
+        If the scenario was solved beforehand, the browser has fetched the answer by itself.
+        """
+        if self._asked:  # the socket was lost, and has connected again
+            return
+        self._asked = True
+        if not self._is_ready:
+            self._session.ask(whole=True)
+        else:
+            if self._session.scenario == self._first.scenario:
+                self._curve.take(self._first.scenario, self._first.answer, self._first.points)
+            self._session.take_ready(self._first.answer)
+            self._is_ready = False
+            self._house.warm_up()  # who looks at it may soon move on
+        if self._refusals:  # shown after the request, because a request removes earlier messages
+            self.show_trouble(*self._refusals)
+
+    @property
+    def waits(self) -> bool:
+        """Whether the page was fetched, but no browser has connected to it yet."""
+        return not self._asked
+
+    def drop(self) -> None:
+        """Delete the page, as if its visitor had left."""
+        self._client.delete()
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the page's socket is connected."""
+        return self._client.has_socket_connection
+
+    def context(self) -> AbstractContextManager[Any]:
+        """Return the context in which the page's elements may be changed."""
+        return self._client
+
+    def leave(self) -> None:
+        """Release everything of the page, because its visitor has left."""
+        self._session.leave()
+        self._errands.leave()
+        self._house.downloads.leave(self.name)
+
+    # What stands where -------------------------------------------------------------------------------------------
+
+    def _build(self, scenario: Scenario) -> None:
+        self._controls = Controls(scenario, self._session.change)
+        tag("a", "Skip to the result", "skip", href="#answer")
+        with tag("header", classes="top"):
+            self._build_header()
+        with tag("div", classes="whole"):
+            ask, push = self._controls.choose, lambda: self._errands.push(self._face)
+            self._face = Face(self._house.downloads, self.name, scenario, self._is_ready, ask, push, self._keep)
+            self._brief = Brief(self._pin)
+            self._pins = Pins(self._face.compare, self._bring_back)
+            with tag("div", classes="below"):
+                self._build_panels()
+
+    def _build_header(self) -> None:
+        tag("p", "wingbeat explorer", "brand")
+        with tag("details", classes="drawer"):
+            with tag("summary", classes="button primary"):
+                tag("span", "Change the animal, the air or the numbers", "wide-only")
+                tag("span", "Animal, air, numbers", "narrow-only")
+            with tag("div", classes="sheet"):
+                self._controls.build_flight(lambda: self._session.ask(whole=True))
+                with folded("Expert numbers", "expert"):
+                    self._controls.build_loads()
+        with part("div", "status"):
+            self._state = tag("p", "", "state", role="status", aria_live="polite")
+            tag("p", "This result belongs to an earlier request.", "earlier")
+            self._bar = tag("progress", classes="hidden", max=1, value=0, aria_label="Starts done")
+            self._stop = button("Cancel", self._session.stop, "small", disabled=True)
+        with tag("details", classes="menu"):
+            tag("summary", "File, link, colours", "button")
+            with tag("div", classes="items"):
+                self._build_menu()
+        tag("p", None, "refusal hidden")
+        self._trouble = Trouble()
+
+    def _build_menu(self) -> None:
+        what = "A species file (TOML), an orbit (NetCDF), or a saved state (JSON)"
+        self._upload = tag("label", "Load a file", "button", title=what)
+        chooser = tag("input", classes="unseen", type="file", accept=_ACCEPT)
+        chooser.props["id"] = self._upload.props["for"] = chooser.html_id
+        script = f"async (event) => emit(await wingbeatPage.upload(event.target, {json.dumps(self.name)}))"
+        chooser.on("change", self._uploaded, js_handler=script)
+        button("Save the state", self._errands.save_state, title="A JSON file that this page can load")
+        button("Copy the link", lambda: run_script("wingbeatPage.copyLink()"), title="It reproduces this page")
+        self._dark = ui.dark_mode(None)
+        choice_field("Colours", _THEMES, "system", self._set_theme)
+
+    def _build_panels(self) -> None:
+        self._answer = Answer(
+            {
+                "Record (JSON)": self._errands.save_record,
+                "Time series (NetCDF)": lambda: self._errands.make_file("nc"),
+                "Figure (PNG)": lambda: self._errands.make_file("png"),
+                "Figure (PDF)": lambda: self._errands.make_file("pdf"),
+            }
+        )
+        self._curve_panel = CurvePanel(self._session, self._curve, lambda speed: self._session.change(speed=speed))
+        self._influence = Influence(lambda: self._errands.differentiate(self._influence))
+
+    # What the session says ---------------------------------------------------------------------------------------
+
+    def show_scenario(self, scenario: Scenario) -> None:
+        """Show a scenario in the controls and in the address, and clear messages about the previous one."""
+        self._trouble.close()
+        self._controls.show(scenario)
+        self._face.choose(scenario)
+        if not self._curve.suits(scenario):
+            self._curve.pause()
+        self._mark("old-curve", not self._curve.suits(scenario))
+        self._curve_panel.show_sweep(scenario)
+        run_script(f"wingbeatPage.setQuery({json.dumps(to_query(scenario))})")
+
+    def show_state(self, text: str, busy: bool, done: float | None = None) -> None:
+        """Show what the session is doing."""
+        if self._state.text != text:
+            self._state.set_text(text)
+        self._stop.props.set_bool("disabled", not busy)
+        set_class(self._bar, "hidden", done is None)
+        self._bar.props["value"] = done or 0
+        if not busy:
+            self._curve.go_on()
+
+    def show_answer(self, answer: dict[str, Any]) -> None:
+        """Show an answer; its curve follows once the controls are left alone."""
+        if not self._is_ready:
+            self._face.show(answer)
+        self._brief.show(answer, self._face.count)
+        self._answer.show(answer)
+        self._influence.clear()
+        if answer["scenario"] is not None and not answer.get("continued"):
+            self._curve.follow(self._session.answered, answer)
+        self._show_curve()
+        self._errands.push_again(self._face)
+
+    def _show_curve(self) -> None:
+        """Show the curve in the face and in its panel."""
+        curve, answer, scenario = self._curve, self._session.answer, self._session.answered
+        if answer is not None and answer["scenario"] is None:  # from a file that the controls cannot represent
+            answer = None
+        if answer is None or curve.is_of(scenario):
+            data = drawn(curve.asked or scenario, curve.points, answer, curve.measured, curve.pending)
+        else:  # the answer was continued, and its curve begins when the controls are left alone
+            data = drawn(scenario, (), answer, answer["measured"], scenario.speeds())
+        if data != self._curve_shown:
+            self._curve_shown = data
+            self._face.show_curve(data)
+        self._curve_panel.show()
+        self._mark("old-curve", not curve.suits(self._session.scenario))
+
+    def show_stale(self, stale: bool) -> None:
+        """Dim the answer while it belongs to another scenario than the controls show."""
+        self._mark("stale", stale)
+
+    def _mark(self, name: str, on: bool) -> None:
+        """Give the page's body a class, or remove it; a class of an element would have all inside it drawn anew."""
+        if (name in self._marks) != on:
+            self._marks ^= {name}
+            run_script(f"wingbeatPage.mark({json.dumps(name)}, {json.dumps(on)})")
+
+    def show_refusals(self, refusals: list[list[str]]) -> None:
+        """Show each refusal beside its control, or at the top if it belongs to no control."""
+        self._curve_panel.refuse(refusals)
+        homeless = self._controls.refuse([each for each in refusals if not each[0].startswith("sweep.")])
+        if homeless:
+            self.show_trouble(*homeless)
+
+    def show_trouble(self, *lines: str) -> None:
+        """Show a message about an error."""
+        self._trouble.show(*lines)
+
+    # What the visitor does ---------------------------------------------------------------------------------------
+
+    def _set_theme(self, theme: str) -> None:
+        self._dark.set_value({"light": False, "dark": True}.get(theme))
+        self._face.set_theme(theme)
+
+    def _pin(self) -> None:
+        if self._session.answer is not None:
+            self._pins.pin(self._session.answer)
+
+    def _keep(self, wanted: bool) -> None:
+        """Pin the answer and fly it beside those that follow, or end the comparison."""
+        self._pins.compare(self._session.answer if wanted else None)
+
+    def _bring_back(self, answer: dict[str, Any]) -> None:
+        sweep = self._session.scenario.sweep
+        self._session.scenario = from_plain({**answer["scenario"], "sweep": list(sweep)})
+        self._session.ask(whole=True)
+
+    def _uploaded(self, event: Any) -> None:
+        """Show why the server refused an upload; `read_file` reports on files that it accepted."""
+        if isinstance(event.args, str) and event.args:
+            self.show_trouble(event.args[:300])
+
+    def read_file(self, path: str, label: str, done: Callable[[], Any]) -> None:
+        """Read a file that the visitor sent; `done` is called when the file is no longer needed."""
+        with self._client:
+            self._trouble.close()
+            self._errands.read(path, label, done)

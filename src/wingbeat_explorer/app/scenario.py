@@ -1,0 +1,232 @@
+"""A scenario: every choice of the page, their checks, and the orbit problem that they define."""
+
+from __future__ import annotations
+
+import dataclasses
+import functools
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from wingbeat._base.errors import FaultList, FileError, InvalidInputError
+from wingbeat.aero import (
+    AIRSPEEDS,
+    EXTENSIONS,
+    FORCE_POINTS,
+    INFLOWS,
+    LIBRARY,
+    UNSTEADY,
+    BladeElement,
+    load_coefficients,
+)
+from wingbeat.aero.choosing import load_hand
+from wingbeat.animal.species import Species, load_species, species_names
+from wingbeat.animal.species.loading import species_of
+from wingbeat.animal.species_schema import read_species_text
+from wingbeat.models import MODELS, model_of
+from wingbeat.orbits.problem.problem import CLIMB_LIMITS, FASTEST, SPEED_LIMITS, OrbitProblem
+from wingbeat.orbits.problem.quantities import QUANTITIES
+from wingbeat.studies.recipe import OF_ELEMENTS
+from wingbeat_explorer.models import name_of, search_starts
+
+# Limits for one visitor, because others use the machine, too.
+MOST_STARTS, MOST_STRIPS, MOST_SPEEDS, MOST_LIMITS, MOST_NUMBERS = 100, 60, 60, 8, 60
+TAIL_TILT = "tail_tilt"  # the parameter that a species holds fixed and the page can free
+LARGEST_FILE = 1 << 18  # characters of a species file, as `load_species` has it
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """Every choice of the page; SI units and radians.
+
+    Parameters
+    ----------
+    species : name of a built-in species, or of the one in `species_file`.
+    species_file : TOML text of the visitor's own species, empty for a built-in one.
+    speed, climb : mean velocity [m/s].
+    model : ``"paper"`` or ``"animal"``, see `wingbeat.models`; it determines what is added to the species. If a
+        model is chosen on the page, the page also sets its air loads and objective, which can be changed later.
+    aero, extension, blend_width_deg, strips, force_point, airspeed, unsteady, inflow, induced_factor, hand,
+        hand_from, upstroke_factor : the air loads, as on the command line.
+    minimise : name of the quantity to minimise.
+    limits : limits on quantities, texts as for ``--subject-to``.
+    bounds : bounds of free parameters in place of the species' own. Species keep ``tail_tilt`` fixed; bounds make
+        it free.
+    within_plausible : whether the flight keeps to the species' plausible ranges; then `bounds` are empty.
+    values : numbers of the species that were changed, by their paths.
+    starts : number of starts, None for the default, see `search_starts`.
+    seed : of the random starts.
+    sweep : first and last speed and step of the curve [m/s].
+    """
+
+    species: str = "pigeon"
+    species_file: str = ""
+    speed: float = 10.0
+    climb: float = 0.0
+    model: str = "paper"
+    aero: str = "su-fan"
+    extension: str = "mirrored"
+    blend_width_deg: float = 1.0
+    strips: int = 10
+    force_point: str = "quarter-chord"
+    airspeed: str = "planar"
+    unsteady: str = "none"
+    inflow: str = "none"
+    induced_factor: float = 1.2
+    hand: str = "none"
+    hand_from: float = 0.5
+    upstroke_factor: float = 1.0
+    minimise: str = "frequency"
+    limits: tuple[str, ...] = ()
+    bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    within_plausible: bool = False
+    values: Mapping[str, float | tuple[float, ...]] = field(default_factory=dict)
+    starts: int | None = None
+    seed: int = 0
+    sweep: tuple[float, float, float] = (4.0, 16.0, 1.0)
+
+    @property
+    def face_model(self) -> str:
+        """The model by its name in the face, see `wingbeat_explorer.models`."""
+        return name_of(self.model, self.aero, self.within_plausible)
+
+    @property
+    def search_starts(self) -> int | None:
+        """The number of starts of a search, None for the solver's default."""
+        return search_starts(self.starts, self.within_plausible)
+
+    def faults(self) -> FaultList:
+        """Return the faults of each choice by itself; `problem_of` checks the choices together."""
+        faults = FaultList()
+        if not self.species_file:
+            faults.choice("species", self.species, species_names())
+        elif len(self.species_file) > LARGEST_FILE:
+            faults.add("species_file", f"{len(self.species_file)} characters", f"must be <= {LARGEST_FILE}")
+        faults.number("speed", self.speed, **SPEED_LIMITS, fix="0 is hover")
+        faults.number("climb", self.climb, **CLIMB_LIMITS, fix="0 is level flight")
+        faults.choice("model", self.model, MODELS)
+        faults.choice("aero", self.aero, tuple(LIBRARY))
+        faults.choice("extension", self.extension, EXTENSIONS)
+        faults.number("blend_width_deg", self.blend_width_deg, above=0, at_most=3, unit="deg")
+        faults.choice("force_point", self.force_point, FORCE_POINTS)
+        faults.choice("airspeed", self.airspeed, AIRSPEEDS)
+        faults.choice("unsteady", self.unsteady, UNSTEADY)
+        faults.choice("inflow", self.inflow, INFLOWS)
+        faults.number("induced_factor", self.induced_factor, at_least=0)
+        faults.choice("hand", self.hand, ("none", *LIBRARY))
+        faults.number("hand_from", self.hand_from, at_least=0, at_most=1)
+        faults.number("upstroke_factor", self.upstroke_factor, at_least=0, at_most=1)
+        faults.choice("minimise", self.minimise, tuple(QUANTITIES))
+        if self.within_plausible and self.bounds:
+            fix = "take back the changed bounds, or switch the plausible ranges off"
+            faults.add("within_plausible", "yes", "cannot be combined with bounds of your own", fix)
+        faults.whole("strips", self.strips, 1, MOST_STRIPS)
+        faults.whole("seed", self.seed, 0, 100_000)
+        if self.starts is not None:
+            faults.whole("starts", self.starts, 1, MOST_STARTS)
+        for name, count, most in (
+            ("limits", len(self.limits), MOST_LIMITS),
+            ("bounds", len(self.bounds), MOST_NUMBERS),
+            ("set", len(self.values), MOST_NUMBERS),
+        ):
+            if count > most:
+                faults.add(name, count, f"must be at most {most}", "leave some out")
+        self._check_sweep(faults)
+        return faults
+
+    def _check_sweep(self, faults: FaultList) -> None:
+        first, last, step = self.sweep
+        good = faults.number("sweep.from", first, **SPEED_LIMITS)
+        good &= faults.number("sweep.to", last, **SPEED_LIMITS)
+        if faults.number("sweep.step", step, above=0, at_most=FASTEST, unit="m/s") and good:
+            if not first < last:
+                faults.add("sweep.to", last, f"must be > {first:g} m/s", "the curve runs from slow to fast")
+            elif (last - first) / step > MOST_SPEEDS - 1 + 1e-9:
+                faults.add("sweep.step", step, f"gives more than {MOST_SPEEDS} speeds", "take longer steps")
+
+    def speeds(self) -> list[float]:
+        """Return the speeds of the curve [m/s]."""
+        first, last, step = self.sweep
+        return [round(first + i * step, 9) for i in range(math.floor((last - first) / step + 1e-9) + 1)]
+
+    def at(self, speed: float) -> Scenario:
+        """Return the scenario at another speed [m/s]."""
+        return dataclasses.replace(self, speed=speed)
+
+    def asks_as(self, other: Scenario) -> bool:
+        """Return whether two scenarios ask for the same orbit; the range of the curve does not matter."""
+        return self == dataclasses.replace(other, sweep=self.sweep)
+
+
+@functools.lru_cache(maxsize=32)
+def species_from_text(text: str, label: str) -> Species:
+    """Return the species that the text of a species file describes.
+
+    Raises
+    ------
+    FileError : not TOML. InvalidInputError : everything that is wrong with it.
+    """
+    faults = FaultList()
+    return species_of(read_species_text(text, label, label.removesuffix(".toml"), faults), faults)
+
+
+@functools.lru_cache(maxsize=64)
+def _built_in(name: str) -> Species:
+    return load_species(name)
+
+
+def species_in(scenario: Scenario) -> Species:
+    """Return the species with the numbers of its file and of its model, before the user's changes.
+
+    A species of unknown kind gets no numbers from the model; `problem_of` then refuses a model that needs the kind.
+    """
+    own = own_species(scenario)
+    return model_of(scenario.model, own).species(own) if own.kind else own
+
+
+def own_species(scenario: Scenario) -> Species:
+    """Return the species with the numbers of its file alone."""
+    if scenario.species_file:
+        return species_from_text(scenario.species_file, f"{scenario.species}.toml")
+    return _built_in(scenario.species)
+
+
+def problem_of(scenario: Scenario) -> OrbitProblem:
+    """Return the orbit problem of a scenario; the command line makes the same problem from the same choices.
+
+    Raises
+    ------
+    InvalidInputError : everything that is wrong with it; `where` names the choice.
+    """
+    faults = scenario.faults()
+    faults.raise_if_any()
+    species, loads, model = None, None, None
+    try:
+        species = species_in(scenario)
+        model = model_of(scenario.model, species)
+        if scenario.values:
+            species = species.with_values(dict(scenario.values))
+    except InvalidInputError as error:
+        faults.faults += error.faults
+    except FileError as error:
+        faults.add("species_file", scenario.species, str(error))
+    try:
+        reach = scenario.extension, scenario.blend_width_deg
+        elements = {name: getattr(scenario, name) for name in OF_ELEMENTS}
+        elements["hand"] = load_hand(scenario.hand, *reach)
+        loads = BladeElement(load_coefficients(scenario.aero, *reach), **elements)
+    except InvalidInputError as error:
+        faults.faults += error.faults
+    faults.raise_if_any()
+    assert species is not None
+    assert model is not None
+    freed = [name for name in (TAIL_TILT,) if name in scenario.bounds and name not in species.free]
+    return dataclasses.replace(model, aero=loads).problem(
+        species,
+        scenario.speed,
+        climb=scenario.climb,
+        free=(*species.free, *freed),
+        bounds="plausible" if scenario.within_plausible else dict(scenario.bounds),
+        minimise=scenario.minimise,
+        subject_to=scenario.limits,
+    )

@@ -1,0 +1,1 @@
+"""The commands of the shell that open or write the explorer."""

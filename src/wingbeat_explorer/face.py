@@ -1,0 +1,214 @@
+"""The face of an orbit: a sentence, two lights, gauges, numbers, warnings and the scene of the viewer."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from typing import Any
+
+from wingbeat._base.errors import FileError
+from wingbeat._base.nomenclature import NOMENCLATURE, for_people
+from wingbeat.animal.species.warnings import NOT_MEASURED
+from wingbeat.orbits.status import Status
+from wingbeat.results.limits import set_by_limit
+from wingbeat.results.orbit import Orbit
+from wingbeat.results.plausibility import statements
+from wingbeat.results.power import SPENT
+from wingbeat.results.record import beat_mean
+from wingbeat.results.rows import limits_in_words, mass_of
+from wingbeat.viewer import scene
+from wingbeat_explorer.gauges import gauges_of
+from wingbeat_explorer.models import EXPLORER_MODELS
+
+# Numbers of the record that are listed, and how they are called; those that a record lacks are left out.
+_LISTED = {
+    "mean_positive_power": "mechanical power at the wing hinges, mean of the positive part",
+    "metabolic_power": "metabolic power of the flight muscle alone",
+    "electrical_power": "electrical power",
+    "cost_of_transport": "cost of transport",
+    "reduced_frequency": "reduced frequency",
+    "body_pitch_range": "range of body pitch within a beat",
+}
+_MUSCLE = "positive_power_per_mass"
+
+
+def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
+    """Return what the explorer shows of an orbit, fit for JSON.
+
+    The keys are species, title, kind, model, model_title, speed and climb [m/s], status, power [W], frequency
+    [Hz], sentence, spent, mass, lights, gauges, numbers, warnings and scene. Power is the mean of the positive part
+    at the wing hinges. What is spent on the air (profile, induced, parasite and unsteady) are means over the beat
+    [W], or None without a certified beat. The mass is in kg. Gauges and numbers are in the units that readers
+    prefer. The scene is None if the flight tumbles before there is anything to show; a certified flight never does.
+
+    Parameters
+    ----------
+    orbit : certified or not.
+    model : the explorer's name of the model that made the problem, see `wingbeat_explorer.models`.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> face_of(orbit, "paper")["sentence"].split(" and ")[0]
+    'A rock pigeon at 12 m/s beats 9.5 times a second (set by a limit)'
+    """
+    record, species = orbit.record(), orbit.problem.species
+    title = species.common_name or species.name
+    return {
+        "species": species.name,
+        "title": title,
+        "kind": species.kind,
+        "model": model,
+        "model_title": EXPLORER_MODELS[model].title if model in EXPLORER_MODELS else model,
+        "speed": record["speed"],
+        "climb": record["climb"],
+        "status": record["status"],
+        "power": record["mean_positive_power"],
+        "frequency": record["wingbeat"]["frequency"],
+        "spent": _spent(orbit),
+        "mass": mass_of(record["vehicle"]),
+        "sentence": sentence_of(record, title),
+        "lights": lights_of(record),
+        "gauges": gauges_of(record),
+        "numbers": numbers_of(record),
+        "warnings": [_sentence(_shorter(text)) for text in (*_limits(record), *record["warnings"])],
+        "scene": _scene_of(orbit, title),
+    }
+
+
+def _scene_of(orbit: Orbit, title: str) -> dict[str, Any] | None:
+    """Return what the viewer draws, or None for a beat that is no orbit and tumbles at once."""
+    try:
+        return scene([(title, orbit.dataset)])
+    except FileError:
+        if orbit.status is Status.CONVERGED:
+            raise
+        return None
+
+
+def _limits(record: dict[str, Any]) -> list[str]:
+    limits = limits_in_words(record)
+    return [f"set by limits, not predicted: {limits}"] if limits else []
+
+
+def _spent(orbit: Orbit) -> dict[str, float] | None:
+    if orbit.status is not Status.CONVERGED:
+        return None
+    return {name: beat_mean(orbit.dataset[series].values) for name, series in SPENT.items()}
+
+
+def sentence_of(record: dict[str, Any], title: str) -> str:
+    """Return one sentence on an orbit: who flies how fast, how often it beats, what it needs, and what is amiss.
+
+    Parameters
+    ----------
+    record : from `Orbit.record`.
+    title : the animal's name.
+    """
+    who = f"{_article(title)} {title} {_place(record)}"
+    if record["status"] == "infeasible":
+        which = "that closes within its limits" if record.get("constraints") else "that closes"
+        return f"In this model, {who[0].lower()}{who[1:]} has no wingbeat {which}."
+    if record["status"] != "converged":
+        return f"No wingbeat that closes was found for {who[0].lower()}{who[1:]}."
+    beats, power = _short(record["wingbeat"]["frequency"]), _short(record["mean_positive_power"])
+    why = " (set by a limit)" if "frequency" in set_by_limit(record) else ""
+    sentence = f"{who} beats {beats} times a second{why} and needs {power} W"
+    judged = {one["name"]: one for one in record.get("plausibility") or []}
+    limit = judged.get(_MUSCLE, {}).get("high")
+    if limit is not None:
+        share = judged[_MUSCLE]["value"] / limit
+        times = f"{share:.2g}"
+        over = "more than" if share < 1.05 else "twice" if times == "2" else f"{times} times"
+        sentence += ", within what its muscle gives" if share <= 1 else f", {over} what its muscle gives"
+    amiss = [one["label"] for one in gauges_of(record) if one["inside"] is False and one["name"] != _MUSCLE]
+    if amiss and (limit is None or judged[_MUSCLE]["within"]):
+        sentence += f", but its {_lower(amiss[0])} is implausible"
+    return f"{sentence}."
+
+
+def lights_of(record: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the two lights: whether the flight closes, and whether its numbers are those of flying animals.
+
+    Each has name, good, known and text. What is not known is not good either, but no fault.
+
+    Parameters
+    ----------
+    record : from `Orbit.record`.
+    """
+    said = statements(record)
+    certified = record["status"] == "converged"
+    why_not = said.closes.removeprefix("does not close: ")  # the light itself says that it does not
+    closes = f"flown again, it {said.closes}" if certified else f"{why_not}. {_sentence(record['message'])}"
+    # The statement is "plausible: yes", "plausible: no: frequency 12 above 10 Hz" or "plausible: not known: ...".
+    verdict, why = (*re.split("[:;] ", said.plausible.removeprefix("plausible: "), maxsplit=1), "")[:2]
+    words = f"every number is inside its plausible range{f'; {why}' if why else ''}" if verdict == "yes" else why
+    if not certified:
+        verdict, words = "not known", "there is no certified wingbeat to judge"
+    return [
+        {"name": "closes", "good": certified, "known": True, "text": _sentence(closes)},
+        {"name": "plausible", "good": verdict == "yes", "known": verdict != "not known", "text": _sentence(words)},
+    ]
+
+
+def is_plausible(lights: list[dict[str, Any]]) -> bool | None:
+    """Return whether a flight closes and its numbers are plausible; None if it closes and too little is known.
+
+    Parameters
+    ----------
+    lights : from `lights_of`.
+    """
+    closes, plausible = lights
+    return None if closes["good"] and not plausible["known"] else closes["good"] and plausible["good"]
+
+
+def numbers_of(record: dict[str, Any]) -> list[list[str]]:
+    """Return label, value and unit of the main numbers, as texts; a number without a value is left out.
+
+    Parameters
+    ----------
+    record : from `Orbit.record`.
+    """
+    mass, beat = mass_of(record["vehicle"]), record["wingbeat"]
+    rows = [["mass", f"{1e3 * mass:.4g}", "g"], ["wingbeat frequency", f"{beat['frequency']:.4g}", "Hz"]]
+    for name, label in _LISTED.items():
+        if record.get(name) is not None:
+            factor, unit = for_people(NOMENCLATURE[name].unit)
+            rows.append([label, f"{factor * record[name]:.4g}", unit])
+    if record.get("stable") is not None:
+        rows.append(["a small disturbance", "decays" if record["stable"] else "grows", ""])
+    return rows
+
+
+def _place(record: dict[str, Any]) -> str:
+    climb = record["climb"]
+    where = f"at {record['speed']:g} m/s" if record["speed"] else "in hover"
+    return where + (f", {'climbing' if climb > 0 else 'sinking'} {abs(climb):g} m/s," if climb else "")
+
+
+def _article(title: str) -> str:
+    """Return A or An; a European bird begins with the sound of y."""
+    return "An" if re.match(r"(?i)[aeio]|u(?!ni)", title) and not re.match(r"(?i)eu", title) else "A"
+
+
+def _short(value: float) -> str:
+    """Return a number with two digits, or three from 100 on, without an exponent."""
+    digits = 2 if abs(value) < 100 else 3
+    return f"{float(f'{value:.{digits}g}'):g}"
+
+
+def _lower(label: str) -> str:
+    """Return a label within a sentence; names of people keep their capital."""
+    return label if label.startswith(("Strouhal", "Reynolds")) else f"{label[:1].lower()}{label[1:]}"
+
+
+def _shorter(warning: str) -> str:
+    """Return a warning; of numbers that scaling laws gave, only how many there are of each part."""
+    if not warning.startswith(NOT_MEASURED):
+        return warning
+    parts = Counter(path.partition(".")[0] for path in warning.removeprefix(NOT_MEASURED).split(", "))
+    listed = ", ".join(f"{count} of the {part}" for part, count in parts.items())
+    return f"numbers from scaling laws, not measured: {listed}"
+
+
+def _sentence(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:]}" + ("" if text.endswith(".") else ".")

@@ -1,0 +1,172 @@
+"""The flights of one animal with one model at several speeds, ready for a page without a server."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from wingbeat._base.errors import FaultList
+from wingbeat.animal.species import Species
+from wingbeat.animal.species.scaling import CRUISE_BY_MASS
+from wingbeat.models import model_of
+from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.solve import Progress, check_search
+from wingbeat.results.orbit import Orbit
+from wingbeat.results.solving import solve_orbits
+from wingbeat_explorer.face import face_of, is_plausible
+from wingbeat_explorer.measured import measured_points
+from wingbeat_explorer.models import EXPLORER_MODELS, LATTICE_MODELS, search_starts
+from wingbeat_explorer.pushed import pushes_of
+from wingbeat_explorer.thinning import thinned
+
+SPEEDS = 9
+# What speeds to show, as shares of the cruise of a bird of the same mass. Robots fly slower.
+_SHARES = {"robot": (0.25, 0.85)}
+_OTHERS = (0.35, 1.5)
+_HOVERS = 0.02  # kg; lighter vehicles are also shown in hover
+
+
+def default_speeds(species: Species, count: int = SPEEDS) -> list[float]:
+    """Return speeds at which an animal or a robot of this mass may fly, in steps of at least 0.5 m/s.
+
+    Parameters
+    ----------
+    species : the animal or robot.
+    count : how many at most.
+
+    >>> import wingbeat as wb
+    >>> default_speeds(wb.load_species("pigeon"), 6)
+    [5.0, 8.0, 11.0, 14.0, 17.5, 20.5]
+    """
+    mass = species.vehicle.mass
+    slow, fast = _SHARES.get(species.kind, _OTHERS)
+    cruise = float(CRUISE_BY_MASS.number(mass).value)  # pyright: ignore[reportArgumentType]
+    low = 0.0 if mass < _HOVERS else slow * cruise
+    return np.unique(np.round(2.0 * np.linspace(low, fast * cruise, count)) / 2.0).tolist()
+
+
+def solve_lattice(
+    species: Species,
+    model: str,
+    speeds: Sequence[float],
+    starts: int | None = None,
+    seed: int = 0,
+    progress: Progress | None = None,
+    push: bool = False,
+) -> dict[str, Any]:
+    """Find the wingbeats of an animal at several speeds, and return what the static explorer shows of them.
+
+    The result is fit for JSON. It has species, title, model, the speed to begin with, the curve (points and what
+    was measured on animals), the sources of the plausible ranges and the answers, one for each speed, from
+    `face_of`. Speeds are solved as a series, so that neighbours help each other. With `push` it has pushes too:
+    flights through gusts at the speed to begin with.
+
+    Parameters
+    ----------
+    species : the animal or robot.
+    model : one of `wingbeat_explorer.LATTICE_MODELS`.
+    speeds : increasing [m/s].
+    starts, seed : as in `solve_orbits`; without a number of starts, the model ``"plausible"`` takes three.
+    progress : called with (speeds done, speeds in all).
+    push : whether to fly through gusts as well, which takes some seconds.
+
+    Raises
+    ------
+    InvalidInputError : no speed, speeds that do not increase; a speed, a model or a number of starts out of range.
+
+    >>> import wingbeat as wb
+    >>> lattice = solve_lattice(wb.load_species("pigeon"), "paper", [11.0, 12.0], starts=1)
+    >>> lattice["speed"], [point["certified"] for point in lattice["curve"]["points"]]
+    (11.0, [True, True])
+    """
+    problems, count = check_lattice(species, model, speeds, starts, seed)
+    orbits = solve_orbits(problems, count, seed, in_order=True, progress=progress)
+    return lattice_of(species, model, orbits, push)
+
+
+def check_lattice(
+    species: Species, model: str, speeds: Sequence[float], starts: int | None = None, seed: int = 0
+) -> tuple[list[OrbitProblem], int | None]:
+    """Return the problems of a lattice and the number of starts of each, without solving them.
+
+    Parameters
+    ----------
+    species, model, speeds, starts, seed : as in `solve_lattice`.
+
+    Raises
+    ------
+    InvalidInputError : as `solve_lattice`.
+    """
+    faults = FaultList()
+    if not len(speeds) or any(np.diff(speeds) <= 0):
+        faults.add("speeds", list(speeds), "must be at least one, and increase", "for example 8, 10, 12")
+    faults.choice("model", model, LATTICE_MODELS)
+    faults.raise_if_any()
+    check_search(1 if starts is None else starts, seed)
+    problems = [_problem(model, species, float(speed)) for speed in speeds]
+    return problems, search_starts(starts, EXPLORER_MODELS[model].within_plausible)
+
+
+def lattice_of(species: Species, model: str, orbits: Sequence[Orbit], push: bool = False) -> dict[str, Any]:
+    """Return what the static explorer shows of orbits that are solved already; `solve_lattice` says what it is.
+
+    Parameters
+    ----------
+    species : the animal or robot.
+    model : name of the model of all orbits.
+    orbits : in increasing order of speed.
+    push : as in `solve_lattice`.
+    """
+    answers = [face_of(orbit, model) for orbit in orbits]
+    points = [point_of(answer) for answer in answers]
+    first = _first(points)
+    # The source of a range is long, and most often the same at all speeds.
+    sources = {gauge["name"]: gauge["source"] for gauge in answers[0]["gauges"]}
+    lattice = {
+        "species": species.name,
+        "title": species.common_name or species.name,
+        "model": model,
+        "speed": first,
+        "curve": {"points": points, "measured": measured_points(species)},
+        "sources": sources,
+        "answers": [_small(answer, sources) for answer in answers],
+    }
+    pushed = next(orbit for orbit, point in zip(orbits, points, strict=True) if point["speed"] == first)
+    return lattice | ({"pushes": pushes_of(pushed)} if push else {})
+
+
+def _problem(model: str, species: Species, speed: float) -> OrbitProblem:
+    meant = EXPLORER_MODELS[model]
+    return model_of(meant.model, species).problem(species, speed, **meant.changes)
+
+
+def _small(answer: dict[str, Any], sources: dict[str, str]) -> dict[str, Any]:
+    """Return an answer with a thinned scene, and without the sources that all speeds share."""
+    gauges = [
+        {name: part for name, part in gauge.items() if name != "source" or part != sources[gauge["name"]]}
+        for gauge in answer["gauges"]
+    ]
+    scene = answer["scene"]
+    return answer | {"gauges": gauges, "scene": None if scene is None else thinned(scene)}
+
+
+def point_of(answer: dict[str, Any]) -> dict[str, Any]:
+    """Return a point of the curve: speed [m/s], power [W], frequency [Hz], whether certified and plausible.
+
+    Parameters
+    ----------
+    answer : from `face_of`.
+    """
+    numbers = {name: answer[name] for name in ("speed", "power", "frequency")}
+    return numbers | {"certified": answer["lights"][0]["good"], "plausible": is_plausible(answer["lights"])}
+
+
+def _first(points: Sequence[dict[str, Any]]) -> float:
+    """Return the speed to begin with: of least power among the plausible flights, or else the certified ones."""
+    for kind in ("plausible", "certified"):
+        fit = [point for point in points if point[kind]]
+        if fit:
+            return min(fit, key=lambda point: point["power"])["speed"]
+    return points[0]["speed"]

@@ -1,0 +1,133 @@
+"""The static explorer: a folder of plain files that opens from disk and makes no request to another host."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import os
+import re
+from collections.abc import Iterable, Sequence
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+from wingbeat._base.errors import FaultList, FileError
+from wingbeat._base.files import write_atomically
+from wingbeat._version import __version__
+from wingbeat.viewer import bundle_path
+from wingbeat_explorer.models import EXPLORER_MODELS
+
+# Only files of this folder may be loaded; `file:` is for browsers to which a file is not 'self'.
+_PAGE = f"""<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'self' file:;
+  style-src 'unsafe-inline'; img-src data: blob:; media-src blob:; base-uri 'none'; form-action 'none'">
+<title>wingbeat explorer</title>
+<style>
+  :root {{ color-scheme: light dark; }}
+  body {{ margin: 0; background: light-dark(#ffffff, #14181d); }}
+  main {{ max-width: 1500px; margin: 0 auto; }}
+  footer {{ max-width: 1500px; margin: 0 auto; padding: 0 24px 24px; font: 13px/1.5 system-ui, sans-serif;
+    color: light-dark(#57606c, #a4adb8); }}
+</style>
+<script src="explorer.js" defer></script>
+<script src="catalogue.js" defer></script>
+</head>
+<body>
+<main><noscript>This page computes nothing on a server; it needs JavaScript to show the flights.</noscript></main>
+<footer>Every dot is a wingbeat that wingbeat {__version__} computed; nothing between the dots is a result. No
+number is fitted to a measured flight.</footer>
+</body>
+</html>
+"""
+
+
+def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any]]) -> list[Path]:
+    """Write the static explorer, and return the paths of its files.
+
+    The folder holds ``index.html``, ``explorer.js``, ``catalogue.js`` and a file in ``data`` for each lattice, with
+    another one for its pushes, which the page reads when they are asked for. Each lattice is written as soon as it
+    comes, so a generator keeps one at a time in memory. The page begins with the first one.
+
+    Parameters
+    ----------
+    folder : made if it does not exist; files of the same names are replaced.
+    lattices : from `solve_lattice`, at least one.
+
+    Raises
+    ------
+    InvalidInputError : no lattice, two of the same species and model, a species whose name cannot name a file.
+    FileError : a file that cannot be written.
+    """
+    place = Path(folder)
+    try:
+        (place / "data").mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise FileError(f"cannot make the folder {os.fspath(place)!r}: {error.strerror}") from None
+    written, titles, models, start = [], {}, [], None
+    for lattice in lattices:
+        species, model = lattice["species"], lattice["model"]
+        check_names([(species, model)], [path.stem for path in written])
+        written.append(place / "data" / f"{species}-{model}.js")
+        pushes = lattice.get("pushes")
+        shown = {name: value for name, value in lattice.items() if name != "pushes"}
+        _call(written[-1], "hold", species, model, _compressed(shown))
+        if pushes:
+            written.append(place / "data" / f"{species}-{model}-pushes.js")
+            _call(written[-1], "holdPushes", species, model, _compressed(pushes))
+        titles[species] = lattice["title"]
+        models += [] if model in models else [model]
+        start = start or {"animal": species, "model": model, "speed": lattice["speed"]}
+    faults = FaultList()
+    if start is None:
+        faults.add("lattices", 0, "there is nothing to show", "give at least one animal and one model")
+    faults.raise_if_any()
+    catalogue = {
+        "animals": [{"name": name, "title": title} for name, title in titles.items()],
+        "models": [{"name": name, "title": EXPLORER_MODELS[name].title} for name in models],
+        "files": [path.name for path in written],
+        "start": start,
+    }
+    others = [place / name for name in ("index.html", "explorer.js", "catalogue.js")]
+    write_atomically(others[0], _PAGE.encode())
+    write_atomically(others[1], bundle_path("explorer").read_bytes())
+    _call(others[2], "open", catalogue)
+    return [*others, *written]
+
+
+def check_names(flyers: Iterable[tuple[str, str]], known: Sequence[str] = ()) -> None:
+    """Refuse species whose names cannot name a file, and a species and model that come twice.
+
+    Parameters
+    ----------
+    flyers : names of species and model.
+    known : names of files that are there already, without ending.
+
+    Raises
+    ------
+    InvalidInputError : all of them.
+    """
+    faults, seen = FaultList(), set(known)
+    for species, model in flyers:
+        if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]*", species):
+            faults.add("species", species, "cannot name a file", "use letters, digits, - and _ in its name")
+        elif f"{species}-{model}" in seen:
+            faults.add("species", species, f"comes twice with the model {model}", "give each animal its own name")
+        seen.add(f"{species}-{model}")
+    faults.raise_if_any()
+
+
+def _call(path: Path, function: str, *arguments: Any) -> None:
+    """Write a script that calls a function of the explorer."""
+    texts = ", ".join(json.dumps(one) for one in arguments)
+    write_atomically(path, f"wingbeatExplorer.{function}({texts});\n".encode())
+
+
+def _compressed(data: Any) -> str:
+    """Return data as a text that browsers can decompress; half the size of its JSON."""
+    text = json.dumps(data, allow_nan=False, separators=(",", ":"))
+    return base64.b64encode(gzip.compress(text.encode(), 9, mtime=0)).decode()

@@ -41,7 +41,7 @@ class ValidationRow:
     ----------
     aero : the air loads, without the lag of the wake.
     unsteady : "none", "thin-aerofoil" or "thin-aerofoil-wake".
-    recommended : whether the rule of `wingbeat_evidence.measured_motion.choice` recommends this row; exactly one row
+    recommended : whether the rule of `measured_motion.choice` recommends this row; exactly one row
         is recommended.
     fx, fz : how close the computed forward and upward forces are to the measured ones.
     aerodynamic_power : mean power that the wings give to the air [W].

@@ -1,8 +1,9 @@
-"""Make a Markdown page from the results of `objectives.py`: bettered optima, then doubtful ones, then the rest."""
+"""Make a table (.csv) from the results of `objectives.py`, and print what matters of it for the page."""
 
 from __future__ import annotations
 
 import argparse
+import csv
 import json
 import re
 from pathlib import Path
@@ -11,39 +12,32 @@ from objectives import BETTER
 
 from wingbeat.orbits.problem.quantities import named_quantity
 
-HEAD = (
-    "animal",
-    "m/s",
-    "minimised",
-    "limit",
-    "value",
-    "bettered by, %",
-    "best restart",
-    "restarts: optima / as good",
-    "IPOPT, certified",
-    "IPOPT's own minimum",
-    "s",
-)
+TABLE = Path(__file__).parents[1] / "data" / "objectives.csv"
+FEW = 2  # restarts that are as good as the best; another seed may then find a better optimum
 
 
-def line(row: dict) -> str:
-    """Return the row of the table."""
-    first = row["animal"], f"{row['speed']:g}", row["minimise"], _with_unit(row["limit"]) or "-"
+def entry(row: dict) -> dict[str, str]:
+    """Return the row of the table; a problem without an orbit has only its status."""
+    first = {"animal": row["animal"], "speed": f"{row['speed']:g}", "minimised": row["minimise"]}
+    first |= {"limit": _with_unit(row["limit"]), "status": row["status"]}
     if row["status"] != "converged":
-        return "| " + " | ".join((*first, row["status"], *["-"] * 6)) + " |"
+        return first
     restarts = row["by_restarts"]
     certified = [f["certified"] for f in row["by_ipopt"] if f["certified"] is not None]
     own = [f["own"] for f in row["by_ipopt"] if f["success"]]
-    rest = (
-        f"{row['objective']:.5g} {row['unit']}",
-        f"{100 * row['lower_by']:z.2f}",
-        _shown(restarts["least"]),
-        f"{restarts['ended_in_an_optimum']} / {restarts.get('as_good', '-')}",
-        f"{_shown(min(certified, default=None))} ({len(certified)} of {len(row['by_ipopt'])})",
-        _shown(min(own, default=None)),
-        f"{row['seconds']['all']:.0f}",
-    )
-    return "| " + " | ".join((*first, *rest)) + " |"
+    return first | {
+        "value": f"{row['objective']:.5g}",
+        "unit": row["unit"],
+        "bettered_by_percent": f"{100 * row['lower_by']:z.2f}",
+        "best_restart": _shown(restarts["least"]),
+        "restarts_in_an_optimum": str(restarts["ended_in_an_optimum"]),
+        "restarts_as_good": str(restarts.get("as_good", "")),
+        "ipopt_certified": _shown(min(certified, default=None)),
+        "ipopt_certified_count": str(len(certified)),
+        "ipopt_count": str(len(row["by_ipopt"])),
+        "ipopt_own_minimum": _shown(min(own, default=None)),
+        "seconds": f"{row['seconds']['all']:.0f}",
+    }
 
 
 def _with_unit(limit: str) -> str:
@@ -56,7 +50,7 @@ def _with_unit(limit: str) -> str:
 
 
 def _shown(value: float | None) -> str:
-    return "none" if value is None else f"{value:.5g}"
+    return "" if value is None else f"{value:.5g}"
 
 
 def doubtful(row: dict) -> bool:
@@ -71,6 +65,7 @@ def doubtful(row: dict) -> bool:
 
 
 def main() -> None:
+    """Write the table, and print the problems that are bettered, in doubt or found by few restarts."""
     arguments = argparse.ArgumentParser(description=__doc__)
     arguments.add_argument("found", nargs="+", type=Path)
     given = arguments.parse_args()
@@ -81,16 +76,17 @@ def main() -> None:
             rows[row["animal"], row["speed"], row["minimise"], row["limit"]] = row
     bettered = [r for r in rows.values() if r.get("lower_by", 0.0) > BETTER]
     doubts = [r for r in rows.values() if r not in bettered and doubtful(r)]
-    others = [r for r in rows.values() if r not in bettered and r not in doubts]
+    entries = [entry(row) for row in rows.values()]
+    with TABLE.open("w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, max(entries, key=len), restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(entries)
     seconds = sum(row["seconds"]["all"] for row in rows.values())
-    print(f"{len(rows)} problems, {len(bettered)} bettered, {len(doubts)} in doubt; {seconds / 60:.0f} minutes.\n")
-    for title, some in (("Bettered", bettered), ("In doubt", doubts), ("Not bettered", others)):
-        print(f"### {title}\n")
-        if some:
-            print("| " + " | ".join(HEAD) + " |\n" + "| --- " * len(HEAD) + "|")
-            print("\n".join(line(row) for row in some), end="\n\n")
-        else:
-            print("None.\n")
+    print(f"{len(rows)} problems, {len(bettered)} bettered, {len(doubts)} in doubt; {seconds / 60:.0f} minutes.")
+    few = [one for one in entries if 0 < int(one.get("restarts_as_good") or 0) <= FEW]
+    for title, some in (("bettered", bettered), ("in doubt", doubts), ("found by few restarts", few)):
+        for one in some:
+            print(f"{title}: {one if one in few else entry(one)}")
 
 
 if __name__ == "__main__":

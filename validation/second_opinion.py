@@ -1,18 +1,20 @@
-"""Our air loads beside a vortex lattice, for pigeon and bat: one table, one figure.
+"""Our air loads beside a vortex lattice, for pigeon and bat: two tables, one page, one figure.
 
-Run as ``python validation/second_opinion.py [--records FOLDER] [-o FOLDER]``, with the extra uvlm; writes
-second_opinion.md and .png. Records in the folder are used again; missing ones are computed, in some minutes each.
+Run as ``python validation/second_opinion.py [--page]``, with the extra uvlm; each comparison takes some minutes.
+Writes ``data/second_opinion.csv`` and ``data/second_opinion_lattices.csv``, and from them the page; with ``--page``
+nothing is computed.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import sys
-from pathlib import Path
+from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
-from second_opinion_words import page
+import pandas as pd
+from page_script import ROOT, filled, markdown_table
 
 import wingbeat as wb
 from wingbeat._base.errors import WingbeatError
@@ -23,7 +25,7 @@ from wingbeat_evidence.second_opinion.comparison import lattice_loads
 from wingbeat_evidence.second_opinion.figure import second_opinion_page
 from wingbeat_evidence.second_opinion.motion import Motion
 
-ROOT = Path(__file__).resolve().parents[1]
+DOCS, TABLES = ROOT / "docs" / "evidence", ROOT / "data"
 # Animal, speed [m/s], largest flap amplitude [deg] where it is not that of the species file.
 CASES = (
     *(("pigeon", speed, None) for speed in (8, 12, 16)),
@@ -37,6 +39,14 @@ LATTICES = (
     LatticeOptions(beats=3),
     LatticeOptions(6, 18, 72, 2),
 )
+LATTICE = "vortex lattice"
+TERMS = {
+    ("none", "none"): "coefficients alone",
+    ("thin-aerofoil", "none"): "rotation, added mass",
+    ("none", "momentum"): "inflow",
+    ("thin-aerofoil", "momentum"): "both",
+}
+MEANS = ("mean_lift", "mean_thrust", "aerodynamic_power")
 
 
 def solved(animal: str, speed: float, amplitude: float | None) -> wb.Orbit:
@@ -46,54 +56,100 @@ def solved(animal: str, speed: float, amplitude: float | None) -> wb.Orbit:
     return wb.solve_orbit(wb.OrbitProblem(species, speed=speed, bounds=bounds or None))
 
 
-def converged(orbit: wb.Orbit) -> list[dict[str, object]]:
-    """Return what finer lattices and more beats make of an orbit."""
+def compared() -> Iterator[dict[str, Any]]:
+    """Yield a row for each flight and loads, and draw the flight that the page shows."""
+    for case in CASES:
+        opinion = compare_with_lattice(solved(*case))
+        if case == SHOWN:
+            save_figure(second_opinion_page(opinion), DOCS / "second_opinion.png")
+        record = opinion.record()
+        about = dict(zip(("animal", "speed", "flap_amplitude_deg"), case, strict=True))
+        about["beyond_15_deg"] = record["beyond_15_deg"]
+        yield about | {"loads": LATTICE} | {name: record[name]["theirs"] for name in MEANS}
+        for row in record["terms"]:
+            found = about | {"loads": TERMS[row["unsteady"], row["inflow"]]}
+            if "refused" not in row:
+                found |= {name: row[name]["ours"] for name in MEANS}
+                found["lift_lag"] = row["lift_lag"]
+                found["rms_over_weight"] = row["lift_rms_difference"]
+                found["rms_over_lattice"] = row["lift_rms_difference"] / row["lift_rms_of_theirs"]
+            yield found
+
+
+def converged(orbit: wb.Orbit) -> Iterator[dict[str, Any]]:
+    """Yield what finer lattices and more beats make of an orbit."""
     model = orbit.problem.model
     motion = Motion.of(orbit.dataset, model.vehicle, orbit.wingbeat, model.air)
-    rows = []
     for options in LATTICES:
         loads = lattice_loads(motion, options)
         first = 2 * np.fft.rfft(loads.lift)[1] / len(loads.lift)
-        rows.append(
-            {
-                "lattice": vars(options),
-                "mean_lift": float(np.mean(loads.lift)),
-                "mean_thrust": float(np.mean(loads.thrust)),
-                "aerodynamic_power": float(np.mean(loads.power)),
-                "first_harmonic": float(abs(first)),
-                "phase_of_first": float(-np.angle(first) / (2 * np.pi) % 1.0),
-            }
+        means = (float(np.mean(series)) for series in (loads.lift, loads.thrust, loads.power))
+        harmonic = {
+            "first_harmonic": float(abs(first)),
+            "phase_of_first": float(-np.angle(first) / (2 * np.pi) % 1.0),
+        }
+        yield vars(options) | dict(zip(MEANS, means, strict=True)) | harmonic
+
+
+def page(flights: pd.DataFrame, lattices: pd.DataFrame) -> str:
+    """Return the page.
+
+    Parameters
+    ----------
+    flights : rows of `compared`.
+    lattices : rows of `converged`.
+    """
+    cells: dict[tuple[Any, ...], list[str]] = {}
+    for row in flights.itertuples():
+        means = " / ".join(
+            f"{value:.3g}" if abs(value) > 5e-4 else "0" for value in (getattr(row, m) for m in MEANS)
         )
-    return rows
+        name = f"{row.animal} {row.speed} m/s"
+        name += "" if pd.isna(row.flap_amplitude_deg) else f", flap at most {row.flap_amplitude_deg:.0f} deg"
+        own = cells.setdefault((name,), [name, f"{row.beyond_15_deg:.0%}"])
+        own.append(means if row.loads == LATTICE else f"{means}; {row.rms_over_lattice:.2f}; {row.lift_lag:+.3f}")
+    theirs, alone = (flights[flights["loads"] == name] for name in (LATTICE, TERMS["none", "none"]))
+    power = theirs["aerodynamic_power"].to_numpy() / alone["aerodynamic_power"].to_numpy()
+    default, finest = lattices.iloc[1], lattices.iloc[-1]
+    names = dict(zip(MEANS, ("lift", "thrust", "power"), strict=True))
+    rows = [
+        [
+            f"{row.chordwise} x {row.spanwise}, {row.steps}, {row.beats}",
+            f"{row.mean_lift:.3f} / {row.mean_thrust:.3f} / {row.aerodynamic_power:.2f}",
+            f"{row.first_harmonic:.3f}, {row.phase_of_first:.3f}",
+        ]
+        for row in lattices.itertuples()
+    ]
+    heads = [
+        "panels (chord x span), steps per beat, beats",
+        "lift / thrust / power",
+        "first harmonic [N], its phase",
+    ]
+    return filled(
+        "second_opinion",
+        table=markdown_table(["flight", "beyond 15 deg", LATTICE, *TERMS.values()], cells.values()),
+        least=flights["beyond_15_deg"].min(),
+        most=flights["beyond_15_deg"].max(),
+        low=power.min(),
+        high=power.max(),
+        convergence=markdown_table(heads, rows),
+        errors=", ".join(f"{abs(default[key] / finest[key] - 1):.1%} in {name}" for key, name in names.items()),
+    )
 
 
-def main(argv: list[str] | None = None) -> int:
-    """Write the page and the figure; return the exit code."""
-    parser = argparse.ArgumentParser(description="Our air loads beside a vortex lattice.")
-    parser.add_argument("--records", type=Path, default=Path("second_opinion"), help="folder of the comparisons")
-    parser.add_argument("-o", "--output", type=Path, default=ROOT / "docs" / "evidence", help="folder to write to")
-    chosen = parser.parse_args(argv)
-    chosen.records.mkdir(parents=True, exist_ok=True)
-    records = {}
+def main() -> int:
+    """Compare, and write tables, page and figure; return the exit code."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--page", action="store_true", help="write the page from the tables, without computing")
+    tables = TABLES / "second_opinion.csv", TABLES / "second_opinion_lattices.csv"
     try:
-        for case in CASES:
-            name = "_".join(str(part) for part in case if part is not None)
-            file, figure = chosen.records / f"{name}.json", chosen.output / "second_opinion.png"
-            if not file.exists() or (case == SHOWN and not figure.exists()):
-                opinion = compare_with_lattice(solved(*case))
-                write_atomically(file, json.dumps(opinion.record(), indent=1))
-                if case == SHOWN:
-                    save_figure(second_opinion_page(opinion), figure)
-            records[case] = json.loads(file.read_text(encoding="utf-8"))
-        file = chosen.records / "convergence.json"
-        if not file.exists():
-            write_atomically(file, json.dumps(converged(solved(*SHOWN)), indent=1))
-        rows = json.loads(file.read_text(encoding="utf-8"))
-        write_atomically(chosen.output / "second_opinion.md", page(records, rows))
+        if not parser.parse_args().page:
+            for table, found in zip(tables, (compared(), converged(solved(*SHOWN))), strict=True):
+                write_atomically(table, pd.DataFrame(found).to_csv(index=False, float_format="%.4g"))
+        write_atomically(DOCS / "second_opinion.md", page(*map(pd.read_csv, tables)))
     except WingbeatError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2
-    print(f"wrote second_opinion.md to {chosen.output}", file=sys.stderr)
     return 0
 
 

@@ -224,7 +224,7 @@ def under_one_choice(sets, holds):
     (slow, fast) = PAPER_BAT_SPEEDS
     about_half = ["smaller-horizontal-force", "smaller-vertical-force", "smaller-alpha-1-of-4", "arm-pitches-least"]
     assert ((holds[about_half].mean() - 0.5).abs() < 0.1).all()
-    tests = (DOCS / "claims.md").read_text()
+    tests = (ROOT / "data" / "claims.json").read_text()
     assert "the ratio is between 3 and 5" in tests
     assert tests.count("our peak power is within 25 % of the paper's") == len(PEAKS)
     of_peaks = PAPER_PEAK_POWER["dickinson"] / PAPER_PEAK_POWER["su-fan"]

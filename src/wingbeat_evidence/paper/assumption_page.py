@@ -18,8 +18,7 @@ from wingbeat_evidence.paper.pieces import table
 # A pair of claims is reported as never holding together only if each holds in at least this many sets.
 _OFTEN = 20
 # Assumptions that explain less than this share of the variance of a claim's number are not named.
-_TELLING = 0.05
-_BEST = 5
+_TELLING = 0.1
 
 
 def write_study(study: Judged, folder: Path, heading: str) -> list[Path]:
@@ -46,71 +45,69 @@ def write_study(study: Judged, folder: Path, heading: str) -> list[Path]:
     return paths
 
 
+_PAGE = """# What the paper's claims depend on
+
+Su et al. (arXiv 2302.09602) give no wing masses, inertias, shoulder positions or bounds, and do not say how they
+treat negative angles of attack. {count} sets of assumptions fill the ranges below evenly. Each needs {orbits}
+orbits of lowest frequency: pigeon and bat, with both coefficient models, at the speeds of the claims. Of these
+orbits, {found:.0f} % were found and certified.
+
+{heading}
+
+![Share of the testable sets that satisfy each claim, and what the claim depends on](assumptions.png)
+
+*a: share of the testable sets that satisfy the claim (bars), and share of all sets that can test it (ticks). b:
+share of the variance of the claim's number that each assumption explains; grey: too few sets. c: quality of the
+response surface behind these shares. U: Usherwood et al. 2005, P: Pennycuick 1996.*
+
+*Testable*: share of sets that have the orbits to test the claim. *Holds*: share of these that satisfy it, with its
+standard error. *Depends on*: assumptions that explain at least a tenth of the variance of the ranks of the claim's
+number, by a quadratic response surface. *Quality*: share of the variance that the surface explains in numbers that
+it was not fitted to; below {trusted:g} it says little.
+
+{claims}
+
+No set satisfies more than {most:.0f} of the {of} claims; half of the sets satisfy at least {half:.0f}. Many sets
+cannot test all claims, because an orbit is missing.
+
+{apart}
+
+## What was sampled
+
+{sampled}
+"""
+
+
 def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str:
     """Return the page of results in Markdown."""
     kept = np.nansum(study.holds, axis=1)
-    lines = [
-        "# What the paper's claims depend on",
-        "",
-        "Su et al. (arXiv 2302.09602) give no wing masses, inertias, shoulder positions or bounds, and do not say "
-        f"how they treat negative angles of attack. Here we use {len(study.sets)} sets of assumptions. The sets "
-        "fill the plausible ranges below uniformly. The total masses of the animals are those of the paper. Each "
-        f"set needs {ORBITS} orbits of lowest frequency: the pigeon and the bat, with both coefficient models, at "
-        f"the speeds of the claims. Of these orbits, {100 * study.flown.sum() / (ORBITS * len(study.sets)):.0f} % "
-        "were found and certified.",
-        "",
-        heading,
-        "",
-        "![Share of the testable sets that satisfy each claim, and what the claim depends on](assumptions.png)",
-        "",
-        "*Share of the testable sets that satisfy each claim (bars in a), and share of all sets that can test it "
-        "(ticks). Share of the variance of the claim's number that each assumption explains (b); grey: too few "
-        "sets. Quality of the response surface behind these shares (c); left of the line the surface says little. "
-        "The claims are in the order of the table below. U: Usherwood et al. 2005, P: Pennycuick 1996.*",
-        "",
-        "## Claim by claim",
-        "",
-        "*Testable* is the share of sets that have the orbits to test the claim. *Holds* is the share of the "
-        "testable sets that satisfy it, with its standard error. Each set gives one number for the claim; the "
-        "claim calls it *Ours*. We fit a quadratic response surface to the ranks of these numbers. *Depends on* "
-        "names each assumption that explains at least a twentieth of the variance of these ranks, with the share "
-        "that it explains. *Quality* is the share of the variance that the surface explains in numbers that were "
-        f"not used in the fit. Below {TRUSTED:g} the surface says little.",
-        "",
-        "| claim | holds [%] | testable [%] | depends on | quality |",
-        "| --- | --- | --- | --- | --- |",
-    ]
+    claims = []
     for claim, holds, hang in zip(study.claims, study.holds.T, hangs, strict=True):
         told = np.isfinite(holds)
-        share = _share(holds[told])
         quality = "-" if hang is None else f"{hang.quality:.2f}"
-        lines.append(
-            f"| `{claim.id}`: {claim.claim} | {share} | {100 * told.mean():.0f} | {_named(hang)} | {quality} |"
-        )
-    lines += [
-        "",
-        "## All at once",
-        "",
-        f"No set satisfies more than {kept.max():.0f} of the {len(study.claims)} claims; half of the sets satisfy "
-        f"at least {np.median(kept):.0f}. Many sets cannot test all claims, because an orbit is missing.",
-        "",
-        *_apart(study),
-        "",
-        f"The {_BEST} sets that satisfy the most claims follow. The last column gives claim ids; in an id, "
-        "`1-of-4` means at a quarter of the span.",
-        "",
-        "| " + " | ".join(["claims", *(a.name for a in ASSUMPTIONS), "claims not satisfied"]) + " |",
-        "| " + " | ".join(["---"] * (len(ASSUMPTIONS) + 2)) + " |",
+        claims.append([f"`{claim.id}`", _share(holds[told]), f"{100 * told.mean():.0f}", _named(hang), quality])
+    sampled = [
+        [f"{a.name}: {a.words}", ", ".join(a.choices) if a.choices else f"{a.low:g} to {a.high:g}", a.source]
+        for a in ASSUMPTIONS
     ]
-    for i in np.argsort(-kept, kind="stable")[:_BEST]:
-        missed = [claim.id for claim, holds in zip(study.claims, study.holds[i], strict=True) if holds != 1]
-        assumed = [v if isinstance(v, str) else f"{v:.3g}" for v in (study.sets[i][a.name] for a in ASSUMPTIONS)]
-        lines.append("| " + " | ".join([f"{kept[i]:.0f}", *assumed, ", ".join(missed)]) + " |")
-    lines += ["", "## What was sampled", "", "| assumption | range | reason |", "| --- | --- | --- |"]
-    for a in ASSUMPTIONS:
-        span = ", ".join(a.choices) if a.choices else f"{a.low:g} to {a.high:g}"
-        lines.append(f"| {a.name}: {a.words} | {span} | {a.source} |")
-    return "\n".join(lines) + "\n"
+    return _PAGE.format(
+        count=len(study.sets),
+        orbits=ORBITS,
+        found=100 * study.flown.sum() / (ORBITS * len(study.sets)),
+        heading=heading,
+        trusted=TRUSTED,
+        claims=_table(["claim", "holds [%]", "testable [%]", "depends on", "quality"], claims),
+        most=kept.max(),
+        of=len(study.claims),
+        half=np.median(kept),
+        apart="\n".join(_apart(study)),
+        sampled=_table(["assumption", "range", "reason"], sampled),
+    )
+
+
+def _table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    lines = [heads, ["---"] * len(heads), *rows]
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
 
 
 def _share(holds: np.ndarray) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import re
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,7 +12,7 @@ from typing import Any
 
 from wingbeat._base.files import write_atomically
 from wingbeat_evidence.paper.argument_claims import argument_claims
-from wingbeat_evidence.paper.claim import NOT_ASKED, Claim, Finding
+from wingbeat_evidence.paper.claim import FAILS, HOLDS, HOLDS_UNDER, NOT_ASKED, UNTESTABLE, Claim, Finding
 from wingbeat_evidence.paper.coefficient_claims import coefficient_claims
 from wingbeat_evidence.paper.experiment_claims import experiment_claims
 from wingbeat_evidence.paper.flight_claim_list import flight_claim_list
@@ -73,50 +74,60 @@ def write_claims(
     return written
 
 
+_PAGE = """# The paper's claims beside our results
+
+Su, Fan, Onoue, Vejdani and Breuer, arXiv 2302.09602: each quantitative or directional claim beside our number
+under the default assumptions, the first below, with the range over all assumptions in brackets. A claim *holds* if
+it holds under every set of assumptions, and *fails* if under none. A claim that holds is consistent with our
+result; this does not prove that the authors made the same assumptions. C_L, C_D and C_M are those of the plate of
+Su et al. unless the claim names another model. `claims.json` (a copy is in `data/`) gives the test of each claim,
+our number under each set of assumptions, and the place in the paper.
+
+Verdicts of the {count} claims: {tally}.
+
+{treatments}
+{sections}"""
+# The verdicts in the order of the page, and what stands in a further column.
+_FURTHER = {FAILS: [], HOLDS_UNDER: ["holds under"], UNTESTABLE: ["why not"], HOLDS: [], NOT_ASKED: []}
+
+
 def markdown(claims: Sequence[Claim]) -> str:
     """Return the claims as a Markdown page."""
     counts = Counter(claim.verdict for claim in claims)
-    tally = ", ".join(f"{verdict} {count}" for verdict, count in counts.most_common())
-    lines = [
-        "# The paper's claims beside our results",
-        "",
-        "Su, Fan, Onoue, Vejdani and Breuer, arXiv 2302.09602. The table has one row for each quantitative or "
-        "directional claim. After the claim, *Tested* says what we tested, and *Ours* says what our number is. "
-        "Both are left out where the claim makes them plain. C_L, C_D and C_M are those of the plate of Su et al. "
-        "unless the claim names another model. The column *ours* gives this number under our default assumptions, "
-        "the first in the list below. A claim *holds* if it holds under every set of assumptions tried, and it "
-        "*fails* if it holds under none. *Holds under* means that it holds under some of them. *By assumption* "
-        "gives our number under each set of assumptions, and whether the claim then holds (yes or no). *No "
-        "assumption needed* marks a claim that we test on printed numbers and formulas alone. If a claim holds, "
-        "our result is consistent with the paper. This does not prove that the authors made the same assumptions.",
-        "",
-        f"Verdicts of the {len(claims)} claims: {tally}.",
-        "",
-        "Assumptions tried:",
-        "",
-        *(f"- `{treatment.name}`: {treatment.words}." for treatment in TREATMENTS),
-        "",
-        "| claim | where | paper | ours | unit | verdict | by assumption |",
-        "| --- | --- | --- | --- | --- | --- | --- |",
-        *(_line(claim) for claim in claims),
-        "",
-    ]
-    return "\n".join(lines)
+    sections = []
+    for verdict, further in _FURTHER.items():
+        own = [claim for claim in claims if claim.verdict == verdict]
+        if own:
+            heads = ["claim", "paper", "ours", *further]
+            lines = [heads, ["---"] * len(heads), *(_cells(claim) for claim in own)]
+            table = "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
+            sections.append(f"\n## {verdict.capitalize()}\n\n{table}")
+    return _PAGE.format(
+        count=len(claims),
+        tally=", ".join(f"{verdict} {count}" for verdict, count in counts.most_common()),
+        treatments="\n".join(f"- `{treatment.name}`: {treatment.words}." for treatment in TREATMENTS),
+        sections="\n".join(sections) + "\n",
+    )
 
 
-def _line(claim: Claim) -> str:
-    paper = f"{claim.paper:.4g}" if isinstance(claim.paper, float) else claim.paper
-    each = "; ".join(f"{f.assumptions}: {_shown(f.number)}{_mark(f.holds)}" for f in claim.findings)
-    ours = _shown(claim.findings[0].number)
+def _cells(claim: Claim) -> list[str]:
+    """Return the claim without its test, the paper's number and ours; for some verdicts, the assumptions."""
+    statement = f"`{claim.id}`: " + re.split(r" (?:Tested|Ours|We read)\b", claim.claim)[0].replace("|", "/")
+    unit = "" if claim.unit == "1" else f" {claim.unit}"
+    paper = f"{claim.paper:.4g}{unit}" if isinstance(claim.paper, float) else claim.paper
     if not claim.asked:
-        ours, each = "-", "-"
-    cells = [claim.claim, claim.where, paper, ours, claim.unit, claim.verdict, each]
-    return "| " + " | ".join(cell.replace("|", "/") for cell in cells) + " |"
+        return [statement, paper, "-"]
+    numbers = [finding.number for finding in claim.findings if finding.number is not None]
+    ours = _shown(claim.findings[0].number) + unit
+    if numbers and f"{min(numbers):.3g}" != f"{max(numbers):.3g}":
+        ours += f" ({min(numbers):.3g} to {max(numbers):.3g})"
+    cells = [statement, paper, ours]
+    if claim.verdict == HOLDS_UNDER:
+        cells.append(", ".join(finding.assumptions for finding in claim.findings if finding.holds))
+    elif claim.verdict == UNTESTABLE:
+        cells.append("; ".join(dict.fromkeys(finding.assumptions for finding in claim.findings)))
+    return cells
 
 
 def _shown(number: float | None) -> str:
     return "not flown" if number is None else f"{number:.3g}"
-
-
-def _mark(holds: bool | None) -> str:
-    return "" if holds is None else " (yes)" if holds else " (no)"

@@ -173,10 +173,10 @@ def test_the_page_says_what_holds_what_it_hangs_on_and_what_cannot_be_had_togeth
     text = paths[0].read_text()
     first, second, third = (claim.id for claim in study.claims[:3])
     assert "`as run`" in text
-    assert f"Of these orbits, {100 * 9 / ORBITS:.0f} % were found and certified" in text
+    assert f"Of these orbits, {100 * 9 / ORBITS:.0f} % were found and certified" in " ".join(text.split())
     assert f"no set satisfies both `{first}` and `{second}`" in text
     assert f"no set satisfies any of these: `{third}`" in text
-    row = next(line for line in text.splitlines() if line.startswith(f"| `{first}`: {study.claims[0].claim} |"))
+    row = next(line for line in text.splitlines() if line.startswith(f"| `{first}` |"))
     share, told = 100 * np.nanmean(study.holds[:, 0]), np.isfinite(study.holds[:, 0]).sum()
     shown = f"{share:.0f} ± {np.sqrt(share * (100 - share) / told):.0f}"
     assert f"| {shown} | 99 | taper 0.9" in row or f"| {shown} | 99 | taper 1.0" in row

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pandas as pd
-from page_script import filled, markdown_table
+from page_script import filled
 
 from wingbeat._base.style import (
     FIRST,
@@ -21,6 +21,7 @@ from wingbeat._base.style import (
     new_figure,
 )
 from wingbeat.plots import save_figure
+from wingbeat_evidence.markdown import markdown_table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

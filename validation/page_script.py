@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from wingbeat._base.errors import WingbeatError
 from wingbeat._base.files import write_atomically
 from wingbeat.plots import save_figure
+from wingbeat_evidence.markdown import markdown_table
 
 ROOT = Path(__file__).resolve().parents[1]
 
@@ -20,12 +21,6 @@ ROOT = Path(__file__).resolve().parents[1]
 def filled(name: str, **values: object) -> str:
     """Return the page `name`: its template in the folder pages, with values for the names in braces."""
     return (Path(__file__).with_name("pages") / f"{name}.md").read_text(encoding="utf-8").format(**values)
-
-
-def markdown_table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Return a table in Markdown."""
-    lines = [heads, ["---"] * len(heads), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
 def write_trials(

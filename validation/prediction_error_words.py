@@ -8,11 +8,12 @@ from textwrap import fill
 from typing import TYPE_CHECKING
 
 import pandas as pd
-from page_script import filled, markdown_table
+from page_script import filled
 
 from wingbeat._base.nomenclature import label_of
 from wingbeat._base.style import BLUE, FONT, GOOD, GREY, PAGE, drawing, dress, new_figure
 from wingbeat.plots import save_figure
+from wingbeat_evidence.markdown import markdown_table
 from wingbeat_evidence.whole_flights.comparison import AGREES
 from wingbeat_evidence.whole_flights.page import IN_SHORT
 

@@ -14,12 +14,13 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from page_script import ROOT, filled, markdown_table
+from page_script import ROOT, filled
 
 import wingbeat as wb
 from wingbeat._base.errors import WingbeatError
 from wingbeat._base.files import write_atomically
 from wingbeat.plots import save_figure
+from wingbeat_evidence.markdown import markdown_table
 from wingbeat_evidence.second_opinion import LatticeOptions, compare_with_lattice
 from wingbeat_evidence.second_opinion.comparison import lattice_loads
 from wingbeat_evidence.second_opinion.figure import second_opinion_page

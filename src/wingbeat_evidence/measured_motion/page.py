@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
+from wingbeat_evidence.markdown import markdown_table
 from wingbeat_evidence.measured_motion.comparison import Validation, ValidationRow
 from wingbeat_evidence.measured_motion.scores import Score
 
@@ -65,7 +66,7 @@ def validation_text(found: Sequence[Validation], figures: Sequence[str]) -> str:
     figures : the file name of the figure of each case.
     """
     cases = [_section(one, figure) for one, figure in zip(found, figures, strict=True)]
-    return _PAGE.format(summary=_table(_SUMMARY, map(_summary, found)), cases="\n".join(cases))
+    return _PAGE.format(summary=markdown_table(_SUMMARY, map(_summary, found)), cases="\n".join(cases))
 
 
 _TERMS = ("coefficients", "unsteady", "inflow")
@@ -116,7 +117,7 @@ def _by_terms(rows: Sequence[ValidationRow], scores: Sequence[Score], has_series
         cells = lines.setdefault(name, [name, *["-"] * len(terms)])
         cells[1 + terms.index(tuple(own))] = f"**{cell}**" if row.recommended else cell
     heads = [unsteady + (", momentum" if flow != "none" else "") for unsteady, flow in terms]
-    return _table(["model", *heads], lines.values())
+    return markdown_table(["model", *heads], lines.values())
 
 
 def _names(row: ValidationRow) -> tuple[str, str, str]:
@@ -125,8 +126,3 @@ def _names(row: ValidationRow) -> tuple[str, str, str]:
 
 def _shown(value: float | None) -> str:
     return "-" if value is None else f"{value:z.2f}"
-
-
-def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    lines = [heads, ["---"] * len(heads), *rows]
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)

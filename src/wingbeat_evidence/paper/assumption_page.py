@@ -9,6 +9,7 @@ import numpy as np
 
 from wingbeat._base.files import write_atomically
 from wingbeat.plots import save_figure
+from wingbeat_evidence.markdown import markdown_table
 from wingbeat_evidence.paper.assumption_figure import TRUSTED, draw
 from wingbeat_evidence.paper.assumption_study import ORBITS, Judged
 from wingbeat_evidence.paper.assumptions import ASSUMPTIONS
@@ -96,18 +97,13 @@ def page(study: Judged, hangs: Sequence[Importance | None], heading: str) -> str
         found=100 * study.flown.sum() / (ORBITS * len(study.sets)),
         heading=heading,
         trusted=TRUSTED,
-        claims=_table(["claim", "holds [%]", "testable [%]", "depends on", "quality"], claims),
+        claims=markdown_table(["claim", "holds [%]", "testable [%]", "depends on", "quality"], claims),
         most=kept.max(),
         of=len(study.claims),
         half=np.median(kept),
         apart="\n".join(_apart(study)),
-        sampled=_table(["assumption", "range", "reason"], sampled),
+        sampled=markdown_table(["assumption", "range", "reason"], sampled),
     )
-
-
-def _table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    lines = [heads, ["---"] * len(heads), *rows]
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
 
 
 def _share(holds: np.ndarray) -> str:

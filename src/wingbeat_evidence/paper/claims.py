@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from wingbeat._base.files import write_atomically
+from wingbeat_evidence.markdown import markdown_table
 from wingbeat_evidence.paper.argument_claims import argument_claims
 from wingbeat_evidence.paper.claim import FAILS, HOLDS, HOLDS_UNDER, NOT_ASKED, UNTESTABLE, Claim, Finding
 from wingbeat_evidence.paper.coefficient_claims import coefficient_claims
@@ -98,9 +99,7 @@ def markdown(claims: Sequence[Claim]) -> str:
     for verdict, further in _FURTHER.items():
         own = [claim for claim in claims if claim.verdict == verdict]
         if own:
-            heads = ["claim", "paper", "ours", *further]
-            lines = [heads, ["---"] * len(heads), *(_cells(claim) for claim in own)]
-            table = "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
+            table = markdown_table(["claim", "paper", "ours", *further], map(_cells, own))
             sections.append(f"\n## {verdict.capitalize()}\n\n{table}")
     return _PAGE.format(
         count=len(claims),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from wingbeat._base.style import in_words
+from wingbeat_evidence.markdown import markdown_table
 from wingbeat_evidence.whole_flights.comparison import AGREES, Score, compared, ends_of, name_of, words_of
 from wingbeat_evidence.whole_flights.measured import COMPARED
 from wingbeat_evidence.whole_flights.prediction import FEWEST_DRAWS, Flown, Prediction
@@ -118,7 +119,7 @@ def flight_text(prediction: Prediction, figure: str, common_name: str) -> str:
         for name, shares in one.due_to.items()
         for said in [", ".join(f"`{path}` {share:.2f}" for path, share in shares.items() if share >= 0.02)]
     ]
-    return text + (_DUE.format(table=_table(["speed [m/s]", "quantity", "depends on"], due)) if due else "")
+    return text + (_DUE.format(table=markdown_table(["speed [m/s]", "quantity", "depends on"], due)) if due else "")
 
 
 def overview_text(predictions: Sequence[Prediction], figures: Sequence[str] = ()) -> str:
@@ -145,9 +146,11 @@ def overview_text(predictions: Sequence[Prediction], figures: Sequence[str] = ()
         agree=sum(known),
         known=len(known),
         rule=_rule(),
-        table=_table(heads, rows),
+        table=markdown_table(heads, rows),
         sources="\n".join(f"{i}. {source}" for i, source in enumerate(sources, 1)),
-        flights=_table(["animal", "flown at [m/s]", "certified", "activation"], map(_flights_of, predictions)),
+        flights=markdown_table(
+            ["animal", "flown at [m/s]", "certified", "activation"], map(_flights_of, predictions)
+        ),
         figures="\n\n".join(
             f"![{p.flights.species}: power, frequency and flap amplitude against speed, with measurements]({one})"
             for p, one in zip(predictions, figures, strict=False)
@@ -203,7 +206,7 @@ def _score_table(scores: Iterable[Score]) -> str:
         known = one.measurement
         cells = [name_of(known.quantity), known.basis, ends_of(known.values), _speeds(one), ends_of(one.predicted)]
         rows.append([*cells, ends_of(one.ratio), words_of(one), f"{known.what} ({known.source})"])
-    return _table(heads, rows)
+    return markdown_table(heads, rows)
 
 
 def _flown_table(flown: Sequence[Flown]) -> str:
@@ -219,16 +222,11 @@ def _flown_table(flown: Sequence[Flown]) -> str:
         bounds = ", ".join(name.replace("_", " ") for name in one.active_bounds) or "-"
         draws = f"{one.certified} of {one.drawn}" if one.drawn else "-"
         rows.append([f"{one.speed:g}", *cells, activation, bounds, draws])
-    return _table(heads, rows)
+    return markdown_table(heads, rows)
 
 
 def _band(one: Flown, name: str) -> str:
     return f" ({one.low[name]:.3g} to {one.high[name]:.3g})" if name in one.low else ""
-
-
-def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    lines = [heads, ["---"] * len(heads), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
 def _speeds(score: Score) -> str:

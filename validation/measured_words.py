@@ -107,7 +107,7 @@ def _thousand(rows: list[Row]) -> str:
 
 
 def _forms(verdicts: list[Verdict]) -> str:
-    """Return for each form how well it follows lift and drag, how many curves determine it, how often it is best."""
+    """Return how well each form follows lift and drag, how many curves determine it, how often it is best."""
     curves: dict[tuple[str, str], list[Verdict]] = {}
     for one in verdicts:
         curves.setdefault((one.wing, one.curve), []).append(one)

@@ -31,17 +31,8 @@ from alerstam_flights import (
     read_rows,
     timed_birds,
 )
-from alerstam_loading import against_loading
 from alerstam_spread import Moved, spreads
-from alerstam_verdicts import verdicts
-from alerstam_words import (
-    conclusions,
-    failures,
-    head,
-    largest_differences,
-    speeds,
-    spread_table,
-)
+from alerstam_words import page
 
 from wingbeat._base.errors import WingbeatError
 from wingbeat._base.files import write_atomically
@@ -75,18 +66,8 @@ def main(argv: list[str] | None = None) -> int:
         flown = chosen.flown or chosen.tables
         points, moved = from_csv(flown / "alerstam_points.csv"), _read_moved(flown / "alerstam_spread.csv")
         found = alerstam_summary.rows(radar, points)
-        parts = (
-            head(found, points),
-            speeds(found),
-            against_loading(found),
-            verdicts(found, points, timed),
-            largest_differences(found),
-            failures(points),
-            spread_table(moved),
-            conclusions(found, points),
-        )
         write_atomically(chosen.tables / "alerstam.csv", csv_of(alerstam_summary.Row, found, 4))
-        write_atomically(chosen.output / "alerstam.md", "".join(parts))
+        write_atomically(chosen.output / "alerstam.md", page(found, points, timed, moved))
         save_figure(draw(found, timed), chosen.output / "alerstam.png")
     except WingbeatError as error:
         print(f"error: {error}", file=sys.stderr)

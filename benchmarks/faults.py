@@ -19,7 +19,7 @@ from pathlib import Path
 
 import numpy as np
 
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.experiment import fit_film, fit_wing, load_measurements, read_film, read_run, reduce_runs
 
 Random = np.random.Generator

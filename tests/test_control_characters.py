@@ -6,8 +6,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.species_texts import GOOD, SPECIES
-from wingbeat._base.errors import FileError, control_in
-from wingbeat._base.files import read_text, toml_tables
+from wingbeat._base import FileError, control_in, read_text, toml_tables
 from wingbeat.cli import main
 from wingbeat.results.storage import inputs_hash, load_dataset, save_dataset
 

@@ -14,7 +14,7 @@ import textwrap
 import pytest
 
 import wingbeat as wb
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 
 # Users catch errors and never make them.
 ELSEWHERE = "wingbeat._base.errors"

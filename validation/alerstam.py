@@ -34,8 +34,7 @@ from alerstam_flights import (
 from alerstam_spread import Moved, spreads
 from alerstam_words import page
 
-from wingbeat._base.errors import WingbeatError
-from wingbeat._base.files import write_atomically
+from wingbeat._base import WingbeatError, write_atomically
 from wingbeat.cli.progress import progress_bar
 from wingbeat.models import MODELS
 from wingbeat.plots import save_figure

@@ -23,7 +23,7 @@ from alerstam_flights import (
 from numpy.typing import NDArray
 
 import wingbeat as wb
-from wingbeat._base.files import read_text, write_atomically
+from wingbeat._base import read_text, write_atomically
 from wingbeat.animal.species.scaling import BIRD_FREQUENCY
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, find_orbit, search_near

@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import wingbeat as wb
-from wingbeat._base.errors import FileError
-from wingbeat._base.files import read_text
+from wingbeat._base import FileError, read_text
 from wingbeat._workers.process_map import in_processes
 from wingbeat.models import MODELS, model_of
 from wingbeat.orbits.solve import Progress

@@ -10,7 +10,7 @@ import numpy as np
 from measured_data import JACKDAW_AREA, VISCOSITY, Array, columns, rows
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FileError
+from wingbeat._base import FileError
 
 JACKDAW_FILE = "jackdaw_glide_wake.csv"
 NEEDED = ("gull_wing_polar.csv", "gull_wing_geometry.csv", JACKDAW_FILE)

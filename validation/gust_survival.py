@@ -21,7 +21,7 @@ import pandas as pd
 from gust_survival_words import AT_ONCE, FLIGHTS, LATE, LEVELS, OPEN, SEGMENTS, WITHIN, page
 
 import wingbeat as wb
-from wingbeat._base.files import write_atomically
+from wingbeat._base import write_atomically
 
 ROOT = Path(__file__).parents[1]
 TABLE, PAGE = ROOT / "data" / "gust_survival.csv", ROOT / "docs" / "evidence" / "gust_survival.md"

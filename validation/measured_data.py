@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FileError
-from wingbeat._base.files import read_text
+from wingbeat._base import FileError, read_text
 
 Array = NDArray[np.float64]
 NEEDED = ("gull_wing_polar.csv", "jackdaw_glide_wake.csv", "flat_plate_pelletier_mueller.csv")

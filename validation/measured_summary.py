@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from measured_data import Array, Polar
 
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.aero import FormulaCoefficients
 from wingbeat.experiment import FORMS, CoefficientTable, CurveFit, CurveForm, fit_curve, fit_wing
 

@@ -10,8 +10,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from wingbeat._base.errors import WingbeatError
-from wingbeat._base.files import write_atomically
+from wingbeat._base import WingbeatError, write_atomically
 from wingbeat.plots import save_figure
 from wingbeat_evidence.markdown import markdown_table
 

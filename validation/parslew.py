@@ -21,7 +21,7 @@ import pandas as pd
 from parslew_words import page
 
 import wingbeat as wb
-from wingbeat._base.files import write_atomically
+from wingbeat._base import write_atomically
 
 ROOT = Path(__file__).parents[1]
 TABLE, PAGE, FIGURE = (

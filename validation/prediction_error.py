@@ -20,7 +20,7 @@ import pandas as pd
 from prediction_error_flights import ANIMALS, flown_sets, ranges
 from prediction_error_words import SLOW, page
 
-from wingbeat._base.files import write_atomically
+from wingbeat._base import write_atomically
 from wingbeat_evidence.whole_flights import Measurement, read_measured_flights
 from wingbeat_evidence.whole_flights.comparison import AGREES
 

@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 
 import wingbeat as wb
-from wingbeat._base.files import write_atomically
+from wingbeat._base import write_atomically
 from wingbeat._workers.process_map import in_processes
 from wingbeat.cli.progress import progress_bar
 from wingbeat.orbits.problem.parameters import parameters_of

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import pandas as pd
 from page_script import filled
 
-from wingbeat._base.nomenclature import label_of
+from wingbeat._base import label_of
 from wingbeat._base.style import BLUE, FONT, GOOD, GREY, PAGE, drawing, dress, new_figure
 from wingbeat.plots import save_figure
 from wingbeat_evidence.markdown import markdown_table

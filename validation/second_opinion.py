@@ -17,8 +17,7 @@ import pandas as pd
 from page_script import ROOT, filled
 
 import wingbeat as wb
-from wingbeat._base.errors import WingbeatError
-from wingbeat._base.files import write_atomically
+from wingbeat._base import WingbeatError, write_atomically
 from wingbeat.plots import save_figure
 from wingbeat_evidence.markdown import markdown_table
 from wingbeat_evidence.second_opinion import LatticeOptions, compare_with_lattice

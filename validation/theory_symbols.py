@@ -10,8 +10,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
-from wingbeat._base.files import write_atomically
-from wingbeat._base.nomenclature import NOMENCLATURE, plain
+from wingbeat._base import NOMENCLATURE, plain, write_atomically
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "theory" / "symbols.md"
 

@@ -14,7 +14,7 @@ import sys
 import time
 from pathlib import Path
 
-from wingbeat._base.files import make_folder, write_atomically
+from wingbeat._base import make_folder, write_atomically
 from wingbeat.plots import save_figure
 from wingbeat_evidence.whole_flights import Prediction, measured_animals, predict_flights, read_measured_flights
 from wingbeat_evidence.whole_flights.figure import flights_page

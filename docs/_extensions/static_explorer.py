@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import wingbeat as wb
-from wingbeat._base.files import write_atomically
+from wingbeat._base import write_atomically
 from wingbeat_explorer import solve_lattice, write_explorer
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat._base.style import in_words
 from wingbeat.aero import BladeElement, Feathered
 from wingbeat.animal.species import Species

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from wingbeat._base.nomenclature import cf, for_people
+from wingbeat._base import cf, for_people
 from wingbeat.results.limits import set_by_limit
 from wingbeat.results.plausibility import JUDGED_NAMES
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from wingbeat._base.errors import InvalidInputError, first_line
+from wingbeat._base import InvalidInputError, first_line
 from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.pushes import fly_pushes

@@ -5,8 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from wingbeat._base.errors import FileError
-from wingbeat._base.files import read_text, write_atomically, writing
+from wingbeat._base import FileError, read_text, write_atomically, writing
 
 
 def test_writing_replaces_and_keeps_permissions(tmp_path: Path) -> None:

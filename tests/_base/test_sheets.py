@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat._base.sheets import MAX_CONSTANTS, check_unit, parse_numbers, read_sheet, split_unit
 
 

@@ -10,7 +10,7 @@ import time
 import pytest
 
 from tests.explorer.app.program import wait_gone
-from wingbeat._base.leftovers import clear_leftovers
+from wingbeat._leftovers import clear_leftovers
 from wingbeat._workers.main import Message
 from wingbeat._workers.process import WorkerProcess
 

@@ -8,7 +8,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.programs import compiled
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat._jax.config import jax
 from wingbeat.aero.blade_element import BladeElement, strip_forces
 from wingbeat.aero.span_parts import UpstrokeKernel, count_arm_strips

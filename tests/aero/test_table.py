@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.helpers.coefficients import value_slope_curvature
-from wingbeat._base.errors import FileError, InvalidInputError
+from wingbeat._base import FileError, InvalidInputError
 from wingbeat.aero import SuFan, TableCoefficients, load_coefficients, load_table
 
 RIGHT = math.pi / 2

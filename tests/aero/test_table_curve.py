@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline
 
 from tests.helpers.coefficients import TOGETHER, value_slope_curvature
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.aero import TableCoefficients, load_table
 from wingbeat.cli import main
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from wingbeat._base.errors import FileError
+from wingbeat._base import FileError
 from wingbeat.cli import main
 from wingbeat.cli.answer import Answer
 from wingbeat.cli.streams import StdoutError

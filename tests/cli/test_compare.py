@@ -7,8 +7,8 @@ import re
 import pytest
 
 import wingbeat as wb
-import wingbeat._base.errors
 from tests.evidence.second_opinion.test_comparison import standin as standin
+from wingbeat._base import install_extra
 from wingbeat.cli import main
 
 SMALL = ["--chordwise", "2", "--spanwise", "2", "--steps", "16"]
@@ -72,4 +72,4 @@ def test_a_missing_extra_is_named(file, capsys, monkeypatch):
     monkeypatch.setattr(importlib.metadata, "version", absent)
     assert main(["compare", str(file)]) == 2
     told = capsys.readouterr().err
-    assert told == f"error: PteraSoftware is not installed here: {wb.errors.install_extra('uvlm')}\n"
+    assert told == f"error: PteraSoftware is not installed here: {install_extra('uvlm')}\n"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 
-from wingbeat._base.errors import FileError, InvalidInputError
+from wingbeat._base import FileError, InvalidInputError
 from wingbeat.aero import LIBRARY, SuFan
 from wingbeat.cli import main
 from wingbeat.cli.polar import polar

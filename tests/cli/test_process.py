@@ -121,7 +121,7 @@ PROBE = """
 import ctypes, os, signal, sys, time, weakref
 import wingbeat.cli.app
 from wingbeat.cli import program
-from wingbeat._base.files import writing
+from wingbeat._base import writing
 
 class Thing: pass
 

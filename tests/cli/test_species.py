@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from cyclopts import App
 
-from wingbeat._base.errors import FileError
+from wingbeat._base import FileError
 from wingbeat._version import __version__
 from wingbeat.animal.species import load_species, species_names, template
 from wingbeat.cli import main

@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from tests.helpers.model_files import assert_refused
-from wingbeat._base.errors import InvalidInputError
-from wingbeat._base.nomenclature.lookup import find
+from wingbeat._base import InvalidInputError, find
 from wingbeat.aero import CamberedCoefficients, CamberedTerms, Feathered, load_coefficients
 from wingbeat.experiment import FORMS, CoefficientTable, draw, fit_wing
 from wingbeat.experiment.cambered_form import fit_drag

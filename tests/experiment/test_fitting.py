@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.helpers.model_files import assert_refused
-from wingbeat._base.errors import FileError, InvalidInputError
+from wingbeat._base import FileError, InvalidInputError
 from wingbeat.aero import (
     LIBRARY,
     CentreTerms,

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.experiment import CoefficientTable, fit_wing
 from wingbeat.experiment.branches import two_branches
 from wingbeat.experiment.judgement import group_difference

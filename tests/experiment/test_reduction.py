@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.experiment import Campaign, LoadCellRun, load_measurements, reduce_run, reduce_runs, synthetic_runs
 from wingbeat.experiment.statistics import added_variance, standard_error
 

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 
 import wingbeat as wb
-from wingbeat._base.errors import FileError
+from wingbeat._base import FileError
 from wingbeat_explorer import face
 from wingbeat_explorer.face import is_plausible, lights_of, sentence_of
 from wingbeat_explorer.gauges import gauges_of

@@ -9,7 +9,7 @@ import pytest
 import wingbeat as wb
 import wingbeat_evidence as evidence
 from tests.explorer.conftest import read_script
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.cli.app import main
 from wingbeat_explorer import default_speeds, measured_points, solve_lattice, write_explorer
 from wingbeat_explorer.lattice import SPEEDS

@@ -2,7 +2,7 @@
 
 import pytest
 
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.aero import load_coefficients
 
 

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 
 MINIMAL = """
 [vehicle]

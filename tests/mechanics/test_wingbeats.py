@@ -13,7 +13,7 @@ import wingbeat as wb
 from tests.helpers.differences import differences, miss
 from tests.helpers.models import changed
 from tests.helpers.programs import compiled
-from wingbeat._base.harmonics import HARMONIC_NAMES
+from wingbeat._base import HARMONIC_NAMES
 from wingbeat._jax.config import jax
 from wingbeat.animal.kinematics import (
     FREE_NAMES,

@@ -10,7 +10,7 @@ from rich.console import Console
 
 import wingbeat as wb
 from tests.helpers.hasty import make_hasty
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.aero.fitted import FittedCurve, FittedModel, FittedWing
 from wingbeat.cli import main
 from wingbeat.cli.uncertainty import _plain, _print

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.orbits.many.batch import find_orbits
 from wingbeat.orbits.many.series import find_series
 from wingbeat.orbits.solution import Optimum, families

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 import wingbeat as wb
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.orbits.flight.shooting import flier
 from wingbeat.orbits.flight.stroke_map import map_and_changes
 from wingbeat.orbits.nlp.transcription import Transcription

@@ -3,8 +3,7 @@
 import re
 from pathlib import Path
 
-from wingbeat._base.nomenclature import NOMENCLATURE
-from wingbeat._base.nomenclature.given import RUN
+from wingbeat._base import NOMENCLATURE, RUN
 
 # Names of a plate in a water channel, such as its span, are not terms of flight.
 PLATE = {term.name for term in RUN}

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from wingbeat._base.reports.text import text_of
+from wingbeat._base import text_of
 from wingbeat.results.characteristic import BestLine, characteristic_speeds, next_speeds
 from wingbeat.results.curve_report import curve_report, speed_in_words
 

@@ -10,9 +10,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.hasty import make_hasty
-from wingbeat._base.errors import FileError, InvalidInputError
-from wingbeat._base.nomenclature import find, label_of
-from wingbeat._base.reports.text import text_of
+from wingbeat._base import FileError, InvalidInputError, find, label_of, text_of
 from wingbeat.cli import main
 from wingbeat.orbits.many.branches import Branches, BranchLink, carry, trace
 from wingbeat.orbits.many.transitions import families, marks_of

@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
-from wingbeat._base.errors import FileError
+from wingbeat._base import FileError
 from wingbeat.cli import main
 from wingbeat.results import declared
 from wingbeat.results.netcdf import digest, netcdf_bytes
@@ -21,7 +21,7 @@ CHANGED, SEED = 150, 54
 MEASURED = """
 import sys, time
 from pathlib import Path
-from wingbeat._base.errors import FileError
+from wingbeat._base import FileError
 from wingbeat.results.storage import load_dataset
 begun = time.perf_counter()
 try:

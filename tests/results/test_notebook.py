@@ -4,7 +4,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.notebooks import check_figure, check_table
-from wingbeat._base.nomenclature import NOMENCLATURE
+from wingbeat._base import NOMENCLATURE
 from wingbeat.cli import main
 
 

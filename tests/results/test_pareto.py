@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.cli import main
 from wingbeat.plots import pareto_page
 from wingbeat.results.pareto import ParetoFront

@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.animal.species import species_text, template
 from wingbeat.cli.app import main
 from wingbeat.results.orbit_report import orbit_report

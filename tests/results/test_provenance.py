@@ -8,7 +8,7 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
-from wingbeat._base.nomenclature.series import SERIES
+from wingbeat._base import SERIES
 from wingbeat._jax.config import jax
 from wingbeat.results.aero_record import aero_record
 from wingbeat.results.provenance import inputs_of, problem_from

@@ -7,7 +7,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.reflight import refly
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.cli import main
 from wingbeat.orbits.problem.problem import PITCH_STATE
 from wingbeat.plots import manoeuvre_page

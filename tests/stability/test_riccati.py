@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.stability.riccati import (
     check_reach,
     closed_loop,

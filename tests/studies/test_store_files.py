@@ -13,7 +13,7 @@ from contextlib import closing
 import pytest
 
 import wingbeat as wb
-from wingbeat._base.errors import FileError
+from wingbeat._base import FileError
 from wingbeat.studies.lock import only_one
 from wingbeat.studies.store import Store
 from wingbeat.studies.units import Outcome

@@ -12,7 +12,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.engines import Here
-from wingbeat._base.errors import WingbeatError
+from wingbeat._base import WingbeatError
 from wingbeat.cli import main
 from wingbeat.studies import work
 from wingbeat.studies.digests import Fingerprint, about_digest, row_digest

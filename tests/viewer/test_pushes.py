@@ -7,7 +7,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.browsers import AXE, until
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.cli import main
 from wingbeat.stability.pushes import DIRECTIONS, SIZES
 from wingbeat.viewer.scene import scene

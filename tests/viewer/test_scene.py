@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
-from wingbeat._base.errors import FileError, InvalidInputError
+from wingbeat._base import FileError, InvalidInputError
 from wingbeat.viewer.scene import MOST_SAMPLES, scene, strip_loads
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from wingbeat._base.errors import FileError, control_in
-from wingbeat._base.leftovers import Leftover
+from wingbeat._leftovers import Leftover
 
 # tomllib's time and memory grow with the square of a dotted key's length: a.a.a... of 200 kB fills the memory of a
 # machine.

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from contextlib import ExitStack, suppress
 from typing import Any
 
-from wingbeat._base.leftovers import Leftover
+from wingbeat._leftovers import Leftover
 from wingbeat._workers.main import NO_MEMORY, Message
 
 # Not `-m`, which would load the module twice: under its own name and as `__main__`.

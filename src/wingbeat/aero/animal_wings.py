@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.aero.cambered import CamberedCoefficients, CamberedTerms
 from wingbeat.aero.extension import check_extension
 

@@ -12,7 +12,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._base.errors import FaultList, InvalidInputError
+from wingbeat._base import FaultList, InvalidInputError
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import atan2
 from wingbeat._jax.elementwise_jvp import elementwise_jvp

@@ -19,7 +19,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat._jax.config import jnp, register_record
 from wingbeat._jax.exported import exported
 from wingbeat.aero.blends import Blend, jet_of

@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base.errors import Fault, FaultList, suggest
-from wingbeat._base.files import read_text
+from wingbeat._base import Fault, FaultList, read_text, suggest
 from wingbeat._base.sheets import seems_to_be
 from wingbeat.aero.cambered import CamberedCoefficients
 from wingbeat.aero.coefficient_model import CoefficientModel, check_curve

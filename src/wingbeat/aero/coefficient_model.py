@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from wingbeat._base.errors import Fault, FaultList, InvalidInputError
+from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat._jax.config import in_own_settings, jax
 from wingbeat.aero.table_checks import MAX_DRAG
 

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.aero.cambered import CamberedCoefficients, CamberedTerms
 from wingbeat.aero.extension import check_extension
 from wingbeat.aero.formula import CentreTerms, FormulaCoefficients, FormulaTerms

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat._jax.config import jnp, register_record
 from wingbeat._jax.elementary import sin
 from wingbeat.aero.coefficient_model import CoefficientModel, check_aspect_ratio

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from jax.extend.core import jaxpr_as_fun
 
-from wingbeat._base.errors import Fault, FaultList, InvalidInputError
+from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat._jax.config import in_own_settings, jax, jnp, unchecked
 from wingbeat.aero.coefficient_model import CoefficientModel, check_curve
 

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Pair, Scalar

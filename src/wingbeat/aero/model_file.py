@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import Fault, FaultList, InvalidInputError
-from wingbeat._base.files import read_text, toml_tables
+from wingbeat._base import Fault, FaultList, InvalidInputError, read_text, toml_tables
 from wingbeat.aero.cambered import CamberedCoefficients, CamberedTerms
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.aero.extension import check_extension

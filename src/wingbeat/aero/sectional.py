@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from wingbeat._base.errors import Fault, InvalidInputError
+from wingbeat._base import Fault, InvalidInputError
 from wingbeat._jax.config import jnp
 from wingbeat._jax.elementary import horner
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel

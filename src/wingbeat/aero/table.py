@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat._base.sheets import Sheet, same_name
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementary import horner

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 
 REQUIRED = ("alpha_deg", "c_l", "c_d")
 OPTIONAL = ("x_cp",)

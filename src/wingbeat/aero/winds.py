@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 
 # A wind takes times [s], shape (K,). It returns two arrays of this shape: the air's velocity forward and up [m/s].
 Wind = Callable[[np.ndarray], tuple[Any, Any]]

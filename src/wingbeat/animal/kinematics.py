@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.harmonics import FIRST_ORDER, HARMONIC_NAMES, HIGHEST_ORDER, SHARES, harmonic_place
+from wingbeat._base import FIRST_ORDER, HARMONIC_NAMES, HIGHEST_ORDER, SHARES, FaultList, harmonic_place
 from wingbeat._jax.config import at_default, jnp, register_record, unchecked
 from wingbeat._jax.elementary import atan2, cos, sin
 

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-from wingbeat._base.errors import FileError, WingbeatError, first_line
+from wingbeat._base import FileError, WingbeatError, first_line
 from wingbeat.cli.streams import StdoutError
 
 

@@ -20,7 +20,7 @@ def bench(
 
     No orbit starts from the result of another. The time of an orbit includes its certificate.
     """
-    from wingbeat._base.errors import FaultList
+    from wingbeat._base import FaultList
     from wingbeat.bench import measure
 
     faults = FaultList()

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.nomenclature import NOMENCLATURE, for_people
+from wingbeat._base import NOMENCLATURE, FaultList, for_people
 from wingbeat.aero import BladeElement
 from wingbeat.animal.species import Species
 from wingbeat.cli.filmed import DRAWS, film_lines, film_record, plus_minus

@@ -12,7 +12,7 @@ import time
 from _thread import allocate_lock, get_ident
 from contextlib import suppress
 
-from wingbeat._base.leftovers import clear_leftovers
+from wingbeat._leftovers import clear_leftovers
 
 TYPE_CHECKING = False  # `typing` takes longer to import than all that must be ready for Ctrl-C
 if TYPE_CHECKING:

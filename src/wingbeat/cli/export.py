@@ -8,7 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import Whole, check_outputs, unpacking
 from wingbeat.exports.save import SAMPLES, check_export

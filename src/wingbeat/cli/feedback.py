@@ -10,8 +10,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.reports import Line
+from wingbeat._base import FaultList, Line
 from wingbeat._base.style import heading
 from wingbeat.aero.winds import Wind
 from wingbeat.cli.answer import answer

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import Parameter
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.nomenclature import NOMENCLATURE, for_people, plain_unit, written
+from wingbeat._base import NOMENCLATURE, FaultList, for_people, plain_unit, written
 from wingbeat.experiment import FilmedBeat, fit_film, read_film
 from wingbeat.experiment.film import WHOLE
 from wingbeat.results.rows import power_label

@@ -10,8 +10,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.nomenclature import written_range
+from wingbeat._base import FaultList, written_range
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED

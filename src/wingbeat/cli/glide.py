@@ -10,8 +10,7 @@ from typing import Annotated
 import numpy as np
 from cyclopts import Parameter
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.nomenclature import NOMENCLATURE, for_people
+from wingbeat._base import NOMENCLATURE, FaultList, for_people
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from wingbeat._base.errors import Fault, FaultList, InvalidInputError
+from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions

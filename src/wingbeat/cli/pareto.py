@@ -8,7 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions

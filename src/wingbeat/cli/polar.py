@@ -13,7 +13,7 @@ import numpy as np
 from cyclopts import Parameter
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList, InvalidInputError
+from wingbeat._base import FaultList, InvalidInputError
 from wingbeat._base.style import BLUE, ORANGE, PAGE, drawing, legend_below, new_figure
 from wingbeat.aero import CoefficientModel, load_coefficients, thin_aerofoil_lift, thin_aerofoil_moment
 from wingbeat.cli.answer import answer

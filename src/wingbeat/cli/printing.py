@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from wingbeat._base.reports import Report, Tone
-from wingbeat._base.reports.text import lines_of
+from wingbeat._base import Report, Tone, lines_of
 
 if TYPE_CHECKING:
     from rich.console import Console

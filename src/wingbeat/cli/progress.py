@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from wingbeat._base.leftovers import Leftover
+from wingbeat._leftovers import Leftover
 from wingbeat.cli.endings import EXIT_INTERRUPTED, EXIT_TERMINATED
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from math import floor, lcm
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 
 MAX_VALUES = 10_000_000
 _MAX_DIGITS = 12

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from wingbeat._base.errors import FaultList, FileError, InvalidInputError
+from wingbeat._base import FaultList, FileError, InvalidInputError
 from wingbeat.cli.options import check_outputs
 from wingbeat.experiment import LoadCellRun, read_run, reduce_runs
 

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base import grouped
 from wingbeat._base.datasets import STATE_NAMES
-from wingbeat._base.reports import grouped
 from wingbeat.cli.printing import print_report
 from wingbeat.results.orbit_report import orbit_report, status_line
 from wingbeat.results.rows import power_rows, state_rows, wingbeat_rows

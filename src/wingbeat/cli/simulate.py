@@ -13,7 +13,7 @@ from cyclopts import Parameter
 from rich.console import Console
 from rich.table import Table
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.cli.answer import answer

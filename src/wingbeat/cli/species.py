@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import App, Parameter
 
-from wingbeat._base.errors import FileError
+from wingbeat._base import FileError
 from wingbeat.cli.streams import plain_console
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def new(
     force: Annotated[bool, Parameter(negative="", help="Overwrite an existing file.")] = False,
 ) -> None:
     """Write a species file: a commented template, or a bird, bat or robot derived by scaling laws."""
-    from wingbeat._base.files import write_atomically
+    from wingbeat._base import write_atomically
 
     size = {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
     text = _new_text(kind, size, path.stem)
@@ -97,7 +97,7 @@ def new(
 
 def _new_text(kind: str | None, size: dict[str, float | None], name: str) -> str:
     """Return the text of the template, or of an animal of this size."""
-    from wingbeat._base.errors import FaultList
+    from wingbeat._base import FaultList
     from wingbeat.animal.species import bat, bird, robot, species_text, template
 
     faults = FaultList()
@@ -117,7 +117,7 @@ def _new_text(kind: str | None, size: dict[str, float | None], name: str) -> str
 
 def _settings(texts: list[str], parse: Any) -> dict[str, Any]:
     """Return the settings; report all unreadable ones at once."""
-    from wingbeat._base.errors import FaultList, InvalidInputError
+    from wingbeat._base import FaultList, InvalidInputError
 
     faults, values = FaultList(), {}
     for text in texts:
@@ -134,7 +134,7 @@ def _settings(texts: list[str], parse: Any) -> dict[str, Any]:
 
 
 def _no_name(option: str) -> Exception:
-    from wingbeat._base.errors import Fault, InvalidInputError
+    from wingbeat._base import Fault, InvalidInputError
 
     fault = Fault(option, "no species", "needs a species to change", f"wingbeat species pigeon {option} ...")
     return InvalidInputError([fault])

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from cyclopts import App, Parameter, Token
 
-from wingbeat._base.errors import FaultList, suggest
+from wingbeat._base import FaultList, suggest
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import Whole, check_outputs
 from wingbeat.cli.progress import FIRST_POINT, duration, exit_of, pace, say, say_stopping, study_bar

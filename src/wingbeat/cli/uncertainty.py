@@ -9,8 +9,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 from rich.console import Console
 
-from wingbeat._base.errors import FaultList, InvalidInputError
-from wingbeat._base.nomenclature import written
+from wingbeat._base import FaultList, InvalidInputError, written
 from wingbeat._workers.affinity import core_count
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from wingbeat._base.errors import FaultList, InvalidInputError
+from wingbeat._base import FaultList, InvalidInputError
 from wingbeat.cli.options import Whole, check_outputs, unpacking
 from wingbeat.cli.progress import progress_bar
 from wingbeat.results.orbit import load_orbit

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import numpy as np
 from cyclopts import Parameter
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.aero.winds import LEVELS, CosineGust, DrydenTurbulence, Wind
 from wingbeat.cli.options import Whole, named_numbers
 

@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.harmonics import HIGHEST_ORDER
+from wingbeat._base import HIGHEST_ORDER, FaultList
 from wingbeat.experiment.film_fit import FilmedBeat
 from wingbeat.experiment.periodic_spline import Array, fit_law, fit_travel, fourier_columns, from_phase
 

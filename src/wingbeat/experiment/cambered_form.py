@@ -13,7 +13,7 @@ from itertools import product
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.aero.animal_wings import WING_ESTIMATES
 from wingbeat.aero.cambered import CamberedTerms
 from wingbeat.experiment.forms import Array, BoxForm, any_terms, formula_of, value_and_slopes

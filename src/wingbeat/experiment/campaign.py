@@ -13,8 +13,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.files import write_atomically
+from wingbeat._base import FaultList, write_atomically
 from wingbeat.aero import SuFan
 from wingbeat.aero.formula import CentreTerms, FormulaTerms
 from wingbeat.experiment.forms import value_and_slopes

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList, InvalidInputError
+from wingbeat._base import FaultList, InvalidInputError
 from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.fitted import FittedCurve
 from wingbeat.aero.model_file import read_model

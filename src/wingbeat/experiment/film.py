@@ -11,8 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.files import write_atomically
+from wingbeat._base import FaultList, write_atomically
 from wingbeat.experiment.clip import MIN_BEATS, SURE, Clip, clip_rate, scatter_at
 from wingbeat.experiment.wrapping import unwrapped
 

@@ -12,8 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.nomenclature import written
+from wingbeat._base import FaultList, written
 from wingbeat._base.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
 from wingbeat.experiment.clip import MIN_BEATS, SURE, Clip, clip_rate
 from wingbeat.experiment.film import BODY, COLUMNS, FILMED, WRAPPED, Film, check_flap, even_only

@@ -15,8 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList, InvalidInputError
-from wingbeat._base.harmonics import HIGHEST_ORDER
+from wingbeat._base import HIGHEST_ORDER, FaultList, InvalidInputError
 from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat, span_ratio
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.experiment.film import FILMED, WHOLE, Film

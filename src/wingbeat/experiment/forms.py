@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat._jax.config import jax, unchecked
 from wingbeat.aero.cambered import CamberedTerms
 from wingbeat.aero.coefficient_model import at_angles

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.aero.polar_sheet import doubtful_drag, reynolds_groups
 from wingbeat.aero.table_checks import MAX_DRAG, MAX_LIFT
 from wingbeat.experiment.branches import Branches, two_branches

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.harmonics import HIGHEST_ORDER
+from wingbeat._base import HIGHEST_ORDER
 
 # Range in which the weight of the penalty is searched, times the number of frames.
 _WEIGHTS = (1e-12, 1e8)

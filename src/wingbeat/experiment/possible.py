@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.nomenclature import plain_unit
+from wingbeat._base import FaultList, plain_unit
 from wingbeat.aero.table_checks import MAX_DRAG, MAX_LIFT
 
 if TYPE_CHECKING:

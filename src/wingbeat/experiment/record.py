@@ -10,8 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList, InvalidInputError
-from wingbeat._base.nomenclature import plain_unit
+from wingbeat._base import FaultList, InvalidInputError, plain_unit
 from wingbeat._base.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
 from wingbeat.aero.polar_sheet import check_radians
 from wingbeat.experiment.possible import check_constants

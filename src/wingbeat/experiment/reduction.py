@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.experiment.possible import check_coefficients, coefficient_notes, constant_notes
 from wingbeat.experiment.record import CHANNELS, MIN_SAMPLES, LoadCellRun, refuse_radians
 from wingbeat.experiment.statistics import added_variance, standard_error

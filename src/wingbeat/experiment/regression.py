@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.experiment.forms import CurveForm
 
 Array = NDArray[np.float64]

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.experiment.record import CHANNELS, LoadCellRun
 from wingbeat.experiment.statistics import MIN_BLOCKS, standard_error
 from wingbeat.experiment.table import QUANTITIES

@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList, InvalidInputError
-from wingbeat._base.files import write_atomically
+from wingbeat._base import FaultList, InvalidInputError, write_atomically
 from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.aero.fitted import Fitted, FittedCurve, FittedModel, FittedWing

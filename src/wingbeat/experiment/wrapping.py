@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 
 _TURN = 360.0
 Array = NDArray[np.float64]

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.nomenclature import NOMENCLATURE, Term
+from wingbeat._base import NOMENCLATURE, FaultList, Term
 from wingbeat._jax.config import jnp
 from wingbeat._jax.exported import jit_soon
 from wingbeat.animal.kinematics import (

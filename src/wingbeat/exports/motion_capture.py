@@ -7,8 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat._base.errors import FileError, install_extra
-from wingbeat._base.files import writing
+from wingbeat._base import FileError, install_extra, writing
 from wingbeat.exports.gait import Gait
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.wing_points import surface_points

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList, FileError, install_extra
+from wingbeat._base import FaultList, FileError, install_extra
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.exports.gait import Laws, check_certified, gait_of, laws_at
 from wingbeat.exports.mujoco_joints import BODY_JOINTS, SIDES, WingJoints, wing_parts

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.vehicle import Wing
 from wingbeat.exports.gait import LAW_NAMES, Laws

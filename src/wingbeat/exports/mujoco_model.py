@@ -8,7 +8,7 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.animal.vehicle import Tail, Vehicle, Wing
 from wingbeat.exports.gait import Gait, laws_at
 from wingbeat.exports.mujoco_joints import (

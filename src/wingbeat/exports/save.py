@@ -5,8 +5,7 @@ from __future__ import annotations
 import os
 from os import PathLike
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.files import write_atomically
+from wingbeat._base import FaultList, write_atomically
 from wingbeat.exports.gait import check_certified, gait_of
 from wingbeat.exports.motion_capture import check_c3d, write_c3d
 from wingbeat.exports.mujoco_model import mujoco_xml

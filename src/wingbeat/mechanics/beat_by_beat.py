@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat._base.errors import Fault, FaultList, InvalidInputError
+from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, State

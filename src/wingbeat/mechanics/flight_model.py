@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat._jax.config import at_default, jnp, register_record, unchecked
 from wingbeat._jax.elementwise_jvp import elementwise_jvp
 from wingbeat.aero.blade_element import BladeElement, blade_element_of

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import exported, jit_soon
 from wingbeat.animal.kinematics import Wingbeat

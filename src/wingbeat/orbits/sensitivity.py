@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat._base.errors import Fault, InvalidInputError
+from wingbeat._base import Fault, InvalidInputError
 from wingbeat.animal.kinematics import unpack
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.certify import certify

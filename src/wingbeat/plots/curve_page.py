@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base import FaultList, axis_label, plain, readable_limit
 from wingbeat._base.datasets import climb_text
-from wingbeat._base.errors import FaultList
-from wingbeat._base.nomenclature import axis_label, plain, readable_limit
 from wingbeat._base.style import (
     ALARM,
     BLUE,

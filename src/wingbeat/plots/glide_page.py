@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat._base.style import (
     FIRST,
     GREEN,

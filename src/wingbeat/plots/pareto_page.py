@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base import cf, for_people
 from wingbeat._base.datasets import climb_text
-from wingbeat._base.nomenclature import cf, for_people
 from wingbeat._base.style import (
     BLUE,
     GREEN,

@@ -6,8 +6,7 @@ import os
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.files import writing
+from wingbeat._base import FaultList, writing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.nomenclature import label_of, plain_unit
+from wingbeat._base import FaultList, label_of, plain_unit
 from wingbeat._base.style import ALARM, FONT, MARKED, PAGE, drawing, in_words, letter_panels, new_figure
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import math
 import textwrap
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base.nomenclature import label_of, written
+from wingbeat._base import label_of, written
 from wingbeat._base.style import (
     BLUE,
     PAGE,

@@ -6,8 +6,8 @@ import json
 import textwrap
 from typing import TYPE_CHECKING, Any
 
+from wingbeat._base import FaultList
 from wingbeat._base.datasets import climb_text
-from wingbeat._base.errors import FaultList
 from wingbeat._base.style import ALARM, GOOD, PAGE, drawing, heading, in_words, letter_panels, new_figure
 from wingbeat.plots.panels import draw_loads, draw_motion, draw_portraits, flown, mean_power
 from wingbeat.results.plausibility import statements

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base import is_number
 from wingbeat._base.datasets import SHAPE, STATE_NAMES
-from wingbeat._base.errors import is_number
 from wingbeat._jax.config import own_settings
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.animal.kinematics import Wingbeat, parameter

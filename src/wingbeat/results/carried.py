@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
+from wingbeat._base import FaultList
 from wingbeat._base.datasets import KIND
-from wingbeat._base.errors import FaultList
 from wingbeat._version import __version__
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.species import Species

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base.nomenclature import PRECISION
+from wingbeat._base import PRECISION
 
 # Speeds are `within_2_percent` if their value exceeds the minimum by at most this share.
 _FLAT = 0.02

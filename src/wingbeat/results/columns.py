@@ -8,8 +8,7 @@ import re
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base.errors import InvalidInputError
-from wingbeat._base.nomenclature import cf, plain_unit
+from wingbeat._base import InvalidInputError, cf, plain_unit
 from wingbeat.orbits.problem.quantities import named_objective, named_quantity
 
 if TYPE_CHECKING:

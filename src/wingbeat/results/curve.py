@@ -11,8 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.reports import Report, Reported, drawn
+from wingbeat._base import FaultList, Report, Reported, drawn
 from wingbeat._workers.affinity import core_count
 from wingbeat.orbits.many.branches import Branches, trace
 from wingbeat.orbits.many.transitions import marks_of

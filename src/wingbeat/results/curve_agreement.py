@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base import harmonic_place
 from wingbeat._base.datasets import STATE_NAMES
-from wingbeat._base.harmonics import harmonic_place
 from wingbeat.animal.kinematics import PARAMETER_NAMES
 from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.problem.plausible import judged_names

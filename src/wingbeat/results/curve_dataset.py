@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base import NOMENCLATURE, attributes_of, cf, harmonic_place, label_of
 from wingbeat._base.datasets import KIND
-from wingbeat._base.harmonics import harmonic_place
-from wingbeat._base.nomenclature import NOMENCLATURE, attributes_of, cf, label_of
 from wingbeat._version import __version__
 from wingbeat.animal.kinematics import NAMED_IF_ON, PARAMETER_NAMES, in_use
 from wingbeat.mechanics.flight_model import State

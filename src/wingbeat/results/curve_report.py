@@ -6,9 +6,8 @@ import itertools
 import math
 from typing import Any
 
+from wingbeat._base import Block, Line, Notes, Report, Row, Table, find, for_people, written, written_range
 from wingbeat._base.datasets import climb_text
-from wingbeat._base.nomenclature import find, for_people, written, written_range
-from wingbeat._base.reports import Block, Line, Notes, Report, Row, Table
 from wingbeat._base.style import in_words
 from wingbeat.results.limits import SetBy, called, set_by_limit
 

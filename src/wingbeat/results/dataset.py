@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base.nomenclature import NOMENCLATURE, attributes_of
-from wingbeat._base.nomenclature.series import SERIES, SERIES_WHERE_ON
+from wingbeat._base import NOMENCLATURE, SERIES, SERIES_WHERE_ON, attributes_of
 from wingbeat.animal.kinematics import Wingbeat, chord_ratio, tip_twist
 from wingbeat.mechanics.flight_loads import Loads, MissingLoads, carried_loads, flight_loads
 from wingbeat.mechanics.flight_model import FlightModel, State

@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from wingbeat._base import NOMENCLATURE, FaultList, attributes_of
 from wingbeat._base.datasets import KIND
-from wingbeat._base.errors import FaultList
-from wingbeat._base.nomenclature import NOMENCLATURE, attributes_of
 from wingbeat._version import __version__
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat

@@ -6,9 +6,8 @@ import json
 import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from wingbeat._base import SERIES, SERIES_WHERE_ON, control_in, is_number
 from wingbeat._base.datasets import KIND, SHAPE
-from wingbeat._base.errors import control_in, is_number
-from wingbeat._base.nomenclature.series import SERIES, SERIES_WHERE_ON
 from wingbeat.animal.species_schema.models import KINDS
 
 if TYPE_CHECKING:

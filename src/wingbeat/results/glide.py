@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base import NOMENCLATURE, FaultList
 from wingbeat._base.datasets import KIND
-from wingbeat._base.errors import FaultList
-from wingbeat._base.nomenclature import NOMENCLATURE
 from wingbeat._version import __version__
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.aero.blade_element import blade_element_of

@@ -6,8 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from wingbeat._base.nomenclature import written
-from wingbeat._base.reports import Line, Report, Row, Table
+from wingbeat._base import Line, Report, Row, Table, written
 from wingbeat.orbits.many.uncertainty import ErrorBar
 from wingbeat.orbits.sensitivity import Sensitivity
 

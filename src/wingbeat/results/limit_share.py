@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat._base.nomenclature import PRECISION, written, written_range
+from wingbeat._base import PRECISION, written, written_range
 
 # From this share of the draws on, mean and deviation describe the limit rather than the orbits.
 _MOST = 0.5

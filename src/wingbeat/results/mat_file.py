@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base.errors import is_number
+from wingbeat._base import is_number
 from wingbeat.results.columns import numeric, result_unit
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base.reports import Report, Reported, drawn
+from wingbeat._base import Report, Reported, drawn
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.certify import Certificate, certify

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from wingbeat._base.reports import Block, Line, Notes, Report, Tone, grouped
+from wingbeat._base import Block, Line, Notes, Report, Tone, grouped
 from wingbeat.results.plausibility import statements
 from wingbeat.results.power_rows import power_groups
 from wingbeat.results.rows import limits_in_words, orbit_groups

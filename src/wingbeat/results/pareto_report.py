@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from wingbeat._base import Line, Report, Row, Table, for_people
 from wingbeat._base.datasets import climb_text
-from wingbeat._base.nomenclature import for_people
-from wingbeat._base.reports import Line, Report, Row, Table
 from wingbeat._base.style import in_words
 from wingbeat.results.limits import called, set_by_limit
 

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base import FaultList
 from wingbeat._base.datasets import KIND
-from wingbeat._base.errors import FaultList
 from wingbeat.orbits.flight.beat import mean_positive
 from wingbeat.orbits.problem.springs import best_spring
 from wingbeat.results.record import beat_mean, finite_or_none

@@ -6,7 +6,7 @@ import json
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.species import Species
 from wingbeat.animal.species.shape import shape_from, shape_record

@@ -7,8 +7,8 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from wingbeat._base import NOMENCLATURE, cf, find, for_people, plain_unit, readable_limit
 from wingbeat._base.datasets import STATE_NAMES
-from wingbeat._base.nomenclature import NOMENCLATURE, cf, find, for_people, plain_unit, readable_limit
 from wingbeat._base.style import in_words
 from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
 from wingbeat.orbits.problem.report import loads_in_words, model_rows, place_in_words

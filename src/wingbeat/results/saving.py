@@ -8,9 +8,8 @@ from collections.abc import Callable
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
+from wingbeat._base import FaultList, write_atomically
 from wingbeat._base.datasets import SHAPE
-from wingbeat._base.errors import FaultList
-from wingbeat._base.files import write_atomically
 from wingbeat.results.storage import save_dataset
 
 if TYPE_CHECKING:

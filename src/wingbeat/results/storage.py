@@ -11,10 +11,8 @@ from collections.abc import Callable
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
+from wingbeat._base import NOMENCLATURE, FileError, is_number, system_reason, write_atomically
 from wingbeat._base.datasets import KIND, STATE_NAMES
-from wingbeat._base.errors import FileError, is_number, system_reason
-from wingbeat._base.files import write_atomically
-from wingbeat._base.nomenclature import NOMENCLATURE
 from wingbeat.results.declared import MOST_DECLARED, UnfitFileError, check_declared
 from wingbeat.results.forms import FORMS, check_form, from_json
 from wingbeat.results.netcdf import netcdf_bytes, own_content

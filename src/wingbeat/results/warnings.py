@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from wingbeat._base.nomenclature import NOMENCLATURE
+from wingbeat._base import NOMENCLATURE
 from wingbeat.aero import CamberedCoefficients, CoefficientModel
 from wingbeat.animal.kinematics import ANGLES, Wingbeat
 from wingbeat.animal.vehicle import Air, Vehicle

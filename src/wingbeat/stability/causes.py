@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base.reports import Report, Reported, drawn
+from wingbeat._base import Report, Reported, drawn
 from wingbeat.orbits.flight.floquet import multipliers_of
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.map_quantities import MAP_QUANTITIES, MapQuantity

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from wingbeat._base.reports import Line, Report, Row, Table
+from wingbeat._base import Line, Report, Row, Table
 
 _MOST = 10
 _HEADINGS = ("parameter", "value", "derivative", "plausible", "change at both ends")

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList, InvalidInputError, suggest
+from wingbeat._base import FaultList, InvalidInputError, suggest
 from wingbeat.animal.kinematics import Wingbeat, parameter, with_parameters
 from wingbeat.stability.feedback_options import FeedbackOptions
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList, suggest
+from wingbeat._base import FaultList, suggest
 
 # Longest delay [beats].
 MOST_DELAY = 4

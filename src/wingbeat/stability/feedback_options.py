@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from wingbeat._base.harmonics import SHARES
+from wingbeat._base import SHARES
 from wingbeat.animal.kinematics import ANGLES
 from wingbeat.orbits.options.checks import check_options
 from wingbeat.stability.options import LinearOptions

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from wingbeat._base.reports import Line, Report, Row, Table
+from wingbeat._base import Line, Report, Row, Table
 from wingbeat.animal.kinematics import ANGLES
 
 # How the state is shown: label, and the size of the unit in SI units.

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.reports import Report, Reported, drawn
+from wingbeat._base import FaultList, Report, Reported, drawn
 from wingbeat.aero.winds import CosineGust
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.feedback import Feedback, feedback

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList, install_extra
-from wingbeat._base.reports import Report, Reported, drawn
+from wingbeat._base import FaultList, Report, Reported, drawn, install_extra
 from wingbeat._version import __version__
 from wingbeat.animal.kinematics import Wingbeat, flap_angle
 from wingbeat.mechanics.flight_model import State

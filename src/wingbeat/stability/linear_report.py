@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from wingbeat._base.reports import Line, Report, grouped
+from wingbeat._base import Line, Report, grouped
 
 # What moves in a mode, as pages and screens name it.
 MOVING = {"body_pitch": "body pitch", "u": "u", "w": "w", "pitch_rate": "pitch rate"}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, cast
 
-from wingbeat._base.reports import Line, Report, Reported, Row, Table, drawn
+from wingbeat._base import Line, Report, Reported, Row, Table, drawn
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import parameter
 from wingbeat.mechanics.beat_by_beat import air_at, check_wind

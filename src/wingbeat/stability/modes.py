@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base.reports import Report, Reported
+from wingbeat._base import Report, Reported
 from wingbeat.orbits.problem.problem import PITCH_STATE
 from wingbeat.stability.linear_report import mode_report
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.aero.winds import CosineGust
 from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.status import Status

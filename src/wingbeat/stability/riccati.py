@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 
 # Modes whose modulus is within this of 1 neither grow nor decay.
 _NEUTRAL = 1e-6

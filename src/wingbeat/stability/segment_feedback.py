@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.harmonics import HIGHEST_ORDER
+from wingbeat._base import HIGHEST_ORDER, FaultList
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat, parameter, stroke_phase, with_parameters
 from wingbeat.mechanics.beat_by_beat import air_at, check_wind

@@ -15,7 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base.errors import ClusterError, FaultList, install_extra, system_reason
+from wingbeat._base import ClusterError, FaultList, install_extra, system_reason
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.studies.dask_work import Order, dismiss, greet, other_numbers, solve_batch
 from wingbeat.studies.engine import Ended, LocalProcesses

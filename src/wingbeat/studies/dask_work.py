@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import NamedTuple
 
-from wingbeat._base.errors import ClusterError, WorkerError
+from wingbeat._base import ClusterError, WorkerError
 from wingbeat._version import NUMERICAL_VERSION, __version__
 from wingbeat.studies.engine import Ended, LocalProcesses
 from wingbeat.studies.units import Unit

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from wingbeat._base.errors import FileError, WingbeatError, first_line
+from wingbeat._base import FileError, WingbeatError, first_line
 from wingbeat.studies.pages import whole_answers
 
 # A mark in the file's head, by which the program `file` and we recognise a store: "wbst".

@@ -7,7 +7,7 @@ import time
 from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
-from wingbeat._base.errors import WorkerError
+from wingbeat._base import WorkerError
 from wingbeat._workers.affinity import cores_of
 from wingbeat._workers.main import Message
 from wingbeat._workers.process import WorkerProcess

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from wingbeat._base.errors import FileError, system_reason
+from wingbeat._base import FileError, system_reason
 
 # How systems say that another process holds a lock; Windows says EACCES or EDEADLK. Any other error means that the
 # file system has no locks.

@@ -9,8 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.nomenclature import plain_unit
+from wingbeat._base import FaultList, plain_unit
 from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.aero.choosing import load_hand
 from wingbeat.animal.species import Species, load_species

@@ -12,8 +12,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from wingbeat._base.errors import FaultList, first_line
-from wingbeat._base.files import read_text
+from wingbeat._base import FaultList, first_line, read_text
 from wingbeat.orbits.problem.quantities import Quantity, named_objective
 
 _MARK = ".py:"

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base.errors import Fault, FaultList, InvalidInputError, WingbeatError
+from wingbeat._base import Fault, FaultList, InvalidInputError, WingbeatError
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.animal.species.settings import NO_SUCH_PATH, settable
 from wingbeat.animal.species_schema import shown

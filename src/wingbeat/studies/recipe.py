@@ -10,8 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from wingbeat._base.errors import FaultList, suggest
-from wingbeat._base.nomenclature import plain_unit
+from wingbeat._base import FaultList, plain_unit, suggest
 from wingbeat.aero import BladeElement
 from wingbeat.aero.choosing import load_hand
 from wingbeat.animal.species import Species

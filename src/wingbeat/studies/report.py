@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, cast
 
-from wingbeat._base.reports import Block, Line, Report, Reported, Row, Table, drawn
+from wingbeat._base import Block, Line, Report, Reported, Row, Table, drawn
 from wingbeat.studies.summary import Summary
 from wingbeat.studies.units import STATUSES
 

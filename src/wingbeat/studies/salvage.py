@@ -7,7 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
 
-from wingbeat._base.errors import FileError, system_reason
+from wingbeat._base import FileError, system_reason
 from wingbeat.studies.database import DamagedStoreError, unused_name
 from wingbeat.studies.pages import whole_answers
 from wingbeat.studies.plan import Plan

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import closing, suppress
 from pathlib import Path
 
-from wingbeat._base.errors import FileError, system_reason
+from wingbeat._base import FileError, system_reason
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.studies.database import APPLICATION, FORM, TABLES, is_open_here, refusal
 from wingbeat.studies.digests import Fingerprint, about_digest, row_digest, table_digest

@@ -11,7 +11,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from wingbeat._base.errors import FileError
+from wingbeat._base import FileError
 from wingbeat._version import NUMERICAL_VERSION, __version__
 from wingbeat.studies.database import (
     APPLICATION,

@@ -9,8 +9,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base.errors import Fault, FaultList, FileError, InvalidInputError
-from wingbeat._base.nomenclature import label_of, plain_unit
+from wingbeat._base import Fault, FaultList, FileError, InvalidInputError, label_of, plain_unit
 from wingbeat._workers.affinity import core_count
 from wingbeat.animal.species_schema import shown
 from wingbeat.orbits.many.batch import check_processes

@@ -11,9 +11,16 @@ from datetime import UTC, datetime
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base.errors import FaultList, WingbeatError, install_extra, is_number
-from wingbeat._base.files import write_atomically
-from wingbeat._base.nomenclature import cf, label_of, plain_unit
+from wingbeat._base import (
+    FaultList,
+    WingbeatError,
+    cf,
+    install_extra,
+    is_number,
+    label_of,
+    plain_unit,
+    write_atomically,
+)
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.results.columns import flat
 from wingbeat.results.netcdf import netcdf_bytes

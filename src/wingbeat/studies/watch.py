@@ -6,7 +6,7 @@ import sqlite3
 from contextlib import closing
 from pathlib import Path
 
-from wingbeat._base.errors import FileError
+from wingbeat._base import FileError
 from wingbeat.studies.database import identity_of, in_words, unused_name
 from wingbeat.studies.lock import Lock
 

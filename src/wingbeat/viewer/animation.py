@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base import writing
 from wingbeat._base.datasets import flown
-from wingbeat._base.files import writing
 from wingbeat._base.style import GREEN, drawing
 from wingbeat.animal.vehicle import Body
 from wingbeat.viewer.scene import scene, tail_of

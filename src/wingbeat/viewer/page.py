@@ -9,7 +9,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from wingbeat._base.files import write_atomically
+from wingbeat._base import write_atomically
 from wingbeat.viewer.pushes import Push
 from wingbeat.viewer.scene import scene
 

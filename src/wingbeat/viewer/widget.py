@@ -6,7 +6,7 @@ import json
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base.errors import install_extra
+from wingbeat._base import install_extra
 
 try:
     import anywidget

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.cli.answer import answer
 from wingbeat.cli.options import Whole, check_files, check_outputs, unpacking
 from wingbeat.cli.progress import progress_bar

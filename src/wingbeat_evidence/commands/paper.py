@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.files import make_folder
+from wingbeat._base import FaultList, make_folder
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat._workers.affinity import core_count
 from wingbeat.cli.app import EXIT_GOOD

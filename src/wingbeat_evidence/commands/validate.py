@@ -8,8 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.files import write_atomically
+from wingbeat._base import FaultList, write_atomically
 from wingbeat.aero import EXTENSIONS
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD

@@ -6,8 +6,7 @@ import json as json_format
 from pathlib import Path
 from typing import Any
 
-from wingbeat._base.errors import FaultList, FileError
-from wingbeat._base.files import read_text, toml_tables, write_atomically
+from wingbeat._base import FaultList, FileError, read_text, toml_tables, write_atomically
 from wingbeat._workers.affinity import core_count
 from wingbeat.animal.species import load_species
 from wingbeat.cli.answer import answer

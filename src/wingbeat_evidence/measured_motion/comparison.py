@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base.reports import Report, Reported, drawn
+from wingbeat._base import Report, Reported, drawn
 from wingbeat.aero import LIBRARY, BladeElement
 from wingbeat_evidence.measured_motion.choice import (
     Regime,

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat._base.sheets import Sheet, parse_numbers
 from wingbeat_evidence.measured_motion.strip_table import LISTED, check_columns
 

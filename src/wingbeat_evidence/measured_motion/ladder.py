@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from wingbeat._base.errors import Fault, FaultList, InvalidInputError
+from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat.aero import INFLOWS, LIBRARY, UNSTEADY, BladeElement, CoefficientModel, coefficients_of
 from wingbeat.aero.choosing import load_coefficients
 

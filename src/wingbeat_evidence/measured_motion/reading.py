@@ -5,8 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from wingbeat._base.errors import FaultList, FileError, InvalidInputError, is_number, suggest
-from wingbeat._base.files import read_text, toml_tables
+from wingbeat._base import FaultList, FileError, InvalidInputError, is_number, read_text, suggest, toml_tables
 from wingbeat._base.sheets import read_sheet
 from wingbeat_evidence.measured_motion.force_table import read_forces
 from wingbeat_evidence.measured_motion.strip_case import WINGS, StripCase

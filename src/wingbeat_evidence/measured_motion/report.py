@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from wingbeat._base.reports import Block, Line, Notes, Report, Row, Table
+from wingbeat._base import Block, Line, Notes, Report, Row, Table
 
 if TYPE_CHECKING:
     from wingbeat_evidence.measured_motion.comparison import Validation, ValidationRow

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 
 # Where an element of an array stands: in a file or in Python.
 Where = Callable[[str, tuple[int, ...]], str]

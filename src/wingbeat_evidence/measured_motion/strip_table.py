@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import WHOLE, FaultList, suggest
+from wingbeat._base import WHOLE, FaultList, suggest
 from wingbeat._base.sheets import Sheet, parse_numbers
 
 Array = NDArray[np.float64]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from wingbeat._base.files import write_atomically
+from wingbeat._base import write_atomically
 from wingbeat.plots import save_figure
 from wingbeat_evidence.markdown import markdown_table
 from wingbeat_evidence.paper.assumption_figure import TRUSTED, draw

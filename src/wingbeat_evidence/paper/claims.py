@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from wingbeat._base.files import write_atomically
+from wingbeat._base import write_atomically
 from wingbeat_evidence.markdown import markdown_table
 from wingbeat_evidence.paper.argument_claims import argument_claims
 from wingbeat_evidence.paper.claim import FAILS, HOLDS, HOLDS_UNDER, NOT_ASKED, UNTESTABLE, Claim, Finding

@@ -12,8 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.files import write_atomically
+from wingbeat._base import FaultList, write_atomically
 from wingbeat.plots import save_figure
 from wingbeat_evidence.paper.figure_coefficients import coefficients_figure
 from wingbeat_evidence.paper.figure_cycle import forces_figure, pitch_figure, power_figure

@@ -14,8 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from wingbeat._base.errors import FileError
-from wingbeat._base.files import make_folder, read_text, write_atomically
+from wingbeat._base import FileError, make_folder, read_text, write_atomically
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.studies.driver import Stop
 from wingbeat.studies.engine import Engine

@@ -7,8 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from wingbeat._base.errors import FileError
-from wingbeat._base.files import read_text
+from wingbeat._base import FileError, read_text
 from wingbeat_evidence.paper.claim import Claim
 
 _LIMIT = 1 << 26

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base import FaultList, InvalidInputError
 from wingbeat._base.datasets import downstrokes
-from wingbeat._base.errors import FaultList, InvalidInputError
 from wingbeat.aero.blade_element import BladeElement
 from wingbeat.results.aero_record import aero_from
 from wingbeat_evidence.second_opinion.lattice import LatticeOptions, lattice_of, sum_of_panels

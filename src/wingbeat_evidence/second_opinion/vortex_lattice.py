@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base.errors import FileError, install_extra
+from wingbeat._base import FileError, install_extra
 
 _TO_WORLD = np.array([-1.0, -1.0, 1.0])
 

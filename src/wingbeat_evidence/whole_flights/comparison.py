@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat._base.nomenclature import label_of, plain_unit
+from wingbeat._base import label_of, plain_unit
 from wingbeat_evidence.whole_flights.measured import Measurement
 from wingbeat_evidence.whole_flights.prediction import Prediction
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base.nomenclature import plain_unit
+from wingbeat._base import plain_unit
 from wingbeat._base.style import (
     BLUE,
     GREEN,

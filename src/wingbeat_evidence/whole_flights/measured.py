@@ -7,9 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from wingbeat._base.errors import FaultList, is_number, suggest
-from wingbeat._base.files import read_text, toml_tables
-from wingbeat._base.nomenclature import plain_unit
+from wingbeat._base import FaultList, is_number, plain_unit, read_text, suggest, toml_tables
 
 # What can be compared; the nomenclature has units and words.
 COMPARED = (

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat._base.nomenclature import NOMENCLATURE, for_people
+from wingbeat._base import NOMENCLATURE, for_people
 from wingbeat_explorer.app.formatting import number, tiles
 from wingbeat_explorer.app.widgets import Rows, button, folded, part, tag
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat._base.errors import is_number
+from wingbeat._base import is_number
 
 _LONGEST_WORD = 200
 _LONGEST_NUMBER = 40  # characters

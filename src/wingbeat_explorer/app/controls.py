@@ -6,8 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat._base.errors import InvalidInputError
-from wingbeat._base.nomenclature import NOMENCLATURE, for_people
+from wingbeat._base import NOMENCLATURE, InvalidInputError, for_people
 from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, INFLOWS, LIBRARY, UNSTEADY
 from wingbeat.animal.species import Species, species_names
 from wingbeat.models import model_of

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from wingbeat._base.files import write_atomically
+from wingbeat._base import write_atomically
 from wingbeat._workers.main import Context
 from wingbeat.animal.species import load_species
 from wingbeat_explorer.app.links import from_plain, to_plain

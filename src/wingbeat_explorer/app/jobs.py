@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base.errors import FileError, InvalidInputError, first_line
+from wingbeat._base import FileError, InvalidInputError, first_line
 from wingbeat._workers.main import Context
 from wingbeat.models import MODELS
 from wingbeat.orbits.problem.problem import OrbitProblem

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-from wingbeat._base.errors import Fault, FaultList, FileError, InvalidInputError
+from wingbeat._base import Fault, FaultList, FileError, InvalidInputError
 from wingbeat_explorer.app.checked import (
     NO_YES,
     every,

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat._base.nomenclature import NOMENCLATURE, for_people
+from wingbeat._base import NOMENCLATURE, for_people
 from wingbeat.animal.kinematics import ANGLES
 from wingbeat.animal.species import Number, Species
 from wingbeat.animal.species.muscle_laws import muscle_numbers

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from nicegui import Client, ui
 
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat_explorer.app.answer import Answer, Brief, Influence
 from wingbeat_explorer.app.controls import Controls
 from wingbeat_explorer.app.curve import Curve, drawn

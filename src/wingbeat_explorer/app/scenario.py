@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from wingbeat._base.errors import FaultList, FileError, InvalidInputError
+from wingbeat._base import FaultList, FileError, InvalidInputError
 from wingbeat.aero import (
     AIRSPEEDS,
     EXTENSIONS,

@@ -10,8 +10,8 @@ import webbrowser
 
 import uvicorn
 
-from wingbeat._base.errors import Fault, InvalidInputError, system_reason
-from wingbeat._base.leftovers import Leftover
+from wingbeat._base import Fault, InvalidInputError, system_reason
+from wingbeat._leftovers import Leftover
 from wingbeat_explorer.app.door import is_loopback
 from wingbeat_explorer.app.house import House
 from wingbeat_explorer.app.site import build

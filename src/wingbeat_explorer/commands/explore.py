@@ -9,8 +9,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.files import make_folder
+from wingbeat._base import FaultList, make_folder
 from wingbeat.animal.species import Species, load_species, species_names
 from wingbeat.cli.app import EXIT_GOOD
 from wingbeat.cli.options import Seed, Whole, check_outputs

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from wingbeat._base.nomenclature import PRECISION, written, written_range
+from wingbeat._base import PRECISION, written, written_range
 
 SIZES = st.floats(-9.0, 9.0).map(lambda power: 10.0**power)
 VALUES = st.builds(lambda size, sign: sign * size, SIZES, st.sampled_from([-1.0, 0.0, 1.0]))

@@ -3,8 +3,7 @@
 import pytest
 
 from tests.helpers.notebooks import check_figure, check_table
-from wingbeat._base.reports import Line, Notes, Reported, Row, Table, grouped
-from wingbeat._base.reports.text import lines_of, text_of
+from wingbeat._base import Line, Notes, Reported, Row, Table, grouped, lines_of, text_of
 from wingbeat._base.style import new_figure
 
 NASTY = "<script>alert('&amp;')</script> \"quoted\""

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from tests.helpers.species_texts import check_words
-from wingbeat._base.errors import FileError, InvalidInputError
+from wingbeat._base import FileError, InvalidInputError
 from wingbeat.animal.species import load_species, parse_setting, template
 from wingbeat.animal.species_schema import KEYS, LOOKS, SHAPE
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from tests.helpers.species_texts import MINIMAL, faults_of
-from wingbeat._base.errors import FileError
+from wingbeat._base import FileError
 from wingbeat.animal.species import load_species, parse_setting
 
 

@@ -14,7 +14,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.species_texts import MINIMAL, faults_of
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.animal.species import Shape, json_schema, load_species, species_names, species_text, template
 from wingbeat.animal.species_schema import COLOURS, LOOKS, SHAPE, packaged_text
 from wingbeat.orbits.problem.parameters import parameters_of

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.helpers.strip_cases import flapping_case
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.aero import LIBRARY, BladeElement, Feathered, FeatheredRevolving, SuFan
 from wingbeat_evidence.measured_motion import validate
 from wingbeat_evidence.measured_motion.choice import (

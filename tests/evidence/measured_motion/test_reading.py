@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from tests.helpers.strip_cases import case_text, flapping_case, forces_text, strips_text, write_case
-from wingbeat._base.errors import FileError, InvalidInputError
+from wingbeat._base import FileError, InvalidInputError
 from wingbeat.cli import main
 from wingbeat_evidence.measured_motion import StripCase, read_strip_case
 

@@ -9,7 +9,7 @@ import pytest
 
 from tests.aero.test_wake import THEODORSEN
 from tests.helpers.strip_cases import PHASES, flapping_case, section_case, write_case
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.cli import main
 from wingbeat_evidence.measured_motion import validate
 

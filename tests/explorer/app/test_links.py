@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from wingbeat import models
-from wingbeat._base.errors import FileError, InvalidInputError
+from wingbeat._base import FileError, InvalidInputError
 from wingbeat.aero import EXTENSIONS, LIBRARY
 from wingbeat.animal.species import load_species, species_names, template
 from wingbeat_explorer.app.controls import choices_of

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from wingbeat._base.reports.blocks import Report
 from wingbeat._base.reports.html import html_of
 from wingbeat._base.reports.text import WIDTH, text_of
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 class Reported:
@@ -32,7 +29,7 @@ class Reported:
         return html_of(self._report(), type(self).__name__)
 
 
-def drawn(page: str, *given: Any, **options: Any) -> Figure:
+def drawn(page: str, *given: Any, **options: Any) -> Any:
     """Return a page of `wingbeat.plots`.
 
     The package is looked up by name when the page is drawn. Pages know the results that they draw, so results

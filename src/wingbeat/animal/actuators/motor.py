@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat._jax.config import jnp, register_record
 
 if TYPE_CHECKING:

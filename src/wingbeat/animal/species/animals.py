@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from numbers import Real
 from typing import Any
 
-from wingbeat._base.errors import FaultList, suggest
+from wingbeat._base import FaultList, suggest
 from wingbeat.animal.species.deriving import BAT, BIRD, ROBOT, Kind, bat_beat, derive, single
 from wingbeat.animal.species.loading import species_of
 from wingbeat.animal.species.record import Species

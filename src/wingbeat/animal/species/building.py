@@ -7,8 +7,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from wingbeat._base.errors import FaultList, InvalidInputError
-from wingbeat._base.nomenclature import plain_unit
+from wingbeat._base import FaultList, InvalidInputError, plain_unit
 from wingbeat.animal.actuators import Motor, Muscle, Springs
 from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.animal.species_schema import KEYS, PARTS, TAIL_PATHS, Number, Numbers, SpeciesText, display

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from wingbeat._base.nomenclature import plain_unit
+from wingbeat._base import plain_unit
 from wingbeat.animal.species import scaling
 from wingbeat.animal.species.building import default_of
 from wingbeat.animal.species.plausibility import plausible_of_bats, plausible_of_birds, plausible_of_robots

@@ -7,8 +7,7 @@ import math
 import os
 from pathlib import Path
 
-from wingbeat._base.errors import FaultList, suggest
-from wingbeat._base.files import read_text
+from wingbeat._base import FaultList, read_text, suggest
 from wingbeat.animal.species.building import (
     DEFAULT,
     UNNAMED_PATHS,

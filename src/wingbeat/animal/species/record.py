@@ -8,9 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, cast
 
-from wingbeat._base.errors import FaultList, suggest
-from wingbeat._base.nomenclature import plain_unit
-from wingbeat._base.reports import Report, Reported
+from wingbeat._base import FaultList, Report, Reported, plain_unit, suggest
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.species.building import (
     BODY,

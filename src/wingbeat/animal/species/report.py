@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from wingbeat._base.nomenclature import cf, for_people, plain_unit
-from wingbeat._base.reports import Block, Line, Report, Row, Table
+from wingbeat._base import Block, Line, Report, Row, Table, cf, for_people, plain_unit
 from wingbeat.animal.species_schema import Number, display
 
 if TYPE_CHECKING:

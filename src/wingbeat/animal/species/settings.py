@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from wingbeat._base.errors import FaultList, FileError, suggest
+from wingbeat._base import FaultList, FileError, suggest
 from wingbeat.animal.species_schema import KEYS, Key, parse_toml, shown, spoken
 
 # The rule in the fault of a path that names no number. A study recognises such a fault by this rule, and so does

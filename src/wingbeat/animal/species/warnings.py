@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from wingbeat._base.nomenclature import plain_unit
+from wingbeat._base import plain_unit
 from wingbeat.animal.kinematics import parameter
 from wingbeat.animal.species.building import words
 from wingbeat.animal.species.law import OUTSIDE

@@ -9,7 +9,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from wingbeat._base.errors import FaultList, suggest
+from wingbeat._base import FaultList, suggest
 from wingbeat.animal.species_schema.keys import FREE, KEYS, LOOKS, NO_COLOUR, PATH, PLAUSIBLE, SHAPE, Key
 from wingbeat.animal.species_schema.models import (
     ADAPTERS,

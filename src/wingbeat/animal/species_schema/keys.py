@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from wingbeat._base.harmonics import FIRST_ORDER, HARMONIC_NAMES
-from wingbeat._base.nomenclature import find, plain
+from wingbeat._base import FIRST_ORDER, HARMONIC_NAMES, find, plain
 
 
 class Key(NamedTuple):

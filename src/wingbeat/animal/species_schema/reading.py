@@ -7,8 +7,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from wingbeat._base.errors import IN_RADIANS, Fault, FaultList, FileError
-from wingbeat._base.files import toml_tables
+from wingbeat._base import IN_RADIANS, Fault, FaultList, FileError, toml_tables
 from wingbeat.animal.species_schema.faults import NOTHING, check_shape, dotted, has_shape, shown
 from wingbeat.animal.species_schema.keys import FREE, KEYS, LOOKS, PARTS, PATH, PLAUSIBLE, SHAPE, Key
 from wingbeat.animal.species_schema.models import KINDS

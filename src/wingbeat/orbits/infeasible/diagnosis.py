@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.orbits.infeasible.deficit import Balance, Deficit
 from wingbeat.orbits.infeasible.relaxation import Change, Relaxation, possible_changes, relaxation
 from wingbeat.orbits.infeasible.relaxed_problem import least_change

@@ -7,9 +7,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from wingbeat._base.errors import InvalidInputError
-from wingbeat._base.harmonics import harmonic_place
-from wingbeat._base.nomenclature import cf, for_people, plain_unit
+from wingbeat._base import InvalidInputError, cf, for_people, harmonic_place, plain_unit
 from wingbeat.animal.kinematics import ANGLES, parameter, with_parameters
 from wingbeat.orbits.infeasible.deficit import LIFT, MOMENT, THRUST
 from wingbeat.orbits.infeasible.terms import TERMS, without_term

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.orbits.infeasible.relaxation import Change, is_limit, with_change
 from wingbeat.orbits.nlp.local_search import is_closed, optimise
 from wingbeat.orbits.nlp.transcription import Transcription

@@ -6,7 +6,7 @@ import dataclasses
 import functools
 from collections.abc import Sequence
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat._workers.process_map import in_processes
 from wingbeat.orbits.many.batch import check_processes
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base.nomenclature import PRECISION
+from wingbeat._base import PRECISION
 from wingbeat._workers.process_map import in_processes
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.parameters import Parameter

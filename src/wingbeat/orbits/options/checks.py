@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 
 _MOST = 1_000_000
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from wingbeat._base.errors import FaultList, InvalidInputError
+from wingbeat._base import FaultList, InvalidInputError
 from wingbeat.animal.kinematics import ANGLES, FREE_NAMES
 from wingbeat.orbits.problem.quantities import NUMBER, QUANTITIES, Quantity, named_quantity
 

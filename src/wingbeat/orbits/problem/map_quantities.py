@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base.nomenclature import NOMENCLATURE, plain
+from wingbeat._base import NOMENCLATURE, plain
 from wingbeat._jax.config import jax, jnp
 from wingbeat.orbits.problem.quantity import Quantity
 

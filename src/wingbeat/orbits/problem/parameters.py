@@ -6,8 +6,7 @@ import dataclasses
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from wingbeat._base.harmonics import harmonic_place
-from wingbeat._base.nomenclature import plain_unit
+from wingbeat._base import harmonic_place, plain_unit
 from wingbeat.aero import CoefficientModel
 from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat, in_use, parameter, with_parameters
 from wingbeat.animal.species import Species

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.animal.kinematics import FREE_NAMES, parameter
 from wingbeat.animal.species import Range, Species
 from wingbeat.animal.species.plausibility import JUDGED

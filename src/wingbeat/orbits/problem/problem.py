@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList, InvalidInputError, suggest
-from wingbeat._base.harmonics import harmonic_place
+from wingbeat._base import FaultList, InvalidInputError, harmonic_place, suggest
 from wingbeat.aero import SuFan
 from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, Wingbeat, parameter, with_parameters

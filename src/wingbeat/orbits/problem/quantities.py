@@ -14,8 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from wingbeat._base.errors import FaultList, suggest
-from wingbeat._base.nomenclature import NOMENCLATURE, plain, plain_unit
+from wingbeat._base import NOMENCLATURE, FaultList, plain, plain_unit, suggest
 from wingbeat._jax.config import jnp
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.path_maxima import spread

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.orbits.flight.beat import Beat
 
 

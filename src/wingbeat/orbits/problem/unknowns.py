@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.animal.vehicle import Vehicle
 
 

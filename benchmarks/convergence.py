@@ -14,95 +14,77 @@ import numpy as np
 import wingbeat as wb
 from wingbeat.orbits.flight.shooting import STEPS, flier
 from wingbeat.orbits.solve import find_orbit
+from wingbeat_evidence.markdown import markdown_table
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "evidence" / "convergence.md"
 CASES = (("pigeon", 10.0), ("bat", 8.0))
+TEXT = """# Convergence
 
+`uv run python benchmarks/convergence.py` writes this page. Each orbit has minimum frequency, with default wings
+and bounds, Su-Fan coefficients and the mirrored extension unless the row says otherwise, and is solved from the
+first start only, so that a column follows one family of orbits; families of lower frequency may exist. Cells:
+frequency [Hz] / mean hinge power [W] / peak power [W]. All orbits are certified; when the certifier flies them,
+their closure is at most {closure:.0e}.
 
-def table(header: tuple[str, ...], rows: list[tuple[str, ...]]) -> str:
-    lines = [header, tuple("---" for _ in header), *rows]
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
+{orbits}
+
+A certified orbit flown with fixed Runge-Kutta steps (RK4) ends this far from the certifier's adaptive flight, as
+the largest difference in m, rad, m/s or rad/s:
+
+{steps}
+"""
+LABELS = [f"{name}, {speed:g} m/s" for name, speed in CASES]
 
 
 def solved(name: str, speed: float, aero: object) -> wb.Orbit:
     return wb.solve_orbit(wb.OrbitProblem(wb.load_species(name), speed=speed, aero=aero), starts=1)
 
 
-def row(label: str, orbit: wb.Orbit) -> tuple[str, ...]:
-    record = orbit.record()
-    return (
-        label,
-        f"{record['wingbeat']['frequency']:.4f}",
-        f"{record['mean_power']:.3f}",
-        f"{record['peak_power']:.2f}",
-        f"{max(abs(v) for v in record['closure'].values()):.0e}",
-        record["status"],
-    )
-
-
-HEAD = ("frequency [Hz]", "mean hinge power [W]", "peak [W]", "closure", "status")
-
-
-def strips(name: str, speed: float) -> str:
-    blade = wb.aero.BladeElement
-    rows = [row(str(n), solved(name, speed, blade(wb.aero.SuFan(), n))) for n in (5, 10, 20, 40)]
-    return table(("strips", *HEAD), rows)
-
-
-def widths(name: str, speed: float) -> str:
-    rows = [
-        row(f"{width:g}", solved(name, speed, wb.aero.SuFan(blend_width_deg=width)))
-        for width in (0.5, 1.0, 1.5, 2.0, 3.0)
-    ]
-    return table(("blend width [deg]", *HEAD), rows)
-
-
-def extensions(name: str, speed: float) -> str:
-    rows = [
-        row(f"{maker().name}, {kind}", solved(name, speed, maker(extension=kind)))
-        for maker in (wb.aero.SuFan, wb.aero.Dickinson)
+def choices() -> dict[str, object]:
+    """Return the air loads of each row of the table by its label."""
+    blade, sufan = wb.aero.BladeElement, wb.aero.SuFan
+    airs: dict[str, object] = {f"{n} strips": blade(sufan(), n) for n in (5, 10, 20, 40)}
+    airs |= {f"blends of {one:g} deg": sufan(blend_width_deg=one) for one in (0.5, 1.0, 1.5, 2.0, 3.0)}
+    airs |= {
+        f"{maker().name}, {kind}": maker(extension=kind)
+        for maker in (sufan, wb.aero.Dickinson)
         for kind in wb.aero.EXTENSIONS
-    ]
-    return table(("coefficients, extension", *HEAD), rows)
+    }
+    return airs
 
 
-def steps(name: str, speed: float) -> str:
+def steps(name: str, speed: float) -> dict[str, str]:
     """Fly one certified orbit with fixed steps: the largest difference from the certifier's end."""
     solution = find_orbit(wb.OrbitProblem(wb.load_species(name), speed=speed), starts=1)
     start, end = solution.certificate.states[0][2:], solution.certificate.end
-    problem, rows = solution.problem, []
-    fly = flier(problem.model, solution.wingbeat, problem.free)
-    values = np.array([getattr(solution.wingbeat, name) for name in problem.free])
-    for blocks in (1, 2, 4, 8, 16, 32, 64):
-        flown = fly(values, start, blocks)
-        rows.append((str(blocks * STEPS), f"{np.abs(np.asarray(flown.end) - end).max():.1e}"))
-    return table(("RK4 steps per wingbeat", "largest difference (m, rad, m/s, rad/s)"), rows)
+    fly = flier(solution.problem.model, solution.wingbeat, solution.problem.free)
+    values = np.array([getattr(solution.wingbeat, name) for name in solution.problem.free])
+    ends = {blocks * STEPS: np.asarray(fly(values, start, blocks).end) for blocks in (1, 2, 4, 8, 16, 32, 64)}
+    return {str(count): f"{np.abs(flown - end).max():.1e}" for count, flown in ends.items()}
 
 
 def main() -> None:
-    parts = [
-        "# Convergence\n",
-        "`uv run python benchmarks/convergence.py` writes this page. Unless a table says otherwise, each "
-        "orbit has minimum\nfrequency, with the default wings and bounds, Su-Fan coefficients and the "
-        "mirrored extension. Each orbit is solved\nfrom the first start only, so that a column follows one "
-        "family of orbits. Families of lower frequency may exist.\n",
-        "The certifier is the adaptive integrator that flies each orbit again to certify it. For the first "
-        "two tables, we\nflew a certified orbit with fixed steps (RK4: the classical Runge-Kutta method). "
-        "These two tables give the largest\ndifference between the final state of this flight and the final "
-        "state of the certifier's flight. All later tables\nhave a column *closure*: the largest residual of "
-        "the periodicity when the certifier flies the orbit.\n",
-    ]
-    for title, make in (
-        ("Fixed steps against the certifier", steps),
-        ("Width of the blends at 0, 90 and 180 degrees", widths),
-        ("Number of strips", strips),
-        ("Extension to negative angles", extensions),
-    ):
-        parts.append(f"## {title}\n")
-        for name, speed in CASES:
-            print(title, name, flush=True)
-            parts.append(f"{name.capitalize()} at {speed:g} m/s:\n\n{make(name, speed)}")
-            PAGE.write_text("\n".join(parts), encoding="utf-8")
+    """Solve every choice and write the page."""
+    rows, closures = [], []
+    for label, aero in choices().items():
+        cells = [label]
+        for case in CASES:
+            record = solved(*case, aero).record()
+            closures += [abs(value) for value in record["closure"].values()]
+            numbers = (
+                f"{record['wingbeat']['frequency']:.4f} / {record['mean_power']:.3f} / {record['peak_power']:.2f}"
+            )
+            cells.append(numbers if record["status"] == "converged" else record["status"])
+        rows.append(cells)
+        print(" | ".join(cells), flush=True)
+    flown = [steps(*case) for case in CASES]
+    by_steps = [[count, *(one[count] for one in flown)] for count in flown[0]]
+    page = TEXT.format(
+        closure=max(closures),
+        orbits=markdown_table(["choice", *LABELS], rows),
+        steps=markdown_table(["RK4 steps per wingbeat", *LABELS], by_steps),
+    )
+    PAGE.write_text(page, encoding="utf-8")
 
 
 if __name__ == "__main__":

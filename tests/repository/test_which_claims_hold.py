@@ -1,8 +1,9 @@
-"""Every number of docs/evidence/findings.md is counted again from data/assumptions.csv, and none is left out.
+"""Every number of the page which_claims_hold.md is counted again from data/assumptions.csv, none is left out.
 
 Each function of `COUNTS` returns phrases with the numbers that the sets give. The page must hold all of them, and
-every number of the page must lie in one of them. After a new sample `python -m tests.repository.test_findings`
-prints the phrases for the page; what they say in words beside the numbers is asserted where it is counted.
+every number of the page must lie in one of them. After a new sample, running this module
+(`python -m tests.repository.test_which_claims_hold`) prints the phrases for the page; what they say in words beside
+the numbers is asserted where it is counted.
 """
 
 import re
@@ -60,7 +61,7 @@ def read_holds(sets):
 
 
 def read_page():
-    return " ".join((DOCS / "findings.md").read_text().replace("**", "").split())
+    return " ".join((DOCS / "which_claims_hold.md").read_text().replace("**", "").split())
 
 
 def under(holds, choice):
@@ -96,14 +97,14 @@ def question(sets, holds):
     low, high = (spaced(int(reynolds)) for reynolds in REYNOLDS_FITTED)
     return [
         "(arXiv 2302.09602)",
-        f"on a plate at Reynolds numbers of {low} to {high} with",
+        f"on a plate at Reynolds numbers of {low} to {high} and",
         f"We therefore draw {spaced(len(sets))} sets of assumptions",
         f"which of {holds.shape[1]} claims",
         f"`wingbeat paper assumptions --sets {len(sets)} --piece {PIECE}` (numerical version {version}, {hours} "
         "core-hours)",
         f"from {WORDS[int(starts)]} initial guesses",
-        *(f"strip at {name} span" for name in STATIONS),
-        f"If the surface explains under {100 * TRUSTED:.0f} %, we do not say what the claim depends on",
+        f"the strips at {' and '.join(STATIONS)} span",
+        f"below {100 * TRUSTED:.0f} % we do not say it",
     ]
 
 
@@ -118,15 +119,15 @@ def orbits_found(sets, holds):
     own = [load_species(name).vehicle.wing for name in ("pigeon", "bat")]
     pigeon, bat = (wing.shoulder[1] / wing.semi_span for wing in own)
     return [
-        f"{short(pigeon, 3)} (pigeon) and {short(bat, 3)} (bat) of the semi-span. The sampled range ends at "
-        f"{last:g}",
+        f"{short(pigeon, 3)} (pigeon) and {short(bat, 3)} (bat) of the semi-span; the sampled "
+        f"range ends at {last:g}",
         f"Of the {spaced(needed)} orbits needed, {percent(found.mean())} % were found",
-        f"these orbits were found in {percent(told.min())} to {percent(told.max())} % of the sets",
+        f"all its orbits were found in {percent(told.min())} to {percent(told.max())} % of the sets",
         f"With both mean angles fixed, only {trims['none']} % of the orbits were found; with both free, "
         f"{trims['both']} % were",
         f"With the shoulder in the rear quarter of its range {ahead[0]} % were found, in the front quarter "
-        f"{ahead[3]} %",
-        f"nearest to the plane of symmetry {aside[0]} % were found, in the farthest {aside[3]} %",
+        f"{ahead[3]} %; nearest to the plane of symmetry, which our wings may not cross, {aside[0]} % were found, "
+        f"in the farthest quarter {aside[3]} %",
     ]
 
 
@@ -138,7 +139,6 @@ def nearly_always(sets, holds):
         assert holds[name].dropna().all()
     off = holds[[f"pigeon-dickinson-off-{name}" for name in PIGEON_REFERENCES]]
     failing = int((off == 0).any(axis=1).sum())
-    hand = under(holds["hand-alpha"], sets.trims)
     extension = under(holds["lower-power"], sets.extension_dickinson).astype(int)
     others = extension.drop("clipped-drag")
     closer = [holds[f"pigeon-closer-at-speed-{name}"] for name in PIGEON_REFERENCES]
@@ -158,16 +158,16 @@ def nearly_always(sets, holds):
         f"above {SAMPLE_SPEED:g} m/s agrees poorly with the live bird's (a mean deviation of more than "
         f"{percent(AGREES)} %): with each of the two references below, in all but {worded(failing)} of "
         f"{spaced(off.notna().all(axis=1).sum())} sets",
-        f"in {of['hand-alpha']} %, and in {hand['both']} % if both mean angles are free",
+        f"larger angle of attack than its arm: in {of['hand-alpha']} %",
         "At 3/4 span the bat's angles of attack are smaller with the plate's coefficients: in "
         f"{of['smaller-alpha-3-of-4']} %",
         f"in {of['lower-power']} % of {spaced(told['lower-power'])} sets; half of the sets have a ratio below "
         f"{short(sets['lower-power'].median())}",
-        f"in {extension['clipped-drag']} % of sets with clipped-drag, and in {others.min()} to {others.max()} % "
-        "with each other rule",
-        f"in {percent(closer[0].mean())} % of {spaced(closer[0].notna().sum())} sets",
-        f"the plate's coefficients are not mirrored, the claim holds in {apart} % of sets. If the force acts at "
-        f"the quarter chord and the coefficients are mirrored, it holds in {alike} %",
+        f"in {extension['clipped-drag']} % of sets with clipped-drag for Dickinson's coefficients, and in "
+        f"{others.min()} to {others.max()} % with each other rule",
+        f"in {percent(closer[0].mean())} % of {spaced(closer[0].notna().sum())} sets, with each reference; in "
+        f"{apart} % if the plate's force acts at the centre of pressure and its coefficients are not mirrored, in "
+        f"{alike} % if the force acts at the quarter chord and they are",
     ]
 
 
@@ -189,13 +189,13 @@ def seldom(sets, holds):
         f"{of[loaded]} % of {spaced(told[loaded])} sets with the reference of {hertz[0]:.1f} Hz",
         f"in {of[law]} % with {hertz[1]:.1f} Hz",
         f"a flap amplitude of at least {np.floor(agreeing.flap_amplitude_deg.min()):.0f} degrees",
-        f"Here *very well* means a mean deviation of at most {percent(AGREES)} %",
-        f"Half of the sets deviate by {percent(sets[loaded].median())} % or more from the first reference, or by "
+        f"*Very well* means a mean deviation of at most {percent(AGREES)} %",
+        f"half of the sets deviate by {percent(sets[loaded].median())} % or more from the first reference, or by "
         f"{percent(sets[law].median())} % or more from the second",
-        f'"almost twice the frequency" (bat near {SAMPLE_SPEED:g} m/s): in {percent(twice.mean())} % of sets. '
-        f"The share is {under(twice, sets.extension_su_fan)['mirrored']} % if the plate's coefficients are "
-        f"mirrored, and {under(twice, sets.extension_dickinson)['signed']} % if Dickinson's are signed",
-        f"{ahead[False]} % satisfy the claim; of those with the shoulder in the front half, {ahead[True]} % do",
+        f'"almost twice the frequency" (bat near {SAMPLE_SPEED:g} m/s): in {percent(twice.mean())} % of sets: '
+        f"{under(twice, sets.extension_su_fan)['mirrored']} % if the plate's coefficients are mirrored, "
+        f"{under(twice, sets.extension_dickinson)['signed']} % if Dickinson's are signed; {ahead[False]} % with "
+        f"the shoulder in the rear half of its range, {ahead[True]} % in the front half",
         f'"Power goes as frequency squared": in {of["power-exponent"]} % of sets',
         f"varies by at most {within:g} degrees in a wingbeat: in {of['pitch-range-su-fan']} %",
         f"In half of the sets it varies by more than {sets['pitch-range-su-fan'].median():.0f} degrees",
@@ -229,9 +229,9 @@ def under_one_choice(sets, holds):
     assert tests.count("our peak power is within 25 % of the paper's") == len(PEAKS)
     of_peaks = PAPER_PEAK_POWER["dickinson"] / PAPER_PEAK_POWER["su-fan"]
     return [
-        f"These three claims concern the bat's peak power at {SAMPLE_SPEED:g} m/s",
-        f"of Dickinson's peak to the plate's from 3 to 5; the paper's own peaks have a ratio of {of_peaks:g}",
-        "We accept peaks within 25 %",
+        f"The bat's peak power at {SAMPLE_SPEED:g} m/s",
+        f"a ratio of the peaks from 3 to 5; the paper's own peaks have a ratio of {of_peaks:g}",
+        "otherwise), within 25 %",
         f'"Four times the power": in {of["four-times"]} % of sets ({powers["four-times"]["mirrored"]} % if the '
         f"plate's coefficients are mirrored, {four.min()} to {four.max()} % otherwise)",
         f"The plate's peak of {PAPER_PEAK_POWER['su-fan']:g} W: in {of['peak-power-su-fan']} % of sets "
@@ -243,26 +243,21 @@ def under_one_choice(sets, holds):
         f"{fly['signed']} % with signed, {fly['signed-drag']} % with signed-drag)",
         f"at -40 degrees the plate's C_D is {signed} if signed and {mirrored} if mirrored. Dickinson's C_D is "
         f"{fly_signed} if signed and {fly_mirrored} if mirrored",
-        f"The bat's {PAPER_BAT_FREQUENCY:g} Hz from {slow:g} to {fast:g} m/s: in {of['bat-agrees']} % of sets",
-        f"{agrees[0]} % if the shoulder is in the quarter of its range nearest to the plane of symmetry, "
+        f"The bat's {PAPER_BAT_FREQUENCY:g} Hz from {slow:g} to {fast:g} m/s: in {of['bat-agrees']} % of sets "
+        f"({agrees[0]} % if the shoulder is in the quarter of its range nearest to the plane of symmetry, "
         f"{min(agrees[2], agrees[3])} to {max(agrees[2], agrees[3])} % if it is in the outer half",
         f"does not change with speed: in {of['bat-invariant']} % of sets",
         f"A frequency of the bat closer to {PAPER_BAT_FREQUENCY:g} Hz with the plate's than with Dickinson's "
-        f"coefficients: in {of['bat-closer-at-speed']} % (at {SAMPLE_SPEED:g} m/s and above)",
-        f"up to {slow:g} m/s; we tested {slow:g} m/s",
+        f"coefficients: in {of['bat-closer-at-speed']} %",
         f"At {slow:g} m/s the models give the bat a similar frequency: in "
         f"{of['bat-slow-alike']} % of sets. Above this speed the frequencies diverge: in {of['bat-parts']} %",
         f"make the bat's body pitch less: in {of['less-pitching-bat']} % of sets ({pitching[0]} % with the "
-        f"shoulder in the rear quarter of its range, {pitching[3]} % with the shoulder in the front quarter)",
-        f"make the pigeon's body pitch less: in {of['less-pitching-pigeon']} % of sets. The bat pitches by "
-        f"{PAPER_PITCH_RANGE_DEG['dickinson']:g} degrees with Dickinson's coefficients: in "
-        f"{of['pitch-range-dickinson']} %",
-        f"The horizontal forces at {' and '.join(STATIONS)} span are smaller with the plate's: in "
-        f"{of['smaller-horizontal-force']} %",
-        f"The vertical forces at {' and '.join(STATIONS)} span are smaller with the plate's: in "
-        f"{of['smaller-vertical-force']} %",
-        f"The angles of attack at 1/4 span are smaller with the plate's: in {of['smaller-alpha-1-of-4']} %",
-        f"The arm pitches less with the plate's: in {of['arm-pitches-least']} %",
+        f"shoulder in the rear quarter of its range, {pitching[3]} % in the front quarter), and the pigeon's: in "
+        f"{of['less-pitching-pigeon']} %. The bat pitches by {PAPER_PITCH_RANGE_DEG['dickinson']:g} degrees with "
+        f"Dickinson's coefficients: in {of['pitch-range-dickinson']} %",
+        f"horizontal forces at {' and '.join(STATIONS)} span in {of['smaller-horizontal-force']} % of sets, "
+        f"vertical forces in {of['smaller-vertical-force']} %, angles of attack at 1/4 span in "
+        f"{of['smaller-alpha-1-of-4']} %, pitching of the arm in {of['arm-pitches-least']} %",
     ]
 
 
@@ -282,15 +277,11 @@ def together(sets, holds):
         f"In {spaced(testable.sum())} sets all claims can be tested; half of these satisfy "
         f"{satisfied[testable].median():.0f} or fewer",
         f"The paper's bat at {SAMPLE_SPEED:g} m/s satisfies {three} claims at once. In {spaced(len(common))} of "
-        f"our sets, all {three} can be tested",
-        f'- {each[0]} satisfy "twice the frequency"',
-        f'- {each[1]} satisfy "pitches within {PAPER_PITCH_RANGE_DEG["su-fan"]:g} degrees"',
-        f'- {each[2]} satisfy "power goes as frequency squared"',
-        f"- {found.sum()} satisfy all {three}. If the claims were independent, we would expect {alone:.0f}",
-        f"Of the sets that satisfy all {three} claims",
-        f"{worded(four.sum()).capitalize()} also have four times the power",
-        f"{worded(both.sum()).capitalize()} have both the plate's peak power of {plate} and Dickinson's of {fly}",
-        f"{worded((four & both).sum()).capitalize()} have all of these",
+        f'our sets, all {three} can be tested: {each[0]} satisfy "twice the frequency", {each[1]} "pitches within '
+        f'{PAPER_PITCH_RANGE_DEG["su-fan"]:g} degrees", {each[2]} "power goes as frequency squared", and '
+        f"{found.sum()} satisfy all {three} ({alone:.0f} if the claims were independent). Of these, "
+        f"{worded(four.sum())} also have four times the power, {worded(both.sum())} have both the plate's peak "
+        f"power of {plate} and Dickinson's of {fly}, and {worded((four & both).sum())} have all of these",
     ]
 
 
@@ -314,11 +305,10 @@ def how_sure(sets, holds):
     assert len(away) == 20
     assert 2.5 < away.max() < 4.3  # "as expected": of 520 normal deviations, the largest is 3.2 give or take 0.4
     return [
-        f"With {spaced(told.min())} to {spaced(told.max())} sets behind each claim's overall share",
-        f"at most {short(100 * error.max(), 1)} percentage points",
-        "the shares of the twenty pieces with those of the whole sample, for claims that neither hold nor fail in "
-        "nearly every set. The largest deviation is "
-        f"{away.max():.1f} standard errors of a piece, as expected for the largest of {away.size} deviations",
+        f"Behind the overall shares are {spaced(told.min())} to {spaced(told.max())} sets: a standard error of at "
+        f"most {short(100 * error.max(), 1)} percentage points",
+        "The shares of the twenty pieces of the sample deviate from the whole by at most "
+        f"{away.max():.1f} standard errors, as expected for the largest of {away.size} deviations",
     ]
 
 

@@ -4,8 +4,8 @@
     python benchmarks/mutations.py run mutations.json -o found.csv -- -m "not slow"
 
 A fault changes one line: a sign, a factor, a bound, a count by one, or two swapped arguments. Lines are kept by
-their text, so that the same faults can be planted after code has moved; a line that stands nowhere or more than once
-is reported as such. The words after ``--`` go to pytest, which stops at its first failure.
+their text, so that the same faults can be planted after code has moved; a line that stands nowhere or twice is
+reported as such. The words after ``--`` go to pytest, which stops at its first failure.
 """
 
 from __future__ import annotations

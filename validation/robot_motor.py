@@ -16,8 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.animal.actuators.motor import motor_state
-from wingbeat.animal.actuators.springs import actuated
+from wingbeat.animal.actuators import actuated, motor_state
 from wingbeat.mechanics.flight_loads import carried_loads
 from wingbeat.mechanics.flight_model import State
 

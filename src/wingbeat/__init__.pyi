@@ -17,9 +17,6 @@ from ._base.errors import WingbeatError as WingbeatError
 from ._base.errors import WorkerError as WorkerError
 from ._version import __version__ as __version__
 from .aero import winds as winds
-from .animal.actuators import Motor as Motor
-from .animal.actuators import Muscle as Muscle
-from .animal.actuators import Springs as Springs
 from .animal.kinematics import Wingbeat as Wingbeat
 from .animal.species import Species as Species
 from .animal.species import bat as bat
@@ -29,6 +26,9 @@ from .animal.species import robot as robot
 from .animal.species import species_names as species_names
 from .animal.vehicle import Air as Air
 from .animal.vehicle import Body as Body
+from .animal.vehicle import Motor as Motor
+from .animal.vehicle import Muscle as Muscle
+from .animal.vehicle import Springs as Springs
 from .animal.vehicle import Tail as Tail
 from .animal.vehicle import Vehicle as Vehicle
 from .animal.vehicle import Wing as Wing

@@ -5,7 +5,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.programmes import differences, stock_point
-from wingbeat.animal.actuators.muscle import best_efficiency, force_at, metabolic_rate
+from wingbeat.animal.actuators import best_efficiency, force_at, metabolic_rate
 from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
 from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.sensitivity import OptimumSlopes

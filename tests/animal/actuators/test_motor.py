@@ -4,9 +4,8 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from wingbeat.animal.actuators import Motor, Springs
-from wingbeat.animal.actuators.motor import motor_state
-from wingbeat.animal.actuators.springs import actuated, periodic_rate, spring_torque
+from wingbeat.animal.actuators import actuated, motor_state, periodic_rate, spring_torque
+from wingbeat.animal.vehicle import Motor, Springs
 
 FREQUENCY = 5.0
 PHASE = np.linspace(0.0, 1.0, 257)

@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 
 import wingbeat as wb
 from wingbeat._jax.config import jax
-from wingbeat.animal.actuators import Muscle
-from wingbeat.animal.actuators.muscle import (
+from wingbeat.animal.actuators import (
     activation,
     best_efficiency,
     force_at,
@@ -16,6 +15,7 @@ from wingbeat.animal.actuators.muscle import (
     metabolic_power,
     metabolic_rate,
 )
+from wingbeat.animal.vehicle import Muscle
 
 MUSCLE = Muscle(0.06, 0.15, 0.15, 20.0, 250e3, 0.36)
 

@@ -7,12 +7,12 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from wingbeat._base import FaultList, InvalidInputError, plain_unit
-from wingbeat.animal.actuators import Motor, Muscle, Springs
+from wingbeat._base.errors import FaultList, InvalidInputError
+from wingbeat._base.nomenclature import plain_unit
 from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.animal.species_schema import KEYS, PARTS, TAIL_PATHS, Number, Numbers, SpeciesText, display
 from wingbeat.animal.species_schema.faults import NOTHING
-from wingbeat.animal.vehicle import Air, Body, Tail, Vehicle, Wing
+from wingbeat.animal.vehicle import Air, Body, Motor, Muscle, Springs, Tail, Vehicle, Wing
 
 DEFAULT = "not given: the default"
 WHOLE, BODY, WING = "vehicle.mass", "vehicle.body.mass", "vehicle.wing.mass"

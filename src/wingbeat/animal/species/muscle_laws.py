@@ -9,9 +9,9 @@ cockatiel's pectoralis and the isometric stress. The stress is a guess, but its 
 
 from __future__ import annotations
 
-from wingbeat.animal.actuators.muscle import MUSCLE_DENSITY
 from wingbeat.animal.species.law import Data, Law
 from wingbeat.animal.species_schema import Number
+from wingbeat.animal.vehicle import MUSCLE_DENSITY
 
 WRIGHT = "Wright, Steadman and Witt 2016, Proc Natl Acad Sci USA 113:4765, doi 10.1073/pnas.1522931113"
 MORRIS = "Morris and Askew 2010, J Exp Biol 213:2770, abstract"

@@ -10,8 +10,8 @@ import numpy as np
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.elementwise_jvp import fusion_barrier
 from wingbeat._jax.exported import exported
-from wingbeat.animal.actuators import Drive
 from wingbeat.animal.kinematics import Wingbeat, chord_ratio, flap_angle, pitch_angle, unpack
+from wingbeat.animal.vehicle import Drive
 from wingbeat.mechanics.body_dynamics import strip_loads
 from wingbeat.mechanics.flight_model import FlightModel, air_loads, body_rates, motion_table, velocity_at_wings
 from wingbeat.mechanics.frames import to_world

@@ -7,10 +7,16 @@ from dataclasses import dataclass
 from typing import Any
 
 from wingbeat._jax.config import jnp
-from wingbeat.animal.actuators import Springs
-from wingbeat.animal.actuators.motor import MotorState, motor_state
-from wingbeat.animal.actuators.muscle import activation, best_efficiency, metabolic_power
-from wingbeat.animal.actuators.springs import Driven, actuated
+from wingbeat.animal.actuators import (
+    Driven,
+    MotorState,
+    activation,
+    actuated,
+    best_efficiency,
+    metabolic_power,
+    motor_state,
+)
+from wingbeat.animal.vehicle import Springs
 from wingbeat.orbits.flight.beat import Beat
 
 _NO_SPRINGS = Springs()

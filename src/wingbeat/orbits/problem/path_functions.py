@@ -18,7 +18,7 @@ import numpy as np
 from wingbeat._base import Fault, InvalidInputError, first_line
 from wingbeat._jax.config import jax, jnp
 from wingbeat._jax.exported import exported, jit_soon
-from wingbeat.animal.actuators import Drive
+from wingbeat.animal.vehicle import Drive
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.path_maxima import PARTS, WeightedSamples, highest
 from wingbeat.orbits.problem.limits import Constraint

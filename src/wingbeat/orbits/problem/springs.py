@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wingbeat._jax.config import jax, jnp
-from wingbeat.animal.actuators.springs import spring_torque
+from wingbeat.animal.actuators import spring_torque
 from wingbeat.orbits.flight.beat import Beat, mean_positive
 
 # With a rest angle farther away, a spring is in effect a constant torque.

@@ -1,89 +1,26 @@
-"""Flight muscle: the force that it can exert at a given speed, and the metabolic power of that force.
+"""Actuators of the flap hinges: what a muscle or a motor can exert and what that costs, and the springs beside it.
 
 A muscle's fibres shorten in proportion to the flap angle. The largest force of a muscle falls with its speed of
 shortening. A force costs metabolic power even if it does no work. So a fast beat of small amplitude has a cost too.
+Springs sit beside the actuator (parallel), or between actuator and wing (in series).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._base import FaultList
-from wingbeat._jax.config import jnp, register_record
+from wingbeat._jax.config import jnp
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Series
+    from wingbeat.animal.vehicle import Motor, Muscle, Springs
 
-# Density of muscle [kg/m3]: Mendez and Keys 1960, Metabolism 9:184.
-MUSCLE_DENSITY = 1060.0
 # Largest eccentric force divided by isometric force, and the steepness of its rise: Alexander 1997, doi
 # 10.1006/jtbi.1996.0262, as implemented by others.
 _LARGEST, _STEEPNESS = 1.8, 7.56
 # Above this share of the largest speed, the curve of the isometric force that a torque needs continues as its
 # tangent.
 _LAST_SHARE = 0.95
-
-
-@register_record
-@dataclass(frozen=True)
-class Muscle:
-    """The flight muscles of both sides: depressors that pull the wings down, and elevators that raise them.
-
-    Both have the same kind of fibre. Fibres shorten in proportion to the flap angle, as on a pulley.
-
-    Parameters
-    ----------
-    mass : of the depressors, both sides [kg].
-    elevator_share : ratio of the elevators' mass to that of the depressors.
-    strain_per_angle : fibre strain per flap angle [1/rad].
-    max_strain_rate : largest speed of shortening, in lengths per second [1/s].
-    isometric_stress : stress of fully active fibres that keep their length [Pa].
-    curvature : k of Hill's relation [-]; the smaller k is, the faster the force falls with speed.
-
-    Raises
-    ------
-    InvalidInputError : a number that is not positive or not finite.
-
-    >>> muscle = Muscle(0.057, 0.16, 0.18, max_strain_rate=12.0, isometric_stress=130e3, curvature=0.25)
-    >>> round(float(muscle.max_flap_rate), 1), round(float(muscle.depressor_torque), 2)
-    (66.7, 1.26)
-    """
-
-    mass: float
-    elevator_share: float
-    strain_per_angle: float
-    max_strain_rate: float
-    isometric_stress: float
-    curvature: float
-
-    def __post_init__(self) -> None:
-        faults = FaultList()
-        together = "give the mass of the depressors of both sides together"
-        faults.number("muscle.mass", self.mass, above=0, unit="kg", fix=together)
-        faults.number("muscle.elevator_share", self.elevator_share, above=0, at_most=2)
-        faults.number("muscle.strain_per_angle", self.strain_per_angle, above=0, unit="1/rad")
-        faults.number(
-            "muscle.max_strain_rate", self.max_strain_rate, above=0, unit="1/s", fix="give lengths per second"
-        )
-        faults.number("muscle.isometric_stress", self.isometric_stress, above=0, unit="Pa")
-        faults.number("muscle.curvature", self.curvature, above=0, fix="fast muscle has 0.15 to 0.4")
-        faults.raise_if_any()
-
-    @property
-    def max_flap_rate(self) -> Any:
-        """Flap rate at which the muscles exert no torque [rad/s]."""
-        return self.max_strain_rate / self.strain_per_angle
-
-    @property
-    def depressor_torque(self) -> Any:
-        """Isometric torque of the fully active depressors [N m]: stress times volume times strain per angle."""
-        return self.isometric_stress * self.mass / MUSCLE_DENSITY * self.strain_per_angle
-
-    @property
-    def whole_mass(self) -> Any:
-        """Mass of depressors and elevators of both sides [kg]."""
-        return self.mass * (1.0 + self.elevator_share)
 
 
 def force_at(shortening: Series, curvature: Any) -> Series:
@@ -192,3 +129,114 @@ def best_efficiency(curvature: Any) -> Any:
     """
     shortening = jnp.linspace(0.05, 0.6, 56)
     return jnp.max(force_at(shortening, curvature) * shortening / metabolic_rate(shortening))
+
+
+class MotorState(NamedTuple):
+    """Speed, torque and electrical quantities of a motor at the K samples of one beat, as arrays of shape (K,).
+
+    Attributes
+    ----------
+    speed : of the motor [rad/s].
+    torque : of the motor on gear and rotor; friction is not included [N m].
+    current : [A].
+    voltage : at its terminals [V].
+    power : electrical power, negative where the motor returns power [W].
+    """
+
+    speed: Series
+    torque: Series
+    current: Series
+    voltage: Series
+    power: Series
+
+
+def motor_state(motor: Motor, torque: Series, rate: Series, acceleration: Series, frequency: Any) -> MotorState:
+    """Return the state of a motor that exerts a given torque on the flap hinges at a given flap rate.
+
+    Equations: ``omega = N rate``, ``torque = load / N + J omega'``, ``i = torque/kt + sign(omega) i0``, ``v = R i +
+    kt omega``, ``P = v i``. The loss of the gear is added to the load while the motor drives the wings, and
+    subtracted from the load while the wings drive the motor. With a crank, the speed is ``N 2 pi f``, the load is
+    the flap hinges' power divided by the crank's speed, and the rotor's inertia has no effect.
+
+    Parameters
+    ----------
+    motor : the motor.
+    torque, rate, acceleration : at both flap hinges together [N m, rad/s, rad/s2], shape (K,).
+    frequency : of the beat [Hz].
+    """
+    turning = 2.0 * jnp.pi * frequency
+    crank = motor.crank
+    load = (1.0 - crank) * torque + crank * torque * rate / turning
+    driven = (1.0 - crank) * rate + crank * turning
+    speed = motor.gear_ratio * driven
+    drives = load * driven > 0.0
+    passed = jnp.where(drives, load / motor.gear_efficiency, load * motor.gear_efficiency)
+    own = (1.0 - crank) * motor.rotor_inertia * motor.gear_ratio * acceleration
+    shaft = passed / motor.gear_ratio + own
+    current = shaft / motor.torque_constant + jnp.sign(speed) * motor.no_load_current
+    voltage = motor.resistance * current + motor.torque_constant * speed
+    return MotorState(speed, shaft, current, voltage, voltage * current)
+
+
+# Central differences of order 6 at samples of equal distance: weights of the samples 1, 2 and 3 steps ahead.
+_AHEAD = (45 / 60, -9 / 60, 1 / 60)
+
+
+class Driven(NamedTuple):
+    """Torque and motion that the actuators of both flap hinges must provide, as arrays of shape (K,).
+
+    Attributes
+    ----------
+    torque : up positive [N m].
+    rate : of the actuator's angle, converted to an angle of the flap hinge [rad/s].
+    acceleration : [rad/s2].
+    """
+
+    torque: Series
+    rate: Series
+    acceleration: Series
+
+
+def periodic_rate(values: Series, period: Any) -> Series:
+    """Return the rate of a periodic series, by central differences of order 6.
+
+    Parameters
+    ----------
+    values : at equal phases from 0 to 1, both ends included and equal, shape (K,).
+    period : [s].
+    """
+    once = values[:-1]
+    step = period / once.shape[0]
+    pairs = (weight * (jnp.roll(once, -n) - jnp.roll(once, n)) for n, weight in enumerate(_AHEAD, 1))
+    rate = sum(pairs) / step
+    return jnp.concatenate((rate, rate[:1]))
+
+
+def spring_torque(stiffness: Any, flap: Series, rest_angle: Any) -> Series:
+    """Return the torque of springs beside the actuators, ``-k (flap - rest)`` [N m].
+
+    Parameters
+    ----------
+    stiffness, rest_angle : k of both sides [N m/rad], and the flap angle at which the springs exert no torque
+        [rad].
+    flap : [rad], shape (K,).
+    """
+    return -stiffness * (flap - rest_angle)
+
+
+def actuated(springs: Springs, flap: Series, rate: Series, torque: Series, period: Any) -> Driven:
+    """Return the torque and motion that the actuators of the flap hinges must provide with these springs.
+
+    Equations: the actuators give the torque that the springs beside them do not give. All of this torque passes
+    through the springs in series, so that the actuators' angle is ahead of the flap angle by
+    ``compliance * torque``.
+
+    Parameters
+    ----------
+    springs : the springs.
+    flap, rate, torque : angle, rate and torque of both flap hinges [rad, rad/s, N m], shape (K,).
+    period : [s].
+    """
+    left = torque - spring_torque(springs.stiffness, flap, springs.rest_angle)
+    own_rate = rate + springs.series_compliance * periodic_rate(left, period)
+    return Driven(left, own_rate, periodic_rate(own_rate, period))

@@ -19,7 +19,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import wingbeat as wb
-from wingbeat.animal.species import template
+from wingbeat.animal.species.reading import template
 
 STUDIES = (
     """species = ["pigeon", "bat"]

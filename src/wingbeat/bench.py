@@ -15,7 +15,7 @@ import numpy as np
 from wingbeat._jax.config import jax, jnp
 from wingbeat._version import __version__
 from wingbeat.aero import Dickinson, SuFan
-from wingbeat.animal.species import load_species
+from wingbeat.animal.species.making import load_species
 from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.orbits.flight.shooting import flier
 from wingbeat.orbits.many.batch import find_orbits

@@ -22,7 +22,7 @@ from typing import Any
 from wingbeat._base import FaultList
 from wingbeat._base.style import in_words
 from wingbeat.aero import BladeElement, Feathered
-from wingbeat.animal.species import Species
+from wingbeat.animal.species.record import Species
 from wingbeat.animal.species.scaling import BODY_DRAG_AREA
 from wingbeat.orbits.problem.origin import Choice, Origin
 from wingbeat.orbits.problem.problem import OrbitProblem

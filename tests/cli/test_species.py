@@ -13,7 +13,8 @@ from cyclopts import App
 
 from wingbeat._base import FileError
 from wingbeat._version import __version__
-from wingbeat.animal.species import load_species, species_names, template
+from wingbeat.animal.species.making import load_species
+from wingbeat.animal.species.reading import species_names, template
 from wingbeat.cli import main
 from wingbeat.cli.app import COMMANDS, build_app
 

@@ -28,7 +28,7 @@ from wingbeat.animal.kinematics import (
     unpack,
     with_parameters,
 )
-from wingbeat.animal.species_schema import template
+from wingbeat.animal.species.reading import template
 from wingbeat.mechanics.clearance import lateral_corners
 from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.mechanics.wing_points import strip_corners

@@ -8,8 +8,8 @@ import pytest
 import wingbeat as wb
 from tests.helpers.browsers import AXE, shown_files
 from tests.helpers.places import ROOT
-from wingbeat._base import NOMENCLATURE
-from wingbeat.animal.species_schema.keys import FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE
+from wingbeat._base.nomenclature import NOMENCLATURE
+from wingbeat.animal.species.numbers import FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE
 from wingbeat.cli.app import build_app
 from wingbeat.studies.form import Sample, StudyForm, Vary
 from wingbeat_evidence.measured_motion.reading import KNOWN_KEYS

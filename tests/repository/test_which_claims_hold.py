@@ -15,7 +15,7 @@ import pytest
 from tests.helpers.phrases import WORDS, percent, short, spaced, uncounted, worded
 from tests.helpers.places import ROOT
 from wingbeat.aero import load_coefficients
-from wingbeat.animal.species import load_species
+from wingbeat.animal.species.making import load_species
 from wingbeat.plots.measured_bands import (
     PAPER_BAT_FREQUENCY,
     PAPER_BAT_SPEEDS,

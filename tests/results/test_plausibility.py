@@ -11,8 +11,9 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
-from wingbeat._base import InvalidInputError
-from wingbeat.animal.species import species_text, template
+from wingbeat._base.errors import InvalidInputError
+from wingbeat.animal.species.reading import template
+from wingbeat.animal.species.writing import species_text
 from wingbeat.cli.app import main
 from wingbeat.results.orbit_report import orbit_report
 from wingbeat.results.plausibility import statements

@@ -11,7 +11,7 @@ import numpy as np
 
 from wingbeat._base import NOMENCLATURE, FaultList, for_people
 from wingbeat.aero import BladeElement
-from wingbeat.animal.species import Species
+from wingbeat.animal.species.record import Species
 from wingbeat.cli.filmed import DRAWS, film_lines, film_record, plus_minus
 from wingbeat.experiment import BodyPath, FilmedBeat, fit_body_path
 from wingbeat.mechanics.flight_model import FlightModel

@@ -13,7 +13,8 @@ from wingbeat.aero import EXTENSIONS, FORCE_POINTS, BladeElement, load_coefficie
 from wingbeat.aero.choosing import load_hand
 from wingbeat.aero.fitted import Fitted
 from wingbeat.aero.model_file import read_model
-from wingbeat.animal.species import Species, load_species
+from wingbeat.animal.species.making import load_species
+from wingbeat.animal.species.record import Species
 from wingbeat.cli.options import Whole, with_settings
 from wingbeat.models import Model, model_of
 from wingbeat.orbits.problem.problem import OrbitProblem

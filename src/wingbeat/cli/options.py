@@ -12,8 +12,10 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter, Token
 
-from wingbeat._base import FaultList, FileError, InvalidInputError, first_line, writing
-from wingbeat.animal.species import Species, parse_setting
+from wingbeat._base.errors import FaultList, FileError, InvalidInputError, first_line
+from wingbeat._base.files import writing
+from wingbeat.animal.species.reading import parse_setting
+from wingbeat.animal.species.record import Species
 from wingbeat.orbits.problem.map_quantities import STABLE_RADIUS
 from wingbeat.results.aero_record import NotInFileError
 from wingbeat.results.saving import check_result_name

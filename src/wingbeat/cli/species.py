@@ -16,7 +16,7 @@ from wingbeat.cli.streams import plain_console
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from wingbeat.animal.species import Species
+    from wingbeat.animal.species.record import Species
 
 species = App(name="species", help="Show the built-in animals or your own species file.")
 
@@ -45,12 +45,13 @@ def show(
 ) -> None:
     """List the built-in species; for a name or a file, show every number with its source."""
     if schema:
-        from wingbeat.animal.species_schema import json_schema
+        from wingbeat.animal.species.file_schema import json_schema
 
         print(json_format.dumps(json_schema(), indent=2))
         return
 
-    from wingbeat.animal.species import load_species, parse_setting, species_names
+    from wingbeat.animal.species.making import load_species
+    from wingbeat.animal.species.reading import parse_setting, species_names
 
     if name is None:
         if alternative is not None or set_:
@@ -65,7 +66,7 @@ def show(
     if json:
         _print_json(chosen.as_dict())
     else:
-        from wingbeat.animal.species.report import species_report
+        from wingbeat.animal.species.record import species_report
         from wingbeat.cli.printing import print_report
 
         print_report(species_report(chosen), plain_console())
@@ -97,8 +98,10 @@ def new(
 
 def _new_text(kind: str | None, size: dict[str, float | None], name: str) -> str:
     """Return the text of the template, or of an animal of this size."""
-    from wingbeat._base import FaultList
-    from wingbeat.animal.species import bat, bird, robot, species_text, template
+    from wingbeat._base.errors import FaultList
+    from wingbeat.animal.species.making import bat, bird, robot
+    from wingbeat.animal.species.reading import template
+    from wingbeat.animal.species.writing import species_text
 
     faults = FaultList()
     for key, value in size.items():

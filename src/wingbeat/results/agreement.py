@@ -55,7 +55,7 @@ from wingbeat.results.series_agreement import (
 if TYPE_CHECKING:
     import xarray as xr
 
-    from wingbeat.animal.species import Species
+    from wingbeat.animal.species.record import Species
 
 # Quantities of an orbit keep to their limits to this share.
 _OF_LIMIT = 1e-3

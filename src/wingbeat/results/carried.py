@@ -13,7 +13,7 @@ from wingbeat._base import FaultList
 from wingbeat._base.datasets import KIND
 from wingbeat._version import __version__
 from wingbeat.animal.kinematics import Wingbeat
-from wingbeat.animal.species import Species
+from wingbeat.animal.species.record import Species
 from wingbeat.mechanics.beat_by_beat import check_samples
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.flight.beat import mean_positive

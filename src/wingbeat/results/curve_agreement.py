@@ -25,7 +25,7 @@ from wingbeat.results.series_agreement import demand, same
 if TYPE_CHECKING:
     import xarray as xr
 
-    from wingbeat.animal.species import Species
+    from wingbeat.animal.species.record import Species
 
 _LISTS = ("marks", "constraints")
 # Numbers that every certified orbit has, moving or not.

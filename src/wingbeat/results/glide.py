@@ -16,7 +16,7 @@ from wingbeat._base.datasets import KIND
 from wingbeat._version import __version__
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.aero.blade_element import blade_element_of
-from wingbeat.animal.species import Species
+from wingbeat.animal.species.record import Species
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.mechanics.glide import TRIMS, Glide, GlideSolver
 from wingbeat.results.aero_record import aero_record
@@ -122,7 +122,7 @@ def glide_polar(
     InvalidInputError : angles not increasing or not between 0 and 90 degrees, a flap angle beyond 90 degrees, an
         unknown trim.
 
-    >>> from wingbeat.animal.species import load_species
+    >>> from wingbeat.animal.species.making import load_species
     >>> polar = glide_polar(load_species("pigeon"), angles_of_attack=np.radians([4.0, 6.0, 8.0]))
     >>> round(polar.best_ratio.glide_ratio, 2), round(polar.best_ratio.speed, 1)
     (3.27, 11.9)

@@ -8,9 +8,9 @@ from typing import Any
 
 from wingbeat._base import InvalidInputError
 from wingbeat.animal.kinematics import Wingbeat
-from wingbeat.animal.species import Species
+from wingbeat.animal.species.numbers import Range, number_from
+from wingbeat.animal.species.record import Species
 from wingbeat.animal.species.shape import shape_from, shape_record
-from wingbeat.animal.species_schema import Range, number_from
 from wingbeat.animal.vehicle import Air
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.limits import Constraint

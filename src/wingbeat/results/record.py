@@ -12,7 +12,7 @@ from wingbeat._base.datasets import SHAPE, at_station
 from wingbeat._jax.config import at_default
 from wingbeat._version import __version__
 from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
-from wingbeat.animal.species import Species
+from wingbeat.animal.species.record import Species
 from wingbeat.animal.vehicle import Body, Motor, Muscle, Springs, Tail, Vehicle, Wing
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.beat import Beat, mean_positive

@@ -12,7 +12,7 @@ from wingbeat._jax.config import own_settings
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
 
 if TYPE_CHECKING:
-    from wingbeat.animal.species import Species
+    from wingbeat.animal.species.record import Species
 
 # Record and series come of two compiled programs, which may differ in a number's last digits.
 _RELATIVE, ABSOLUTE = 1e-6, 1e-9

@@ -12,7 +12,8 @@ from typing import Any
 from wingbeat._base import FaultList, plain_unit
 from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.aero.choosing import load_hand
-from wingbeat.animal.species import Species, load_species
+from wingbeat.animal.species.making import load_species
+from wingbeat.animal.species.record import Species
 from wingbeat.models import Model, model_of
 from wingbeat.studies.form import StudyForm
 from wingbeat.studies.objective import as_inputs

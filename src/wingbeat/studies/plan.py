@@ -16,9 +16,9 @@ import numpy as np
 
 from wingbeat._base import Fault, FaultList, InvalidInputError, WingbeatError
 from wingbeat._version import NUMERICAL_VERSION
-from wingbeat.animal.species.settings import NO_SUCH_PATH, settable
-from wingbeat.animal.species_schema import shown
-from wingbeat.animal.species_schema.faults import dotted
+from wingbeat.animal.species.building import NO_SUCH_PATH, settable
+from wingbeat.animal.species.file_schema import dotted
+from wingbeat.animal.species.numbers import shown
 from wingbeat.studies.form import StudyForm, number
 from wingbeat.studies.makers import makers_of
 from wingbeat.studies.recipe import MOTION, OF_COEFFICIENTS, OF_ELEMENTS, Recipe

@@ -13,9 +13,9 @@ from typing import Any
 from wingbeat._base import FaultList, plain_unit, suggest
 from wingbeat.aero import BladeElement
 from wingbeat.aero.choosing import load_hand
-from wingbeat.animal.species import Species
-from wingbeat.animal.species.settings import NO_SUCH_PATH, settable
-from wingbeat.animal.species_schema import KEYS, Key, shown, spoken
+from wingbeat.animal.species.building import NO_SUCH_PATH, settable
+from wingbeat.animal.species.numbers import KEYS, Key, shown, spoken
+from wingbeat.animal.species.record import Species
 from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, parameters_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.starts import usual_starts

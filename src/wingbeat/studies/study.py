@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from wingbeat._base import Fault, FaultList, FileError, InvalidInputError, label_of, plain_unit
 from wingbeat._workers.affinity import core_count
-from wingbeat.animal.species_schema import shown
+from wingbeat.animal.species.numbers import shown
 from wingbeat.orbits.many.batch import check_processes
 from wingbeat.results.orbit import Orbit
 from wingbeat.studies.driver import Progress, Stop, Tally, drive, listening

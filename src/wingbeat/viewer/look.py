@@ -9,7 +9,7 @@ import numpy as np
 
 from wingbeat._base.datasets import SHAPE
 from wingbeat._base.style import SCHEMATIC
-from wingbeat.animal.species_schema import COLOURS, EXTREMITIES, TRUNK
+from wingbeat.animal.species.numbers import COLOURS, EXTREMITIES, TRUNK
 from wingbeat.animal.vehicle import Body, Tail, Wing
 from wingbeat.viewer.shape import body_axes, tail_corners
 

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.animal.species import load_species
+from wingbeat.animal.species.making import load_species
 from wingbeat.results.orbit import Orbit
 from wingbeat.studies.driver import Stop
 from wingbeat.studies.engine import Engine

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from wingbeat.animal.species import load_species
+from wingbeat.animal.species.making import load_species
 from wingbeat.experiment import Campaign, fit_wing, reduce_runs, synthetic_runs
 from wingbeat_evidence.paper.claim import NO_DATA, Claim, Finding, tested, untestable
 from wingbeat_evidence.paper.treatments import ANIMALS, SPEEDS

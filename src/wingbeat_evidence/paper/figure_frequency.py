@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._base.style import PAGE, drawing, dress, letter_panels
-from wingbeat.animal.species import load_species
+from wingbeat.animal.species.making import load_species
 from wingbeat.plots.measured_bands import (
     MEASURED_FREQUENCIES,
     PAPER_BAT_FREQUENCY,

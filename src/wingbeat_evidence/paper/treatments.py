@@ -12,7 +12,7 @@ import numpy as np
 
 from wingbeat._workers.process_map import in_processes
 from wingbeat.aero import BladeElement, load_coefficients
-from wingbeat.animal.species import load_species
+from wingbeat.animal.species.making import load_species
 from wingbeat.orbits.many.series import find_series
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution

@@ -9,7 +9,7 @@ import numpy as np
 
 from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio, tip_twist
-from wingbeat.animal.species import load_species
+from wingbeat.animal.species.making import load_species
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.frames import stroke_pitch
 from wingbeat.mechanics.wing_motion import air_chord, strips_of, twist_factors

@@ -11,7 +11,7 @@ import numpy as np
 
 from wingbeat._base import FaultList, Report, Reported, drawn
 from wingbeat._jax.config import jnp
-from wingbeat.animal.species import load_species
+from wingbeat.animal.species.making import load_species
 from wingbeat.models import model_of
 from wingbeat.orbits.many.uncertainty import Samples, sample_orbits
 from wingbeat.orbits.problem.quantities import QUANTITIES, Quantity

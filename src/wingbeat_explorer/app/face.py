@@ -9,7 +9,8 @@ from typing import Any
 
 from nicegui import ui
 
-from wingbeat.animal.species import load_species, species_names
+from wingbeat.animal.species.making import load_species
+from wingbeat.animal.species.reading import species_names
 from wingbeat.orbits.problem.problem import FASTEST
 from wingbeat.viewer import bundle_path
 from wingbeat_explorer.app.downloads import Download, Downloads

@@ -20,9 +20,9 @@ from wingbeat.aero import (
     load_coefficients,
 )
 from wingbeat.aero.choosing import load_hand
-from wingbeat.animal.species import Species, load_species, species_names
-from wingbeat.animal.species.loading import species_of
-from wingbeat.animal.species_schema import read_species_text
+from wingbeat.animal.species.making import load_species, species_of
+from wingbeat.animal.species.reading import read_species_text, species_names
+from wingbeat.animal.species.record import Species
 from wingbeat.models import MODELS, model_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, FASTEST, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.problem.quantities import QUANTITIES

@@ -9,8 +9,11 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from wingbeat._base import FaultList, make_folder
-from wingbeat.animal.species import Species, load_species, species_names
+from wingbeat._base.errors import FaultList
+from wingbeat._base.files import make_folder
+from wingbeat.animal.species.making import load_species
+from wingbeat.animal.species.reading import species_names
+from wingbeat.animal.species.record import Species
 from wingbeat.cli.app import EXIT_GOOD
 from wingbeat.cli.options import Seed, Whole, check_outputs
 from wingbeat.cli.progress import progress_bar

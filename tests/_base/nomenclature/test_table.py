@@ -12,7 +12,7 @@ import wingbeat as wb
 from wingbeat._base import GLIDE, NOMENCLATURE, SERIES, cf, find, label_of, plain
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.animal.kinematics import PARAMETER_NAMES
-from wingbeat.animal.species_schema.keys import FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE
+from wingbeat.animal.species.numbers import FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE
 from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.problem.quantities import QUANTITIES, Frequency
 from wingbeat.results.columns import flat

@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from wingbeat.animal.species import Species, load_species
+from wingbeat.animal.species.making import load_species
+from wingbeat.animal.species.record import Species
 
 
 @pytest.fixture

@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 
 import wingbeat as wb
 from tests.helpers.species_texts import faults_of
-from wingbeat.animal.species import scaling, species_text
-from wingbeat.animal.species.warnings import DERIVED
+from wingbeat.animal.species import scaling
+from wingbeat.animal.species.building import DERIVED
+from wingbeat.animal.species.writing import species_text
 
 SIZE = {"mass": 0.3, "wing_span": 0.62, "wing_area": 0.06}
 MAKERS = {"bird": wb.bird, "bat": wb.bat, "robot": wb.robot}

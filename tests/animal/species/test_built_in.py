@@ -6,7 +6,8 @@ from typing import Any
 
 import pytest
 
-from wingbeat.animal.species import load_species, species_names
+from wingbeat.animal.species.making import load_species
+from wingbeat.animal.species.reading import species_names
 
 # Alternatives meant to lie outside the range: what a reader of the paper would assume; a warning says so.
 OUTSIDE_ON_PURPOSE = {("pigeon", "uniform-wing"), ("bat", "uniform-wing")}

@@ -7,8 +7,9 @@ from typing import Any
 import pytest
 
 from tests.helpers.species_texts import MINIMAL, faults_of
-from wingbeat._base import FileError
-from wingbeat.animal.species import load_species, parse_setting
+from wingbeat._base.errors import FileError
+from wingbeat.animal.species.making import load_species
+from wingbeat.animal.species.reading import parse_setting
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,8 @@ from typing import Any
 import pytest
 
 import wingbeat as wb
-from wingbeat.animal.species import scaling, species_text
+from wingbeat.animal.species import scaling
+from wingbeat.animal.species.writing import species_text
 
 SIZE = {"mass": 0.3, "wing_span": 0.62, "wing_area": 0.06}
 MAKERS = {"bird": wb.bird, "bat": wb.bat, "robot": wb.robot}

@@ -14,9 +14,13 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.species_texts import MINIMAL, faults_of
-from wingbeat._base import InvalidInputError
-from wingbeat.animal.species import Shape, json_schema, load_species, species_names, species_text, template
-from wingbeat.animal.species_schema import COLOURS, LOOKS, SHAPE, packaged_text
+from wingbeat._base.errors import InvalidInputError
+from wingbeat.animal.species.file_schema import json_schema
+from wingbeat.animal.species.making import load_species
+from wingbeat.animal.species.numbers import COLOURS, LOOKS, SHAPE
+from wingbeat.animal.species.reading import packaged_text, species_names, template
+from wingbeat.animal.species.shape import Shape
+from wingbeat.animal.species.writing import species_text
 from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.results.provenance import inputs_of, species_from
 

@@ -14,10 +14,12 @@ import pytest
 
 from tests.helpers.species_texts import MINIMAL, faults_of
 from wingbeat.animal.kinematics import Wingbeat
-from wingbeat.animal.species import json_schema, load_species, species_names, template
 from wingbeat.animal.species.building import UNNAMED_PATHS
+from wingbeat.animal.species.file_schema import json_schema
+from wingbeat.animal.species.making import load_species
+from wingbeat.animal.species.numbers import KEYS, LOOKS, SHAPE
+from wingbeat.animal.species.reading import species_names, template
 from wingbeat.animal.species.writing import species_text
-from wingbeat.animal.species_schema import KEYS, LOOKS, SHAPE
 
 # --- the built-in animals ---
 

@@ -70,7 +70,7 @@ WORK = (
     "wingbeat.bench.measure",
     "wingbeat_evidence.paper.treatments.solve_cases",
     "wingbeat.cli.polar.polar_columns",
-    "wingbeat.animal.species.species_text",
+    "wingbeat.animal.species.writing.species_text",
     "wingbeat_evidence.measured_motion.comparison.strip_motion",
     "wingbeat_explorer.app.server.serve",
 )

@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from wingbeat import models
 from wingbeat._base import FileError, InvalidInputError
 from wingbeat.aero import EXTENSIONS, LIBRARY
-from wingbeat.animal.species import load_species, species_names, template
+from wingbeat.animal.species.making import load_species
+from wingbeat.animal.species.reading import species_names, template
 from wingbeat_explorer.app.controls import choices_of
 from wingbeat_explorer.app.links import from_json, from_plain, from_query, to_json, to_plain, to_query
 from wingbeat_explorer.app.scenario import LARGEST_FILE, Scenario, problem_of, species_in

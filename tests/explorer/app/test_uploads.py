@@ -10,7 +10,7 @@ import pytest
 
 import wingbeat as wb
 from wingbeat._workers.main import Context
-from wingbeat.animal.species import template
+from wingbeat.animal.species.reading import template
 from wingbeat.models import model_of
 from wingbeat.results.orbit import load_orbit
 from wingbeat.results.provenance import inputs_of

@@ -1,32 +1,39 @@
-"""From numbers to records; faults of the constructors are reported in the words of the file."""
+"""From numbers to records, with the constructors' faults in the words of the file, and what looks odd in them."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, get_args, get_type_hints
 
-from wingbeat._base.errors import FaultList, InvalidInputError
+from wingbeat._base.errors import FaultList, InvalidInputError, suggest
 from wingbeat._base.nomenclature import plain_unit
-from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
-from wingbeat.animal.species_schema import KEYS, PARTS, TAIL_PATHS, Number, Numbers, SpeciesText, display
-from wingbeat.animal.species_schema.faults import NOTHING
-from wingbeat.animal.vehicle import Air, Body, Motor, Muscle, Springs, Tail, Vehicle, Wing
+from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat, parameter
+from wingbeat.animal.species.numbers import (
+    DEFAULT,
+    KEYS,
+    NOTHING,
+    OUTSIDE,
+    PARTS,
+    TAIL_PATHS,
+    Key,
+    Number,
+    Numbers,
+    SpeciesText,
+    display,
+    shown,
+    spoken,
+    words,
+)
+from wingbeat.animal.vehicle import Air, Vehicle
 
-DEFAULT = "not given: the default"
 WHOLE, BODY, WING = "vehicle.mass", "vehicle.body.mass", "vehicle.wing.mass"
-_RECORDS = {
-    "vehicle.body": Body,
-    "vehicle.wing": Wing,
-    "vehicle.tail": Tail,
-    "vehicle.muscle": Muscle,
-    "vehicle.motor": Motor,
-    "vehicle.springs": Springs,
-    "wingbeat": Wingbeat,
-    "air": Air,
+# The class of each record, by the path of its numbers; the parts of a vehicle in the order of its fields.
+_RECORDS: dict[str, Any] = {
+    **{f"vehicle.{n}": (get_args(hint) or (hint,))[0] for n, hint in get_type_hints(Vehicle).items()},
+    **{"wingbeat": Wingbeat, "air": Air},
 }
-_ARTICLES = {"tail": "a tail", "muscle": "a muscle", "motor": "a motor", "springs": "springs"}
 _OF_PARTS = {key.path: key for keys in PARTS.values() for key in keys}
 # If a species is not given these numbers, it has none of them, not even as a default.
 UNNAMED_PATHS = (*_OF_PARTS, *(f"wingbeat.{name}" for name in NAMED_IF_ON))
@@ -62,8 +69,7 @@ def build_records(numbers: Mapping[str, Number], given: Numbers, faults: FaultLi
             faults.faults += [given.quote(fault) for fault in error.faults]
     if len(faults.faults) > before:
         return {}
-    parts = {part: made.get(f"vehicle.{part}") for part in PARTS}
-    vehicle = Vehicle(made["vehicle.body"], made["vehicle.wing"], **parts)
+    vehicle = Vehicle(**{p.removeprefix("vehicle."): made.get(p) for p in _RECORDS if p.startswith("vehicle.")})
     if not math.isfinite(vehicle.mass):
         faults.add("vehicle.mass", vehicle.mass, "must be finite", "make the body or the wings lighter")
     return {"vehicle": vehicle, "wingbeat": made["wingbeat"], "air": made["air"]}
@@ -91,7 +97,7 @@ def check_parts(numbers: Mapping[str, Number], faults: FaultList) -> None:
         for key in keys if has_part(numbers, part) else ():
             refused = any(fault.where.endswith(f"{part}.{key.name}") for fault in faults.faults)
             if key.required and key.path not in numbers and not refused:
-                rule = f"must be given for {_ARTICLES[part]}"
+                rule = f"must be given for {part}" if part.endswith("s") else f"must be given for a {part}"
                 faults.add(key.path, NOTHING, rule, f"{key.meaning} [{key.unit}]")
 
 
@@ -111,11 +117,6 @@ def derive_body(numbers: dict[str, Number], given: Numbers, faults: FaultList) -
         numbers[BODY] = Number(whole - 2 * wing, "kg", "vehicle.mass less both wings")
 
 
-def in_order(numbers: Mapping[str, Number]) -> dict[str, Number]:
-    """Return the numbers in the order of a species file."""
-    return {key.path: numbers[key.path] for key in KEYS if key.path in numbers}
-
-
 def check_bounds(content: SpeciesText, faults: FaultList) -> None:
     """Note bounds that allow an impossible wingbeat: a frequency of 0, a negative amplitude."""
     for name, bound in content.free.items():
@@ -129,10 +130,78 @@ def check_bounds(content: SpeciesText, faults: FaultList) -> None:
                 break
 
 
-def words(path: str, number: Number) -> str:
-    """Return value and unit as text for a reader, angles in degrees."""
-    _, shown = display(path, number)
-    unit = "" if shown.unit == "1" else f" {shown.unit}"
-    if isinstance(shown.value, tuple):
-        return f"[{', '.join(f'{value:g}' for value in shown.value)}]{unit}"
-    return f"{shown.value:g}{unit}"
+# The rule in the fault of a path that names no number. A study recognises such a fault by this rule, and so does
+# not take it for that of a refused value.
+NO_SUCH_PATH = "no number has this path"
+# The whole mass is not among them: it follows from body and wings, so a change of it would change another number
+# unasked.
+_SETTABLE = {
+    path: key
+    for key in KEYS
+    if key.path != "vehicle.mass"
+    for spelling in key.spellings
+    for path in (spelling, spelling.removeprefix("vehicle."))
+}
+
+
+def settable(path: Any, value: Any, faults: FaultList) -> Key | None:
+    """Return the number that a path names, with or without ``vehicle.`` in front, or note a fault."""
+    if isinstance(path, str) and path in _SETTABLE:
+        return _SETTABLE[path]
+    if path in ("mass", "vehicle.mass"):
+        fix = "set body.mass or wing.mass; the whole mass follows from both"
+    else:
+        fix = suggest(str(path), [path for path in _SETTABLE if not path.startswith("vehicle.")])
+    faults.add(spoken(path), shown(value), NO_SUCH_PATH, fix)
+    return None
+
+
+def plain(value: Any) -> Any:
+    """Return a value as a file would hold it: plain numbers and lists in place of NumPy arrays and tuples."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    return [plain(item) for item in value] if isinstance(value, list | tuple) else value
+
+
+DERIVED = "derived: "  # begins the source of a number that a scaling law gave
+NOT_MEASURED = "derived by scaling laws, not measured: "  # begins the warning that lists such numbers
+
+
+def find_warnings(
+    numbers: Mapping[str, Number],
+    drawn: Mapping[str, Number],
+    free: tuple[str, ...],
+    bounds: Mapping[str, tuple[float, float]],
+    vehicle: Vehicle,
+    wingbeat: Wingbeat,
+) -> tuple[str, ...]:
+    """Return one line for each thing that is possible but odd; `drawn` are the numbers of the species' shape."""
+    found = []
+    for path, number in {**numbers, **drawn}.items():
+        values = number.value if isinstance(number.value, tuple) else (number.value,)
+        if number.range and not all(number.range[0] <= value <= number.range[1] for value in values):
+            name, shown = display(path, number)
+            unit = "" if shown.unit == "1" else f" {shown.unit}"
+            source = f" ({number.source})" if number.source else ""
+            low, high = shown.range or number.range
+            outside = f"is outside its plausible range {low:g} to {high:g}{unit}{source}"
+            found.append(f"{name} = {words(path, number)} {outside}")
+    for name, (low, high) in bounds.items():
+        value = parameter(wingbeat, name)
+        if not low <= value <= high:
+            path = f"wingbeat.{name}"
+            guess = words(path, Number(value, plain_unit(name)))
+            found.append(f"{path} = {guess} is outside its bounds; the solver starts from the nearer bound")
+    laws = {path.removeprefix("vehicle."): n.source for path, n in numbers.items() if n.source.startswith(DERIVED)}
+    derived = [path.removeprefix("vehicle.") for path in numbers if path.startswith("vehicle.")]
+    if told := [path for path in derived if path in laws]:
+        found.append(NOT_MEASURED + ", ".join(told))
+    beyond = [f"{path} ({s.partition(OUTSIDE)[2].partition(' (')[0]})" for path, s in laws.items() if OUTSIDE in s]
+    if beyond:
+        rule = "scaling laws used outside the data they were fitted to, so unreliable"
+        found.append(f"{rule}: {'; '.join(beyond)}")
+    if vehicle.tail is None and (wingbeat.tail_tilt or "tail_tilt" in free):
+        found.append("wingbeat.tail_tilt has no effect: there is no tail; add the table [vehicle.tail]")
+    if not free:
+        found.append("free: no wingbeat parameter is free, so no orbit can be found; add the table [free]")
+    return tuple(found)

@@ -1,4 +1,4 @@
-"""The record of a species, and the two ways to change its numbers."""
+"""The record of a species, how to change its numbers, and what it says of itself: every number with its source."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, cast
 
-from wingbeat._base import FaultList, Report, Reported, plain_unit, suggest
+from wingbeat._base.errors import FaultList, suggest
+from wingbeat._base.nomenclature import cf, for_people, plain_unit
+from wingbeat._base.reports import Block, Line, Report, Reported, Row, Table
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.species.building import (
     BODY,
@@ -19,26 +21,31 @@ from wingbeat.animal.species.building import (
     complete_parts,
     default_of,
     derive_body,
-    in_order,
-    words,
+    find_warnings,
+    plain,
+    settable,
 )
-from wingbeat.animal.species.muscle_laws import muscle_numbers
-from wingbeat.animal.species.plausibility import ACTIVATION, UNKNOWN, range_of, range_of_tilt
-from wingbeat.animal.species.report import species_report
-from wingbeat.animal.species.settings import plain, settable
-from wingbeat.animal.species.shape import Shape
-from wingbeat.animal.species.tail_laws import tail_numbers
-from wingbeat.animal.species.warnings import find_warnings
-from wingbeat.animal.species_schema import (
+from wingbeat.animal.species.file_schema import check_value
+from wingbeat.animal.species.numbers import (
     KEYS,
     Alternative,
     Number,
     Numbers,
     Range,
-    check_value,
+    bound_cells,
+    display,
+    in_order,
     to_si,
+    words,
 )
+from wingbeat.animal.species.part_laws import muscle_numbers, tail_numbers
+from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.vehicle import Air, Vehicle
+
+# No number of an animal: the share of the muscle's fibres that a wingbeat uses.
+ACTIVATION = Range(None, 1.0, "1", "by definition: above 1, the wingbeat needs more fibres than the muscle has")
+UNKNOWN = "nothing is known: the species file gives no range"
+
 
 _BY_HAND = "set by hand"
 _SET_BY_HAND = f"{_BY_HAND} in place of"
@@ -65,7 +72,7 @@ class Species(Reported):
     warnings : what looks wrong, such as a number outside its plausible range.
     shape : how it looks, for drawings alone; None if the file does not say it.
 
-    >>> from wingbeat.animal.species import load_species
+    >>> from wingbeat.animal.species.making import load_species
     >>> pigeon = load_species("pigeon")
     >>> round(pigeon.vehicle.mass, 3), pigeon.vehicle.wing.semi_span
     (0.316, 0.279)
@@ -100,7 +107,7 @@ class Species(Reported):
         name : as in the record's ``plausibility``; for a parameter of the wingbeat, the species' own range applies.
         speed : of the flight [m/s].
 
-        >>> from wingbeat.animal.species import load_species
+        >>> from wingbeat.animal.species.making import load_species
         >>> load_species("bat").plausible_range("strouhal", 10.0)[:2]
         (0.2, 0.4)
         >>> load_species("bat").plausible_range("strouhal", 2.0)[:2]
@@ -169,9 +176,7 @@ class Species(Reported):
             old, value = numbers.pop(key.path, None), getattr(parts[part], name, None)
             if old is not None and value == old.value:
                 numbers[key.path] = old
-            elif value is not None and (
-                old is not None or value != default_of(key.path)
-            ):  # None: of a part that it lacks
+            elif value is not None and (old is not None or value != default_of(key.path)):  # None: a part it lacks
                 numbers[key.path] = Number(value, key.unit, self._by_hand(key.path), old and old.range)
         complete_parts(numbers)
         changed = dataclasses.replace(self, **{section: record})
@@ -208,7 +213,7 @@ class Species(Reported):
         ------
         InvalidInputError : a payload that is negative, not finite, or not a number.
 
-        >>> from wingbeat.animal.species import load_species
+        >>> from wingbeat.animal.species.making import load_species
         >>> round(load_species("pigeon").with_payload(0.03).vehicle.mass, 3)
         0.346
         """
@@ -220,13 +225,13 @@ class Species(Reported):
     def with_tail(self) -> Species:
         """Return this species with the tail that laws of birds give for its mass, spread by 60 degrees.
 
-        The sources of its numbers say ``derived``; see `animal.species.tail_laws`. The mass does not change.
+        The sources of its numbers say ``derived``; see `animal.species.part_laws`. The mass does not change.
 
         Raises
         ------
         InvalidInputError : the changed numbers do not make a valid vehicle.
 
-        >>> from wingbeat.animal.species import load_species
+        >>> from wingbeat.animal.species.making import load_species
         >>> round(load_species("pigeon").with_tail().vehicle.tail.arm, 3)
         0.164
         """
@@ -235,13 +240,13 @@ class Species(Reported):
     def with_muscle(self) -> Species:
         """Return this species with the flight muscle that laws give for its mass.
 
-        The sources of its numbers say ``derived``; see `animal.species.muscle_laws`. The mass does not change.
+        The sources of its numbers say ``derived``; see `animal.species.part_laws`. The mass does not change.
 
         Raises
         ------
         InvalidInputError : its kind is neither bird nor bat.
 
-        >>> from wingbeat.animal.species import load_species
+        >>> from wingbeat.animal.species.making import load_species
         >>> round(load_species("pigeon").with_muscle().vehicle.muscle.mass, 4)
         0.0442
         """
@@ -306,8 +311,9 @@ class Species(Reported):
         mass, whole = records["vehicle"].mass, numbers[WHOLE]
         if not math.isclose(mass, cast(float, whole.value), rel_tol=1e-12):
             numbers = numbers | {WHOLE: whole._replace(value=mass, source="body.mass and both wings")}
-        changed = dataclasses.replace(self, numbers=numbers, **records)
-        return dataclasses.replace(changed, warnings=find_warnings(changed))
+        drawn = self.shape.numbers if self.shape else {}
+        odd = find_warnings(numbers, drawn, self.free, self.bounds, records["vehicle"], records["wingbeat"])
+        return dataclasses.replace(self, numbers=numbers, warnings=odd, **records)
 
     def as_dict(self) -> dict[str, Any]:
         """Return everything as plain numbers, lists and texts, fit for JSON.
@@ -329,3 +335,92 @@ def _jsonable(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _jsonable(item) for key, item in value.items()}
     return [_jsonable(item) for item in value] if isinstance(value, tuple | list) else value
+
+
+def range_of_tilt(numbers: Mapping[str, Number]) -> Range:
+    """Return the plausible range of the tail's tilt: its own, or what the range of the incidence allows.
+
+    Parameters
+    ----------
+    numbers : of a species, by their paths.
+    """
+    own, incidence = numbers.get("wingbeat.tail_tilt"), numbers.get("vehicle.tail.incidence")
+    if own is not None and own.range is not None:
+        return range_of(own)
+    if incidence is None or incidence.range is None:
+        return Range(None, None, "rad", UNKNOWN)
+    level = incidence.value
+    assert not isinstance(level, tuple)
+    low, high = (end - level for end in incidence.range)
+    return Range(low, high, "rad", f"range of the tail's incidence; {incidence.source}")
+
+
+def range_of(number: Number) -> Range:
+    """Return the plausible range given with a number of a species file."""
+    low, high = number.range or (None, None)
+    return Range(low, high, number.unit, number.source if number.range else UNKNOWN)
+
+
+def species_report(animal: Species) -> Report:
+    """Return every number of a species with its source, the bounds of free parameters, and the plausible ranges.
+
+    Parameters
+    ----------
+    animal : the species.
+    """
+    names = ", ".join(name for name in (animal.common_name, animal.scientific_name, animal.kind) if name)
+    sources: dict[str, int] = {}
+    blocks: list[Block] = [Line(f"{animal.name}{': ' if names else ''}{names}")]
+    blocks += [*_titled("numbers"), _numbers(animal.numbers, sources)]
+    blocks += [*_titled("free parameters, and limits that hold throughout the wingbeat"), _free(animal)]
+    if animal.plausible:
+        blocks += [*_titled("plausible ranges"), _plausible(animal, sources)]
+    for name, other in animal.alternatives.items():
+        blocks += [*_titled(f"alternative {name}: {other.reason}"), _numbers(other.numbers, sources)]
+    if animal.shape:
+        blocks += [*_titled("shape, which only drawings use"), _numbers(animal.shape.numbers, sources)]
+    blocks += [*_titled("sources"), *(Line(f"[{number}] {source}") for source, number in sources.items())]
+    return [*blocks, *(Line(f"warning: {warning}", tone="warning") for warning in animal.warnings)]
+
+
+def _titled(title: str) -> tuple[Line, Line]:
+    return Line(""), Line(title, tone="title")
+
+
+def _mark(source: str, sources: dict[str, int]) -> str:
+    """Return the number of a source: sources are long and shared, so they are numbered and listed below."""
+    return f"[{sources.setdefault(source, len(sources) + 1)}]" if source else ""
+
+
+def _numbers(numbers: Mapping[str, Number], sources: dict[str, int]) -> Table:
+    rows = []
+    for path, number in numbers.items():
+        name, shown = display(path, number)
+        limits = f"{shown.range[0]:g} to {shown.range[1]:g}" if shown.range else ""
+        value = shown.value if isinstance(shown.value, tuple) else (shown.value,)
+        unit = "" if shown.unit == "1" else shown.unit
+        name = name if path == "vehicle.mass" else name.removeprefix("vehicle.")  # as --set takes them
+        told = ", ".join(f"{each:g}" for each in value) if len(value) < 6 else f"{len(value)} stations"
+        rows.append(Row((name, told, unit, limits, _mark(shown.source, sources))))
+    return Table(tuple(rows), ("number", "value", "unit", "plausible", "source"), "nrlrr")
+
+
+def _free(animal: Species) -> Table:
+    rows = []
+    bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()}
+    for path, limits in (bounds | animal.path_bounds).items():
+        short = path.removeprefix("wingbeat.")
+        guess = "guess: " if short in animal.guessed_bounds else ""
+        rows.append(Row((*bound_cells(path, limits), guess + animal.reasons[short].removeprefix("guess: "))))
+    return Table(tuple(rows), ("quantity", "bounds", "unit", "reason"), "nrll")
+
+
+def _plausible(animal: Species, sources: dict[str, int]) -> Table:
+    """Return the plausible ranges of a beat's quantities; those of parameters are in the other table."""
+    rows = []
+    for name, known in animal.plausible.items():
+        factor, unit = for_people(cf(known.unit))
+        low, high = ("" if end is None else f"{factor * end:g}" for end in known[:2])
+        speeds = "{:g} to {:g}".format(*known.speeds) if known.speeds else ""
+        rows.append(Row((name, low, high, unit, speeds, _mark(known.source, sources))))
+    return Table(tuple(rows), ("quantity", "minimum", "maximum", "unit", "at [m/s]", "source"), "nrrlrr")

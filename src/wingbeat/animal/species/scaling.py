@@ -9,13 +9,11 @@ from __future__ import annotations
 
 import math
 
-from wingbeat.animal.species.law import Data, Law
-from wingbeat.animal.species_schema import Number
+from wingbeat.animal.species.numbers import HARVEY, Data, Law, Number
 
 RAYNER = "van den Berg and Rayner 1995, J Exp Biol 198:1655, doi 10.1242/jeb.198.8.1655, table 3"
 PENNYCUICK = "Pennycuick 1996, J Exp Biol 199:1613, doi 10.1242/jeb.199.7.1613"
 BULLEN = "Bullen and McKenzie 2002, J Exp Biol 205:2615, doi 10.1242/jeb.205.17.2615"
-HARVEY = "Harvey et al. 2022, Nature 603:648, doi 10.1038/s41586-022-04477-8, data of the R package AvInertia"
 FLAPPER = (
     "parameters of the Flapper Nimble+ in federicoangioni/flapper-dynamic-model; "
     "the source does not say how they were determined"

@@ -8,12 +8,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from wingbeat._base import FaultList, InvalidInputError, is_number
-from wingbeat.animal.species.building import DEFAULT
-from wingbeat.animal.species_schema import (
+from wingbeat._base.errors import FaultList, InvalidInputError, is_number
+from wingbeat.animal.species.numbers import (
     COLOUR,
     COLOURS,
     COVERS,
+    DEFAULT,
     EXTREMITIES,
     NO_COLOUR,
     SHAPE,

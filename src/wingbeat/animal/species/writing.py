@@ -9,9 +9,9 @@ import textwrap
 from collections.abc import Iterator, Mapping
 
 from wingbeat.animal.species.building import BODY, WHOLE
+from wingbeat.animal.species.numbers import COLOURS, Number, Range, display
 from wingbeat.animal.species.record import Species
 from wingbeat.animal.species.shape import Shape
-from wingbeat.animal.species_schema import COLOURS, Number, Range, display
 
 _HEAD = "# SI units; _deg means degrees. A source that begins with derived or guess was not measured."
 
@@ -19,7 +19,7 @@ _HEAD = "# SI units; _deg means degrees. A source that begins with derived or gu
 def species_text(species: Species) -> str:
     """Return the TOML text of a species; `load_species` makes the same species from it, to six digits.
 
-    >>> from wingbeat.animal.species import load_species
+    >>> from wingbeat.animal.species.making import load_species
     >>> species_text(load_species("pigeon")).splitlines()[1]
     'name = "pigeon"'
     """

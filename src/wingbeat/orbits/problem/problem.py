@@ -14,7 +14,7 @@ from wingbeat._base import FaultList, InvalidInputError, harmonic_place, suggest
 from wingbeat.aero import SuFan
 from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, Wingbeat, parameter, with_parameters
-from wingbeat.animal.species import Species
+from wingbeat.animal.species.record import Species
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.problem.limits import Constraint, WingbeatLimit, read_limits
@@ -66,7 +66,7 @@ class OrbitProblem(ReportedProblem):
     ------
     InvalidInputError : an impossible speed; unknown names; bounds that are missing, crossed or not finite.
 
-    >>> from wingbeat.animal.species import load_species
+    >>> from wingbeat.animal.species.making import load_species
     >>> OrbitProblem(load_species("pigeon"), speed=10.0).free[0]
     'frequency'
     """

@@ -1,24 +1,31 @@
-"""The shape of a species file as pydantic models, made from the list of keys, and as a JSON schema."""
+"""What a species file may hold, as pydantic models made from the numbers' keys, and its faults in our own words."""
 
 from __future__ import annotations
 
 import functools
+import json
+import re
 from collections.abc import Callable, Iterable
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, TypeAdapter, create_model
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, TypeAdapter, ValidationError, create_model
 
-from wingbeat.animal.species_schema.keys import (
+from wingbeat._base.errors import FaultList, suggest
+from wingbeat.animal.species.numbers import (
     COLOUR,
     COVERS,
     FREE,
     KEYS,
     LOOKS,
+    NO_COLOUR,
+    NOTHING,
     PARTS,
     PATH,
     PLAUSIBLE,
     SHAPE,
     Key,
+    Shown,
+    shown,
 )
 
 _STRICT = ConfigDict(strict=True, extra="forbid")
@@ -26,7 +33,6 @@ _Finite = Annotated[float, Field(allow_inf_nan=False)]
 _Pair = Annotated[list[_Finite], Field(min_length=2, max_length=2)]
 # Tags appear in pydantic's error paths; the blank keeps them apart from any key of a file.
 TAGS = NUMBER, LIST, TABLE = " number", " list", " table"
-
 KINDS = ("bird", "bat", "robot")
 NUMBER_FIELDS = ["value", "unit", "source", "range"]
 
@@ -189,3 +195,114 @@ def json_schema() -> dict[str, Any]:
     'wingbeat species file'
     """
     return SpeciesFile.model_json_schema()
+
+
+MAX_FAULTS = 100
+
+
+def dotted(path: Iterable[Any]) -> str:
+    """Return a path of keys and list indices as TOML would write it, on one line."""
+    text = ""
+    for part in path:
+        if isinstance(part, int):
+            text += f"[{part}]"
+        elif part not in TAGS:
+            bare = re.fullmatch(r"[A-Za-z0-9_-]+", part)
+            text += "." * bool(text) + (part if bare else json.dumps(part))[:80]
+    return text
+
+
+def check_shape(raw: dict[str, Any], faults: FaultList) -> None:
+    """Note every wrong key, type and shape in the content of a TOML file."""
+    try:
+        SpeciesFile.model_validate(raw)
+    except ValidationError as error:
+        _translate(error, "", faults)
+
+
+def check_value(key: Key, where: str, value: Any, faults: FaultList) -> bool:
+    """Note a fault unless `value` has the shape of `key`; return whether it has."""
+    try:
+        ADAPTERS[key.shape].validate_python(value)
+    except ValidationError as error:
+        _translate(error, where, faults)
+        return False
+    return True
+
+
+def has_shape(shape: str, value: Any) -> bool:
+    """Return whether a value has one of the shapes of a `Key`."""
+    try:
+        ADAPTERS[shape].validate_python(value)
+    except ValidationError:
+        return False
+    return True
+
+
+def _translate(error: ValidationError, where: str, faults: FaultList) -> None:
+    """Note pydantic's errors at or below `where` as our faults."""
+    found = error.errors(include_url=False)
+    for fault in found[:MAX_FAULTS]:
+        value, loc = fault["input"], fault["loc"]
+        rule, fix = rule_of(fault["type"], value, fault.get("ctx", {}))
+        if fault["type"] == "missing":
+            value = NOTHING
+        elif fault["type"] == "extra_forbidden":
+            fix = suggest(str(loc[-1]), _known_keys(loc[:-1]))
+        faults.add(where + dotted(loc), shown(value), rule, fix)
+    if len(found) > MAX_FAULTS:
+        faults.add("file", Shown(f"{len(found)} faults"), "too many to list", "is it a species file?")
+
+
+def rule_of(kind: str, value: Any, context: dict[str, Any]) -> tuple[str, str]:
+    """Return the rule and the fix for one of pydantic's kinds of error."""
+    match kind:
+        case "missing":
+            return "must be given", ""
+        case "extra_forbidden":
+            return "is not a known key", ""
+        case "float_type" if isinstance(value, int) and not isinstance(value, bool):
+            return "is too large a number", ""
+        case "float_type" if isinstance(value, str):
+            return "must be a number", "write the number without quotes; its unit goes into unit = ..."
+        case "float_type":
+            return "must be a number", ""
+        case "finite_number":
+            return "must be finite", ""
+        case "string_type":
+            return "must be a text", "put it in quotes"
+        case "string_pattern_mismatch":
+            return NO_COLOUR
+        case "string_too_short":
+            return "must not be empty", ""
+        case "bool_type":
+            return "must be true or false", ""
+        case "literal_error":
+            return f"must be one of {context['expected']}".replace("'", ""), ""
+        case "list_type":
+            return "must be a list of numbers", ""
+        case "too_short" | "too_long":
+            least, most = context.get("min_length"), context.get("max_length")
+            size = f"at least {least}" if kind == "too_short" else f"at most {most}"
+            return f"must hold {size} numbers", ""
+        case "model_type" | "dict_type":
+            return "must be a table", ""
+    return f"does not match the schema ({kind})", ""
+
+
+def _known_keys(loc: tuple[Any, ...]) -> list[str]:
+    """Return the keys that the table at this place may have."""
+    place = [part for part in loc if isinstance(part, str)]
+    if place[:1] == ["alternatives"] and len(place) > 1:
+        if len(place) == 2:
+            return ["reason", "vehicle", "wingbeat", "air"]
+        place = place[2:]
+    if TABLE in place:
+        return list(BoundTable.model_fields) if place[0] in ("free", "path") else NUMBER_FIELDS
+    if len(place) == 2 and place[0] == "plausible":
+        return list(RangeTable.model_fields)
+    paths = [path for key in (*KEYS, *SHAPE, *LOOKS, *FREE, *PLAUSIBLE, *PATH) for path in key.spellings]
+    if not place:
+        return list(SpeciesFile.model_fields)
+    depth = len(place)
+    return list(dict.fromkeys(p.split(".")[depth] for p in paths if p.split(".")[:depth] == place))

@@ -1,117 +1,62 @@
-"""Read the text of a species file into numbers in SI units, and note every fault of the file."""
+"""Numbers as people write them: a species file, and ``PATH=VALUE``, with every fault noted; the built-in files."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from importlib import resources
+from typing import Any
 
-from wingbeat._base import IN_RADIANS, Fault, FaultList, FileError, toml_tables
-from wingbeat.animal.species_schema.faults import NOTHING, check_shape, dotted, has_shape, shown
-from wingbeat.animal.species_schema.keys import FREE, KEYS, LOOKS, PARTS, PATH, PLAUSIBLE, SHAPE, Key
-from wingbeat.animal.species_schema.models import KINDS
+from wingbeat._base.errors import FaultList, FileError
+from wingbeat._base.files import toml_tables
+from wingbeat.animal.species.file_schema import KINDS, check_shape, dotted, has_shape
+from wingbeat.animal.species.numbers import (
+    FREE,
+    KEYS,
+    LOOKS,
+    NOTHING,
+    PARTS,
+    PATH,
+    PLAUSIBLE,
+    SHAPE,
+    Alternative,
+    Bound,
+    Key,
+    Number,
+    Numbers,
+    Range,
+    ShapeText,
+    SpeciesText,
+    shown,
+    spoken,
+    to_si,
+)
 
-Value = float | tuple[float, ...]
-# The rule for an angle in radians, for one that the file gives in degrees.
-_IN_DEGREES = {
-    rule: f"must be an angle from {-most:.0f} to {most:.0f} degrees"
-    for most, rule in ((math.degrees(most), rule) for most, rule in IN_RADIANS.items())
-}
-
-
-class Number(NamedTuple):
-    """A number in SI units and radians, its unit, its source and its plausible range."""
-
-    value: Value
-    unit: str
-    source: str = ""
-    range: tuple[float, float] | None = None
-
-
-def number_from(value: Any, unit: str, source: str, limits: list[float] | None) -> Number:
-    """Return the number that JSON keeps as a list of these four."""
-    whole = tuple(value) if isinstance(value, list) else value
-    return Number(whole, unit, source, None if limits is None else (limits[0], limits[1]))
-
-
-class Bound(NamedTuple):
-    """The bounds of a free quantity in SI units and radians, the reason, and whether they are a guess."""
-
-    bounds: tuple[float, float]
-    reason: str = ""
-    guessed: bool = False
+_TEMPLATE = "template"
 
 
-class Range(NamedTuple):
-    """The plausible range of a quantity, SI and radians; an unknown end is None.
+def packaged_text(name: str) -> str:
+    """Return the text of a TOML file that the package contains."""
+    return resources.files("wingbeat").joinpath("data", f"{name}.toml").read_text(encoding="utf-8")
 
-    `speeds` are the lowest and highest flight speed at which it applies [m/s]; None means all speeds.
+
+def template() -> str:
+    """Return a complete, commented species file to start from; it can be loaded without changes.
+
+    >>> "semi_span" in template()
+    True
     """
-
-    low: float | None = None
-    high: float | None = None
-    unit: str = "1"
-    source: str = ""
-    speeds: tuple[float, float] | None = None
+    return packaged_text(_TEMPLATE)
 
 
-class Numbers(dict[str, Number]):
-    """Numbers by path, with the original text of each, so that a fault can quote it."""
+def species_names() -> tuple[str, ...]:
+    """Return the names of the built-in species.
 
-    def __init__(self) -> None:
-        super().__init__()
-        self.written: dict[str, tuple[str, Any]] = {}
-
-    def put(self, key: Key, number: Number, path: str, value: Any) -> None:
-        """Add a number that was written as `value` under `path`."""
-        self[key.path] = number
-        self.written[key.path] = (path, value)
-
-    def quote(self, fault: Fault) -> Fault:
-        """Return a fault that a constructor found, with the path, value and unit that the file uses."""
-        where = fault.where if fault.where.startswith(("wingbeat.", "air.", "shape.")) else f"vehicle.{fault.where}"
-        for canonical, (path, value) in self.written.items():
-            rest = where[len(canonical) :]
-            if where.startswith(canonical) and rest[:1] in ("", "[", "."):
-                told = fault.value if rest else shown(value)
-                if not path.endswith("_deg"):
-                    return Fault(path + rest, told, fault.rule, fault.fix)
-                if fault.rule in _IN_DEGREES:
-                    return Fault(path + rest, told, _IN_DEGREES[fault.rule])
-                return Fault(path + rest, told, fault.rule.replace(" rad", " deg"), fault.fix)
-        return Fault(where, fault.value, fault.rule, fault.fix)
-
-
-class Alternative(NamedTuple):
-    """Measured or assumed numbers that may replace the defaults, and why they are worth a trial."""
-
-    reason: str
-    numbers: Numbers
-
-
-class ShapeText(NamedTuple):
-    """How the animal looks: numbers by path, and texts by path (what covers the wing, and the colours)."""
-
-    numbers: Numbers
-    texts: dict[str, str]
-
-
-@dataclass
-class SpeciesText:
-    """The content of a species file, before any check of its physics."""
-
-    name: str
-    common_name: str = ""
-    scientific_name: str = ""
-    kind: str = ""
-    numbers: Numbers = field(default_factory=Numbers)
-    free: dict[str, Bound] = field(default_factory=dict)
-    path: dict[str, Bound] = field(default_factory=dict)
-    plausible: dict[str, Range] = field(default_factory=dict)
-    shape: ShapeText | None = None
-    alternatives: dict[str, Alternative] = field(default_factory=dict)
-    written: dict[str, tuple[str, Any]] = field(default_factory=dict)  # each bound's path and pair
+    >>> species_names()[:3]
+    ('annas-hummingbird', 'barn-swallow', 'bat')
+    """
+    files = (entry.name for entry in resources.files("wingbeat").joinpath("data").iterdir())
+    names = {name.removesuffix(".toml") for name in files if name.endswith(".toml")}
+    return tuple(sorted(names - {_TEMPLATE}))
 
 
 def parse_toml(text: str, label: str) -> dict[str, Any]:
@@ -160,27 +105,6 @@ def read_species_text(text: str, label: str, name: str, faults: FaultList) -> Sp
             numbers = _numbers(content, ("alternatives", other), faults)
             result.alternatives[other] = Alternative(_line(reason), numbers)
     return result
-
-
-def to_si(value: Any, path: str) -> Value:
-    """Return a number or list of the right shape in SI units; `path` shows whether it is in degrees."""
-    if isinstance(value, list):
-        return tuple(float(to_si(item, path)) for item in value)  # type: ignore[arg-type]
-    return math.radians(value) if path.endswith("_deg") else float(value)
-
-
-def display(path: str, number: Number) -> tuple[str, Number]:
-    """Return path and number for readers: angles are in degrees, with ``_deg`` in the path."""
-    if number.unit != "rad":
-        return path, number
-
-    def degrees(angle: float) -> float:
-        return float(f"{math.degrees(angle):.12g}")  # 60 comes back as 60, not 59.99999999999999
-
-    limits = number.range and (degrees(number.range[0]), degrees(number.range[1]))
-    angles = number.value
-    shown = tuple(degrees(angle) for angle in angles) if isinstance(angles, tuple) else degrees(angles)
-    return f"{path}_deg", Number(shown, "deg", number.source, limits)
 
 
 def _line(text: Any) -> str:
@@ -320,3 +244,32 @@ def _tidy(unit: str) -> str:
     for old, new in (("**", ""), ("^", ""), ("²", "2"), ("³", "3"), (" ", ""), ("·", ""), ("*", "")):
         unit = unit.replace(old, new)
     return unit
+
+
+def parse_setting(text: str) -> tuple[str, Any]:
+    """Return path and value of a setting such as ``wing.mass=0.02`` or ``wing.chord=[0.1, 0.08]``.
+
+    Raises
+    ------
+    InvalidInputError : not of the form PATH=VALUE, or the value is neither a number nor a list of numbers.
+
+    >>> parse_setting("wing.mass=0.02")
+    ('wing.mass', 0.02)
+    """
+    path, equals, value = (part.strip() for part in text.partition("="))
+    faults = FaultList()
+    if not equals or not path:
+        faults.add("--set", text, "must be PATH=VALUE", "for example wing.mass=0.02")
+        faults.raise_if_any()
+    try:
+        return path, float(value)  # more lenient than TOML: .02 and 1. are numbers too
+    except ValueError:
+        pass
+    try:
+        table = parse_toml(f"value = {value}", value)
+    except FileError:
+        table = {}
+    if list(table) != ["value"] or not isinstance(table["value"], list):
+        faults.add(spoken(path), value, "is not a number or a list of numbers", "for example 0.02 or [0.1, 0.08]")
+        faults.raise_if_any()
+    return path, table["value"]

@@ -1,0 +1,414 @@
+"""The numbers of a species: which there are, each with unit, source and range, and the laws that give them."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from wingbeat._base.errors import IN_RADIANS, Fault
+from wingbeat._base.harmonics import FIRST_ORDER, HARMONIC_NAMES
+from wingbeat._base.nomenclature import find, plain, plain_unit
+
+DEFAULT = "not given: the default"
+
+
+class Key(NamedTuple):
+    """One number of a species: its path as in the orbit record, SI unit, meaning and shape."""
+
+    path: str
+    unit: str
+    meaning: str
+    required: bool = True
+    # or "stations" (a number or a list), "vector" (three numbers), "list" (any count), "edge" (at least two),
+    # "cover" and "colour" (texts)
+    shape: str = "number"
+
+    @property
+    def name(self) -> str:
+        """The last part of the path."""
+        return self.path.rpartition(".")[2]
+
+    @property
+    def part(self) -> str:
+        """The part of the vehicle, or the record, that it belongs to."""
+        return self.path.split(".")[-2]
+
+    @property
+    def spellings(self) -> tuple[str, ...]:
+        """The paths that a file may use; an angle may also have its name in degrees."""
+        return (self.path, f"{self.path}_deg") if self.unit == "rad" else (self.path,)
+
+
+def _key(path: str, required: bool = True, shape: str = "number") -> Key:
+    """Return the key of a path, with unit and meaning from the nomenclature."""
+    term = find(path)
+    assert term is not None, path
+    return Key(path, plain(term.unit), term.definition, required, shape)
+
+
+KEYS = (
+    _key("vehicle.mass", False),
+    _key("vehicle.body.mass", False),
+    _key("vehicle.body.pitch_inertia"),
+    _key("vehicle.body.drag_area", False),
+    _key("vehicle.wing.semi_span"),
+    _key("vehicle.wing.chord", shape="stations"),
+    _key("vehicle.wing.mass"),
+    _key("vehicle.wing.mass_exponent", False),
+    _key("vehicle.wing.shoulder", False, "vector"),
+    _key("vehicle.wing.stroke_plane_angle", False),
+    *(_key(f"vehicle.tail.{name}") for name in ("area", "arm", "lift_slope")),
+    *(_key(f"vehicle.tail.{name}", False) for name in ("drag_coefficient", "height", "incidence")),
+    *(_key(f"vehicle.muscle.{name}") for name in ("mass", "elevator_share", "strain_per_angle", "max_strain_rate")),
+    *(_key(f"vehicle.muscle.{name}", False) for name in ("isometric_stress", "curvature")),
+    *(_key(f"vehicle.motor.{name}") for name in ("torque_constant", "resistance", "gear_ratio")),
+    *(
+        _key(f"vehicle.motor.{name}", False)
+        for name in ("rotor_inertia", "no_load_current", "gear_efficiency", "crank")
+    ),
+    *(_key(f"vehicle.springs.{name}", False) for name in ("stiffness", "rest_angle", "series_compliance")),
+    *(
+        _key(f"wingbeat.{name}")
+        for name in ("frequency", "flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude")
+    ),
+    *(
+        _key(f"wingbeat.{name}", False)
+        for name in (
+            *("span_retraction", "twist_ratio", "fold_amplitude", "wrist", "pitch_phase", "downstroke_fraction"),
+            *("sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt", "tail_tilt"),
+            *("chord_retraction", "twist_mean"),
+        )
+    ),
+    *(_key(f"wingbeat.{law}_harmonics", False, "list") for law in FIRST_ORDER),
+    *(_key(f"air.{name}", False) for name in ("density", "viscosity", "gravity")),
+)
+# Parts that a vehicle may lack; a vehicle without a part has none of the part's numbers.
+PARTS = {
+    part: tuple(key for key in KEYS if key.path.startswith(f"vehicle.{part}."))
+    for part in ("tail", "muscle", "motor", "springs")
+}
+TAIL_PATHS = (*(key.path for key in PARTS["tail"]), "wingbeat.tail_tilt")
+# Limits along the whole path, not only at its start.
+PATH = (_key("path.body_pitch"), _key("path.flap"))
+# The wrist cannot be free: each strip is wholly arm or hand, so an orbit changes in steps with the wrist and has no
+# derivative by which to search.
+FREE = (
+    *(
+        _key(f"free.{key.name}")
+        for key in KEYS
+        if key.path.startswith("wingbeat.") and key.path != "wingbeat.wrist" and key.shape == "number"
+    ),
+    *(_key(f"free.{name}") for name in HARMONIC_NAMES),
+)
+# How the animal looks. No model reads it.
+TRUNK = ("body_length", "body_width", "body_depth")
+EXTREMITIES = ("head_length", "bill_length", "ear_length", "tail_length", "tail_width")  # 0 without one
+SHAPE = (
+    *(_key(f"shape.{name}", shape="edge") for name in ("leading_edge", "trailing_edge")),
+    *(_key(f"shape.{name}", False) for name in ("camber", "thickness")),
+    *(_key(f"shape.{name}") for name in TRUNK),
+    *(_key(f"shape.{name}", False) for name in EXTREMITIES),
+)
+COVERS = ("feathers", "membrane", "film")
+COLOURS = ("back", "breast", "head", "wing", "wing_tip", "bill")
+COLOUR = "#[0-9a-fA-F]{6}"  # the form of each, as a regular expression
+NO_COLOUR = ("must be a colour", 'write it as "#rrggbb"')  # the fault of another form, and how to fix it
+LOOKS = (
+    _key("shape.cover", shape="cover"),
+    *(_key(f"shape.colours.{name}", shape="colour") for name in COLOURS),
+)
+# What is read off a beat and judged beside the certificate. The ranges of frequency and flap amplitude stand with
+# their numbers, under wingbeat.
+PLAUSIBLE = tuple(
+    _key(f"plausible.{name}", False)
+    for name in (
+        *("positive_power_per_mass", "peak_activation", "peak_force_over_weight", "mean_body_pitch"),
+        *("body_pitch_range", "strouhal", "reynolds"),
+    )
+)
+
+# What is judged of an orbit, in the order of a record: activation where there is muscle, the tail's tilt where a
+# tail tilts.
+JUDGED = (
+    "positive_power_per_mass",
+    "peak_activation",
+    "frequency",
+    "flap_amplitude",
+    "tail_tilt",
+    "peak_force_over_weight",
+    "mean_body_pitch",
+    "body_pitch_range",
+    "strouhal",
+    "reynolds",
+)
+
+
+class Shown(str):
+    """Words that a fault shows in place of a value."""
+
+    def __repr__(self) -> str:
+        return str(self)
+
+
+NOTHING = Shown("nothing")
+
+
+def shown(value: Any) -> Any:
+    """Return a value in a form that prints on one line; Python cannot print some values of a file (10**5000)."""
+    flat = isinstance(value, list | tuple) and all(isinstance(item, int | float) for item in value)
+    try:
+        text = repr(value) if flat or not isinstance(value, dict | list | tuple) else ""
+    except ValueError:
+        return Shown("an enormous number")
+    if isinstance(value, dict):
+        return Shown("a table")
+    if isinstance(value, list | tuple):
+        return Shown(text) if flat else Shown("a list")
+    return value if isinstance(value, str | int | float) else Shown(str(value))
+
+
+def spoken(path: Any) -> str:
+    """Return a path that the user typed: unchanged if it can be printed, else in quotes with escapes."""
+    text = str(shown(path))
+    return text if text.isprintable() and text.strip() and len(text) <= 80 else json.dumps(text)[:80]
+
+
+Value = float | tuple[float, ...]
+# The rule for an angle in radians, for one that the file gives in degrees.
+_IN_DEGREES = {
+    rule: f"must be an angle from {-most:.0f} to {most:.0f} degrees"
+    for most, rule in ((math.degrees(most), rule) for most, rule in IN_RADIANS.items())
+}
+
+
+class Number(NamedTuple):
+    """A number in SI units and radians, its unit, its source and its plausible range."""
+
+    value: Value
+    unit: str
+    source: str = ""
+    range: tuple[float, float] | None = None
+
+
+def number_from(value: Any, unit: str, source: str, limits: list[float] | None) -> Number:
+    """Return the number that JSON keeps as a list of these four."""
+    whole = tuple(value) if isinstance(value, list) else value
+    return Number(whole, unit, source, None if limits is None else (limits[0], limits[1]))
+
+
+class Bound(NamedTuple):
+    """The bounds of a free quantity in SI units and radians, the reason, and whether they are a guess."""
+
+    bounds: tuple[float, float]
+    reason: str = ""
+    guessed: bool = False
+
+
+class Range(NamedTuple):
+    """The plausible range of a quantity, SI and radians; an unknown end is None.
+
+    `speeds` are the lowest and highest flight speed at which it applies [m/s]; None means all speeds.
+    """
+
+    low: float | None = None
+    high: float | None = None
+    unit: str = "1"
+    source: str = ""
+    speeds: tuple[float, float] | None = None
+
+
+class Numbers(dict[str, Number]):
+    """Numbers by path, with the original text of each, so that a fault can quote it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.written: dict[str, tuple[str, Any]] = {}
+
+    def put(self, key: Key, number: Number, path: str, value: Any) -> None:
+        """Add a number that was written as `value` under `path`."""
+        self[key.path] = number
+        self.written[key.path] = (path, value)
+
+    def quote(self, fault: Fault) -> Fault:
+        """Return a fault that a constructor found, with the path, value and unit that the file uses."""
+        where = fault.where if fault.where.startswith(("wingbeat.", "air.", "shape.")) else f"vehicle.{fault.where}"
+        for canonical, (path, value) in self.written.items():
+            rest = where[len(canonical) :]
+            if where.startswith(canonical) and rest[:1] in ("", "[", "."):
+                told = fault.value if rest else shown(value)
+                if not path.endswith("_deg"):
+                    return Fault(path + rest, told, fault.rule, fault.fix)
+                if fault.rule in _IN_DEGREES:
+                    return Fault(path + rest, told, _IN_DEGREES[fault.rule])
+                return Fault(path + rest, told, fault.rule.replace(" rad", " deg"), fault.fix)
+        return Fault(where, fault.value, fault.rule, fault.fix)
+
+
+class Alternative(NamedTuple):
+    """Measured or assumed numbers that may replace the defaults, and why they are worth a trial."""
+
+    reason: str
+    numbers: Numbers
+
+
+class ShapeText(NamedTuple):
+    """How the animal looks: numbers by path, and texts by path (what covers the wing, and the colours)."""
+
+    numbers: Numbers
+    texts: dict[str, str]
+
+
+@dataclass
+class SpeciesText:
+    """The content of a species file, before any check of its physics."""
+
+    name: str
+    common_name: str = ""
+    scientific_name: str = ""
+    kind: str = ""
+    numbers: Numbers = field(default_factory=Numbers)
+    free: dict[str, Bound] = field(default_factory=dict)
+    path: dict[str, Bound] = field(default_factory=dict)
+    plausible: dict[str, Range] = field(default_factory=dict)
+    shape: ShapeText | None = None
+    alternatives: dict[str, Alternative] = field(default_factory=dict)
+    written: dict[str, tuple[str, Any]] = field(default_factory=dict)  # each bound's path and pair
+
+
+def to_si(value: Any, path: str) -> Value:
+    """Return a number or list of the right shape in SI units; `path` shows whether it is in degrees."""
+    if isinstance(value, list):
+        return tuple(float(to_si(item, path)) for item in value)  # type: ignore[arg-type]
+    return math.radians(value) if path.endswith("_deg") else float(value)
+
+
+def display(path: str, number: Number) -> tuple[str, Number]:
+    """Return path and number for readers: angles are in degrees, with ``_deg`` in the path."""
+    if number.unit != "rad":
+        return path, number
+
+    def degrees(angle: float) -> float:
+        return float(f"{math.degrees(angle):.12g}")  # 60 comes back as 60, not 59.99999999999999
+
+    limits = number.range and (degrees(number.range[0]), degrees(number.range[1]))
+    angles = number.value
+    shown = tuple(degrees(angle) for angle in angles) if isinstance(angles, tuple) else degrees(angles)
+    return f"{path}_deg", Number(shown, "deg", number.source, limits)
+
+
+def in_order(numbers: Mapping[str, Number]) -> dict[str, Number]:
+    """Return the numbers in the order of a species file."""
+    return {key.path: numbers[key.path] for key in KEYS if key.path in numbers}
+
+
+def words(path: str, number: Number) -> str:
+    """Return value and unit as text for a reader, angles in degrees."""
+    _, shown = display(path, number)
+    unit = "" if shown.unit == "1" else f" {shown.unit}"
+    if isinstance(shown.value, tuple):
+        return f"[{', '.join(f'{value:g}' for value in shown.value)}]{unit}"
+    return f"{shown.value:g}{unit}"
+
+
+def bound_cells(path: str, limits: tuple[float, float]) -> tuple[str, str, str]:
+    """Return name, bounds and unit of a parameter or of a limit along the path, with angles in degrees.
+
+    Parameters
+    ----------
+    path : of the parameter, as in species files.
+    limits : its bounds, SI and radians.
+
+    >>> bound_cells("wingbeat.frequency", (1.0, 30.0))
+    ('wingbeat.frequency', '1 to 30', 'Hz')
+    """
+    name, shown = display(path, Number(0.0, plain_unit(path), range=limits))
+    low, high = shown.range or limits
+    return name, f"{low:g} to {high:g}", "" if shown.unit == "1" else shown.unit
+
+
+# In the source of a number that a law gave outside its data, this text precedes the value of the input and the
+# range of the data.
+OUTSIDE = "outside its data: "
+
+
+HARVEY = "Harvey et al. 2022, Nature 603:648, doi 10.1038/s41586-022-04477-8, data of the R package AvInertia"
+
+
+@dataclass(frozen=True)
+class Data:
+    """The data a law was fitted to: lowest and highest value of each input in SI units, and where they were read.
+
+    Parameters
+    ----------
+    ranges : by the symbol of the input; empty for a law without data, or with data that we did not find.
+    where : where the ranges were read, or why there are none.
+    """
+
+    ranges: dict[str, tuple[float, float]]
+    where: str
+
+
+@dataclass(frozen=True)
+class Law:
+    """A number of an animal as a function of others, in SI units, with its source and how far animals scatter.
+
+    Parameters
+    ----------
+    unit : of the number.
+    formula : as text, for the source of the number.
+    inputs : symbol and unit of each value that it takes.
+    function : the formula.
+    source : where it was read.
+    spread : lowest and highest ratio of measured values to the value that the law gives.
+    scatter : where the spread comes from.
+    data : what it was fitted to.
+    beyond : how the law continues outside its data, if not by its formula.
+
+    >>> from wingbeat.animal.species.scaling import BIRD_WING_MASS
+    >>> number = BIRD_WING_MASS.number(0.316)
+    >>> f"{number.value:.4f} {number.unit}"
+    '0.0199 kg'
+    """
+
+    unit: str
+    formula: str
+    inputs: tuple[str, ...]
+    function: Callable[..., float]
+    source: str
+    spread: tuple[float, float]
+    scatter: str
+    data: Data
+    beyond: str = ""
+
+    def __call__(self, *values: float) -> float:
+        """Return what the law gives."""
+        return self.function(*values)
+
+    def number(self, *values: float) -> Number:
+        """Return what the law gives, marked as derived, with its spread as the plausible range."""
+        value, (low, high) = self(*values), self.spread
+        where = ", ".join(_told(*pair) for pair in zip(self.inputs, values, strict=True))
+        formula = f"{self.formula} at {where}" if where else self.formula
+        source = f"derived: {formula} ({self.source}); spread {low:g} to {high:g} times: {self.scatter}"
+        return Number(value, self.unit, source + self.outside(*values), (low * value, high * value))
+
+    def outside(self, *values: float) -> str:
+        """Return which of these values are outside the law's data, as text to append to a source; empty if none."""
+        found = []
+        for pair, value in zip(self.inputs, values, strict=True):
+            symbol, unit = pair.split()
+            low, high = self.data.ranges.get(symbol, (-math.inf, math.inf))
+            if not low <= value <= high:
+                found.append(f"{_told(pair, value)}, data {low:.4g} to {high:.4g} {unit}")
+        if not found:
+            return ""
+        beyond = f"; there {self.beyond}" if self.beyond else ""
+        return f"; {OUTSIDE}{' and '.join(found)} ({self.data.where}){beyond}"
+
+
+def _told(symbol_and_unit: str, value: float) -> str:
+    symbol, unit = symbol_and_unit.split()
+    return f"{symbol} = {value:.4g} {unit}"

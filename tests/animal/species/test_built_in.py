@@ -1,13 +1,11 @@
 """The files of the built-in species: every number has a source, a unit and a range that contains it."""
 
 import tomllib
-from pathlib import Path
 from typing import Any
 
 import pytest
 
-from wingbeat.animal.species.making import load_species
-from wingbeat.animal.species.reading import species_names
+from wingbeat.animal.species.reading import packaged_text, species_names
 
 # Alternatives meant to lie outside the range: what a reader of the paper would assume; a warning says so.
 OUTSIDE_ON_PURPOSE = {("pigeon", "uniform-wing"), ("bat", "uniform-wing")}
@@ -47,7 +45,7 @@ def test_every_number_of_an_alternative_has_unit_source_and_range(name: str) -> 
 
 
 def _raw(name: str) -> dict[str, Any]:
-    return tomllib.loads((Path(load_species.__code__.co_filename).parents[1] / "data" / f"{name}.toml").read_text())
+    return tomllib.loads(packaged_text(name))
 
 
 def _leaves(table: dict[str, Any], path: str = "") -> dict[str, dict[str, Any]]:

@@ -5,6 +5,7 @@ from typing import Any
 
 import pytest
 
+import wingbeat as wb
 from wingbeat.animal.species.reading import packaged_text, species_names
 
 # Alternatives meant to lie outside the range: what a reader of the paper would assume; a warning says so.
@@ -27,8 +28,8 @@ def test_every_number_of_a_built_in_species_has_unit_source_and_range(name: str)
     for path, known in raw["plausible"].items():
         assert known["source"].strip(), path
         assert known["unit"].strip(), path
-    derived = [line for line in load_species(name).warnings if line.startswith(("derived by", "scaling laws used"))]
-    assert list(load_species(name).warnings) == derived
+    derived = [line for line in wb.load_species(name).warnings if line.startswith(("derived by", "scaling laws used"))]
+    assert list(wb.load_species(name).warnings) == derived
 
 
 @pytest.mark.parametrize("name", species_names())

@@ -14,8 +14,7 @@ from pydantic import BaseModel
 
 import wingbeat as wb
 import wingbeat_evidence as evidence
-from wingbeat._base.files import write_atomically
-from wingbeat._base.nomenclature import NOMENCLATURE, find, for_people, plain
+from wingbeat._base import NOMENCLATURE, find, for_people, plain, write_atomically
 from wingbeat.animal.species.numbers import COVERS, FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE, Key
 from wingbeat.cli.app import build_app
 from wingbeat.studies.form import Sample, StudyForm, Vary

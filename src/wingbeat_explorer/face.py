@@ -6,8 +6,7 @@ import re
 from collections import Counter
 from typing import Any
 
-from wingbeat._base.errors import FileError
-from wingbeat._base.nomenclature import NOMENCLATURE, for_people
+from wingbeat._base import NOMENCLATURE, FileError, for_people
 from wingbeat.animal.species.building import NOT_MEASURED
 from wingbeat.orbits.status import Status
 from wingbeat.results.limits import set_by_limit

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base.errors import FaultList
+from wingbeat._base import FaultList
 from wingbeat.animal.species.record import Species
 from wingbeat.animal.species.scaling import CRUISE_BY_MASS
 from wingbeat.models import model_of

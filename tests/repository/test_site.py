@@ -8,7 +8,7 @@ import pytest
 import wingbeat as wb
 from tests.helpers.browsers import AXE, shown_files
 from tests.helpers.places import ROOT
-from wingbeat._base.nomenclature import NOMENCLATURE
+from wingbeat._base import NOMENCLATURE
 from wingbeat.animal.species.numbers import FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE
 from wingbeat.cli.app import build_app
 from wingbeat.studies.form import Sample, StudyForm, Vary

@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.animal.species.reading import template
 from wingbeat.animal.species.writing import species_text
 from wingbeat.cli.app import main

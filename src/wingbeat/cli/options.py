@@ -12,8 +12,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter, Token
 
-from wingbeat._base.errors import FaultList, FileError, InvalidInputError, first_line
-from wingbeat._base.files import writing
+from wingbeat._base import FaultList, FileError, InvalidInputError, first_line, writing
 from wingbeat.animal.species.reading import parse_setting
 from wingbeat.animal.species.record import Species
 from wingbeat.orbits.problem.map_quantities import STABLE_RADIUS

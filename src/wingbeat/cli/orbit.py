@@ -10,8 +10,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 from rich.console import Console
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.reports import Line
+from wingbeat._base import FaultList, Line
 from wingbeat.animal.species.record import Species
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED

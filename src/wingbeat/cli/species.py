@@ -98,7 +98,7 @@ def new(
 
 def _new_text(kind: str | None, size: dict[str, float | None], name: str) -> str:
     """Return the text of the template, or of an animal of this size."""
-    from wingbeat._base.errors import FaultList
+    from wingbeat._base import FaultList
     from wingbeat.animal.species.making import bat, bird, robot
     from wingbeat.animal.species.reading import template
     from wingbeat.animal.species.writing import species_text

@@ -8,8 +8,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._base import SERIES, SERIES_WHERE_ON, control_in, is_number
 from wingbeat._base.datasets import KIND, SHAPE
-from wingbeat._base.errors import control_in, is_number
-from wingbeat._base.nomenclature.series import SERIES, SERIES_WHERE_ON
 from wingbeat.animal.species.file_schema import KINDS
 
 if TYPE_CHECKING:

@@ -10,8 +10,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, ValidationError
 
-from wingbeat._base.errors import WHOLE, FaultList, is_number, suggest
-from wingbeat._base.files import read_text, toml_tables
+from wingbeat._base import WHOLE, FaultList, is_number, read_text, suggest, toml_tables
 from wingbeat.animal.species.file_schema import LIST, MAX_FAULTS, TABLE, dotted, rule_of
 from wingbeat.animal.species.numbers import NOTHING, shown
 

@@ -6,8 +6,7 @@ import math
 from collections.abc import Iterable
 from typing import Any
 
-from wingbeat._base.errors import Fault
-from wingbeat._base.nomenclature import NOMENCLATURE, for_people
+from wingbeat._base import NOMENCLATURE, Fault, for_people
 from wingbeat.animal.species.numbers import Number, display
 from wingbeat.results.rows import mass_of
 

@@ -6,8 +6,7 @@ import dataclasses
 import itertools
 from typing import Any
 
-from wingbeat._base.errors import FileError
-from wingbeat._base.files import read_text
+from wingbeat._base import FileError, read_text
 from wingbeat.animal.species.writing import species_text
 from wingbeat.models import MODELS
 from wingbeat.orbits.problem.problem import OrbitProblem

@@ -9,8 +9,7 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from wingbeat._base.errors import FaultList
-from wingbeat._base.files import make_folder
+from wingbeat._base import FaultList, make_folder
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.reading import species_names
 from wingbeat.animal.species.record import Species

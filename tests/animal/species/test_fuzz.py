@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from tests.helpers.species_texts import check_words
-from wingbeat._base.errors import FileError, InvalidInputError
+from wingbeat._base import FileError, InvalidInputError
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.numbers import KEYS, LOOKS, SHAPE
 from wingbeat.animal.species.reading import parse_setting, template

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from tests.helpers.species_texts import MINIMAL, faults_of
-from wingbeat._base.errors import FileError
+from wingbeat._base import FileError
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.reading import parse_setting
 

@@ -14,7 +14,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.species_texts import MINIMAL, faults_of
-from wingbeat._base.errors import InvalidInputError
+from wingbeat._base import InvalidInputError
 from wingbeat.animal.species.file_schema import json_schema
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.numbers import COLOURS, LOOKS, SHAPE

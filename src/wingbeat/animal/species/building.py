@@ -7,8 +7,7 @@ import math
 from collections.abc import Mapping
 from typing import Any, get_args, get_type_hints
 
-from wingbeat._base.errors import FaultList, InvalidInputError, suggest
-from wingbeat._base.nomenclature import plain_unit
+from wingbeat._base import FaultList, InvalidInputError, plain_unit, suggest
 from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat, parameter
 from wingbeat.animal.species.numbers import (
     DEFAULT,

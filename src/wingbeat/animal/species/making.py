@@ -9,8 +9,7 @@ from numbers import Real
 from pathlib import Path
 from typing import Any
 
-from wingbeat._base.errors import FaultList, suggest
-from wingbeat._base.files import read_text
+from wingbeat._base import FaultList, read_text, suggest
 from wingbeat.animal.species.building import (
     UNNAMED_PATHS,
     WHOLE,

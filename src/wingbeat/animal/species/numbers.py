@@ -8,9 +8,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from wingbeat._base.errors import IN_RADIANS, Fault
-from wingbeat._base.harmonics import FIRST_ORDER, HARMONIC_NAMES
-from wingbeat._base.nomenclature import find, plain, plain_unit
+from wingbeat._base import FIRST_ORDER, HARMONIC_NAMES, IN_RADIANS, Fault, find, plain, plain_unit
 
 DEFAULT = "not given: the default"
 

@@ -1,8 +1,8 @@
 """Laws for flight muscle, and for the tails of birds.
 
 The mass of the depressors and, for birds, the share of the elevators follow from the mass of the animal alone. The
-other numbers of muscle are constants. We found no published speed of shortening of a bird's flight muscle, so we
-derive it from the largest power of a cockatiel's pectoralis and the isometric stress. The stress is a guess, but its
+other numbers of muscle are constants. We found no published speed of shortening of a bird's flight muscle. It is
+derived from the largest power of a cockatiel's pectoralis and the isometric stress. The stress is a guess, but its
 product with the speed is measured.
 
 Length, area and arm of a tail follow from the bird's mass alone; the lift slope and the drag coefficient are

@@ -6,8 +6,7 @@ from collections.abc import Iterable, Iterator
 from importlib import resources
 from typing import Any
 
-from wingbeat._base.errors import FaultList, FileError
-from wingbeat._base.files import toml_tables
+from wingbeat._base import FaultList, FileError, toml_tables
 from wingbeat.animal.species.file_schema import KINDS, check_shape, dotted, has_shape
 from wingbeat.animal.species.numbers import (
     FREE,

@@ -8,9 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, cast
 
-from wingbeat._base.errors import FaultList, suggest
-from wingbeat._base.nomenclature import cf, for_people, plain_unit
-from wingbeat._base.reports import Block, Line, Report, Reported, Row, Table
+from wingbeat._base import Block, FaultList, Line, Report, Reported, Row, Table, cf, for_people, plain_unit, suggest
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.species.building import (
     BODY,

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from wingbeat._base.errors import FaultList, InvalidInputError, is_number
+from wingbeat._base import FaultList, InvalidInputError, is_number
 from wingbeat.animal.species.numbers import (
     COLOUR,
     COLOURS,

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, cast
 
-from wingbeat._base.nomenclature import NOMENCLATURE, for_people
-from wingbeat._base.reports import Report, Reported, grouped
+from wingbeat._base import NOMENCLATURE, Report, Reported, for_people, grouped
 from wingbeat.animal.species.numbers import bound_cells
 
 if TYPE_CHECKING:

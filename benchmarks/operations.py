@@ -17,13 +17,13 @@ from typing import Any
 import numpy as np
 
 import wingbeat as wb
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.orbits.flight.shooting import STEPS, _march, _tabulate, fly_part
 from wingbeat.orbits.starts import start_point
 
 BASELINE = Path(__file__).with_name("operations.json")
-# Traced under these names in `wingbeat._jax.elementary`; their polynomials count as operations as well.
+# Traced under these names in `wingbeat._jax.arrays`; their polynomials count as operations as well.
 POLYNOMIALS = ("sin", "atan2")
 TRANSCENDENTAL = ("exp", "log", "pow", "sqrt", "sin", "cos", "tan", "atan2", "tanh", "erf")
 MOVES = ("broadcast_in_dim", "reshape", "transpose", "slice", "squeeze", "concatenate", "convert_element_type")

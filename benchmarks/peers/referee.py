@@ -11,7 +11,7 @@ from physics import NUMPY, Flier, accelerations
 from scipy.integrate import solve_ivp
 
 import wingbeat as wb
-from wingbeat._jax.config import jax
+from wingbeat._jax.arrays import jax
 from wingbeat.mechanics.flights import state_rates
 from wingbeat.orbits.flight.beat import flown_beat
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat._version import __version__
 from wingbeat.aero import Dickinson, SuFan
 from wingbeat.animal.species.making import load_species

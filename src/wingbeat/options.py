@@ -1,7 +1,7 @@
 """Every tuning number of the solvers, with the measurement behind its default, in one place.
 
 >>> import wingbeat as wb
->>> wb.options.SolverOptions().search.max_iterations > 0
+>>> wb.options.SolverOptions().search.iterations > 0
 True
 """
 

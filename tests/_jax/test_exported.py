@@ -10,9 +10,9 @@ import pytest
 
 from wingbeat._jax import config
 from wingbeat._jax import exported as exporting
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
+from wingbeat._jax.config import kept_program, program_folder
 from wingbeat._jax.exported import exported, jit_soon
-from wingbeat._jax.program_cache import kept_program, program_folder
 
 
 @exported(static=("power",))

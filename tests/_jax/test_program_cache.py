@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from wingbeat._jax import program_cache
-from wingbeat._jax.program_cache import keep_program, kept_program, program_folder
+from wingbeat._jax import config
+from wingbeat._jax.config import keep_program, kept_program, program_folder
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="owners and modes of POSIX")
 NOT_KEPT = "warning: compiled programs are not kept ("
@@ -23,7 +23,7 @@ NOT_KEPT = "warning: compiled programs are not kept ("
 LITTLE = """
 import os, sys, jax
 from wingbeat._jax.exported import exported
-from wingbeat._jax.program_cache import cache_folder
+from wingbeat._jax.config import cache_folder
 def cube(x):
     return x * x * x
 def held():
@@ -181,7 +181,7 @@ def aged(folder: Path, ages: dict[str, float], size: int = 1000) -> None:
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The folder of an empty cache; every written program has the folder looked through."""
     monkeypatch.setenv("WINGBEAT_CACHE", str(tmp_path))
-    monkeypatch.setattr(program_cache, "_written", iter([0] * 100))
+    monkeypatch.setattr(config, "_written", iter([0] * 100))
     folder = program_folder()
     assert folder is not None
     return folder
@@ -201,7 +201,7 @@ def test_programs_that_nobody_uses_are_deleted_and_other_files_stay(cache: Path)
 
 
 def test_a_large_cache_loses_what_was_used_longest_ago(cache: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(program_cache, "KEPT_BYTES", 4500)
+    monkeypatch.setattr(config, "KEPT_BYTES", 4500)
     keep_program("traced-used", b"program")
     aged(cache, {f"compiled-{days}": days for days in range(2, 10)})
     os.utime(cache / "traced-used", times=(0, time.time() - 86400 * 20))
@@ -213,7 +213,7 @@ def test_a_large_cache_loses_what_was_used_longest_ago(cache: Path, monkeypatch:
 
 def test_a_program_that_is_deleted_in_use_is_made_again(tmp_path: Path) -> None:
     """Processes fill, read and empty a cache of one byte at the same time."""
-    program = "import wingbeat._jax.program_cache as c; c.KEPT_BYTES, c._LOOKED = 1, 1" + LITTLE
+    program = "import wingbeat._jax.config as c; c.KEPT_BYTES, c._LOOKED = 1, 1" + LITTLE
     command = [sys.executable, "-W", "error", "-c", program.replace("held() == after", "True")]
     settings = {**os.environ, "WINGBEAT_CACHE": str(tmp_path)}
     several = [subprocess.Popen(command, env=settings, stdout=subprocess.PIPE, text=True) for _ in range(2)]

@@ -3,9 +3,8 @@
 import jax.export
 import numpy as np
 
-from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.elementary import cos, sin
-from wingbeat._jax.repeats import without_repeats
+from wingbeat._jax.arrays import cos, jax, jnp, sin
+from wingbeat._jax.exported import without_repeats
 
 ANGLES = np.linspace(-3, 3, 8)
 

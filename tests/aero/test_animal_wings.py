@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 import wingbeat as wb
 from tests.helpers.coefficients import by_the_lifting_line, check_derivative_in_numbers, value_slope_curvature
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.aero import (
     WING_ESTIMATES,
     CamberedCoefficients,

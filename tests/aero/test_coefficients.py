@@ -10,7 +10,7 @@ from scipy.optimize import brentq, minimize_scalar
 
 from tests.helpers.coefficients import check_derivative_in_numbers, coefficients
 from wingbeat._base import InvalidInputError
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.aero import (
     LIBRARY,
     BladeElement,

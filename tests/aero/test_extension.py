@@ -8,8 +8,7 @@ from hypothesis import given, seed, settings
 from hypothesis import strategies as st
 
 from tests.helpers.coefficients import coefficients, value_slope_curvature
-from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.elementary import horner
+from wingbeat._jax.arrays import horner, jax, jnp
 from wingbeat.aero import EXTENSIONS, LIBRARY, Dickinson, FormulaCoefficients, FormulaTerms, SuFan
 from wingbeat.aero.blends import Blend, Jet, even_blend, jet_of, odd_blend
 

@@ -149,7 +149,7 @@ def test_two_functions_of_one_name_are_two():
 PROGRAM = """
 import sys, numpy as np, jax.numpy as jnp, wingbeat as wb
 from wingbeat._jax.exported import exported
-from wingbeat._jax.program_cache import cache_folder
+from wingbeat._jax.config import cache_folder
 @exported
 def lift(kernel, alpha):
     return kernel.lift_drag(alpha)[0]

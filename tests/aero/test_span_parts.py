@@ -9,7 +9,7 @@ import pytest
 import wingbeat as wb
 from tests.helpers.programs import compiled
 from wingbeat._base import InvalidInputError
-from wingbeat._jax.config import jax
+from wingbeat._jax.arrays import jax
 from wingbeat.aero.blade_element import BladeElement, strip_forces
 from wingbeat.aero.span_parts import UpstrokeKernel, count_arm_strips
 from wingbeat.results.provenance import inputs_of, problem_from

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 from wingbeat.aero.blade_element import strip_forces, with_turning
 from wingbeat.aero.unsteady import added_inertia, added_mass, damping_couple, rotation_force, rotation_lift
 

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from tests.helpers.programs import compiled
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 
 # Angles that are evaluated together: one length, so that each form of kernel is traced once.
 TOGETHER = 2048

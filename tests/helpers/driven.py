@@ -3,7 +3,7 @@
 Flights with as many knots and times as each other share one compiled program.
 """
 
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 
 # Pieces of a beat, and how many of them lie between two of the times asked for.
 KNOTS, BETWEEN = 2048, 128

@@ -5,7 +5,7 @@ import gc
 import sys
 from pathlib import Path
 
-from wingbeat._jax.config import jax
+from wingbeat._jax.arrays import jax
 from wingbeat._jax.exported import StoredFunction
 
 # Above this a process lets go of its programs [bytes]. They come back from disk, an orbit's in a second.

@@ -1,7 +1,7 @@
 """Flight models that differ in one thing."""
 
 from wingbeat import FlightModel
-from wingbeat._jax.config import unchecked
+from wingbeat._jax.arrays import unchecked
 
 
 def changed(model, **fields):

@@ -1,6 +1,6 @@
 """Programs of the tests' own, compiled as most of the package's are."""
 
-from wingbeat._jax.config import jax
+from wingbeat._jax.arrays import jax
 from wingbeat._jax.exported import _SOON_ON_CPU
 
 

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 
 import wingbeat as wb
 from tests.helpers.programs import compiled
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.mechanics.flight_loads import flight_loads
 from wingbeat.mechanics.flights import state_rates
 

@@ -11,7 +11,7 @@ from tests.helpers.differences import flow_of, rates_along
 from tests.helpers.models import changed
 from tests.helpers.programs import compiled
 from tests.helpers.reflight import refly, refly_many
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.mechanics.equations_of_motion import generalised_torques
 
 EXACT = 1e-11

@@ -10,7 +10,7 @@ import pytest
 import wingbeat as wb
 from tests.helpers import oracle
 from tests.helpers.models import changed
-from wingbeat._jax.config import jax
+from wingbeat._jax.arrays import jax
 from wingbeat.mechanics.flight_model import body_rates, motion_table
 
 TOLERANCE = 1e-9

@@ -12,7 +12,7 @@ from tests.helpers.differences import miss as of_jacobians
 from tests.helpers.models import changed
 from tests.helpers.programs import compiled
 from tests.helpers.tail_oracle import moment, tail_load
-from wingbeat._jax.config import jax, jnp, unchecked
+from wingbeat._jax.arrays import jax, jnp, unchecked
 from wingbeat.mechanics.body_dynamics import body_air
 from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.orbits.problem.parameters import parameters_of

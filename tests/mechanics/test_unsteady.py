@@ -29,7 +29,7 @@ from tests.helpers.unsteady_flights import (
     section,
     states_at,
 )
-from wingbeat._jax.config import jax, jnp, unchecked
+from wingbeat._jax.arrays import jax, jnp, unchecked
 from wingbeat.mechanics.beat_by_beat import fly_beats
 from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.results.dataset import evaluate

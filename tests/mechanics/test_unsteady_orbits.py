@@ -20,7 +20,7 @@ from tests.helpers.unsteady_flights import (
     loads,
     states_at,
 )
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 from wingbeat.mechanics.beat_by_beat import fly_beats
 from wingbeat.mechanics.flight_model import air_loads, motion_table
 from wingbeat.mechanics.wing_motion import stroke_attitude

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 import wingbeat as wb
 from tests.helpers.programs import compiled
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.mechanics.frames import stroke_pitch, to_world
 from wingbeat.mechanics.wing_motion import mass_points, shape_at, strips_of, wing_motion, with_time_axes
 

@@ -14,7 +14,7 @@ from tests.helpers.differences import differences, miss
 from tests.helpers.models import changed
 from tests.helpers.programs import compiled
 from wingbeat._base import HARMONIC_NAMES
-from wingbeat._jax.config import jax
+from wingbeat._jax.arrays import jax
 from wingbeat.animal.kinematics import (
     FREE_NAMES,
     chord_ratio,

@@ -10,7 +10,7 @@ import wingbeat as wb
 from tests.helpers.differences import differences, miss
 from tests.helpers.programs import compiled
 from tests.helpers.reflight import refly_many
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.animal.kinematics import unpack
 from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.orbits.flight.certify import certify

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from wingbeat._jax.config import jax
+from wingbeat._jax.arrays import jax
 from wingbeat.orbits.flight.path_maxima import PARTS, WeightedSamples, highest, peak_weights, peaks, spread
 
 PEAKS = jax.jit(peaks)

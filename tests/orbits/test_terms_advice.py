@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from wingbeat._jax.config import jax
+from wingbeat._jax.arrays import jax
 from wingbeat.mechanics.flight_loads import flight_loads
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.infeasible import relaxed_problem

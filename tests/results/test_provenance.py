@@ -9,7 +9,7 @@ import xarray as xr
 
 import wingbeat as wb
 from wingbeat._base import SERIES
-from wingbeat._jax.config import jax
+from wingbeat._jax.arrays import jax
 from wingbeat.results.aero_record import aero_record
 from wingbeat.results.provenance import inputs_of, problem_from
 from wingbeat.results.storage import inputs_hash, orbit_attributes, save_dataset

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 from wingbeat.cli import main
 from wingbeat.plots import stability_page
 from wingbeat.stability.linear_report import headline

@@ -10,7 +10,7 @@ from scipy.linalg import expm
 import wingbeat as wb
 from tests.helpers.programs import compiled
 from tests.helpers.reflight import dop853, refly_many
-from wingbeat._jax.config import jax
+from wingbeat._jax.arrays import jax
 from wingbeat.animal.kinematics import parameter, with_parameters
 from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.mechanics.flights import state_rates

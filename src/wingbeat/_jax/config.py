@@ -1,40 +1,35 @@
-"""JAX as the package uses it: with float64, a compilation cache on disk, and records as pytrees."""
+"""JAX as the package uses it: with float64, under settings of its own, and with its programs kept on disk.
+
+A program that is read from disk is executed. So it is used only if the user wrote its file and the file is
+undamaged: a changed bit in machine code gives wrong numbers or ends the process. Otherwise it is made again.
+"""
 
 from __future__ import annotations
 
-import dataclasses
 import functools
+import hashlib
+import hmac
+import itertools
+import logging
 import os
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+import re
+import secrets
+import stat
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from typing import Any, ParamSpec, TypeVar
+from typing import ParamSpec, TypeVar
 
 import jax
-import jax.numpy as jnp
-from jax._src import compilation_cache
-from jax._src import config as state
-from jax._src.core import trace_state_clean
+import jax.numpy as jnp  # noqa: F401  # who takes it from here has the settings
 
-from wingbeat._base.errors import Fault, InvalidInputError
-from wingbeat._jax.program_cache import keep_program, kept_program, program_folder
-
-__all__ = ["at_default", "in_own_settings", "jax", "jnp", "own_settings", "register_record", "unchecked"]
+from wingbeat._base.errors import Fault, FileError, InvalidInputError, system_reason
+from wingbeat._base.files import write_atomically
+from wingbeat._jax.private import GUARDS, OWN, chosen_platforms, replace_file_cache, trace_state_clean
 
 T = TypeVar("T")
 P = ParamSpec("P")
-# Settings of JAX under which the package computes. A host program may choose others for its own work, for the whole
-# process or in a thread: float32 would spoil every result without a message, the rest would end in errors of JAX.
-_OWN: tuple[tuple[Any, Any], ...] = (
-    (state.enable_x64, True),
-    (state.numpy_rank_promotion, "allow"),
-    (state.numpy_dtype_promotion, "standard"),
-    (state.disable_jit, False),
-    (state.debug_nans, False),  # a search tries wingbeats whose flight runs off
-    (state.debug_infs, False),
-    (state.default_device, None),  # programs and their inputs are then on one device
-)
-_GUARDS = (state.transfer_guard_host_to_device, state.transfer_guard_device_to_host)
 
 
 def _configure() -> None:
@@ -53,10 +48,10 @@ def _configure() -> None:
 
 
 class _Checked:
-    """JAX's cache of compiled programs; `program_cache` checks its files, because JAX would run any file."""
+    """JAX's cache of compiled programs, whose files are checked here, because JAX would run any file."""
 
     def __init__(self, folder: Path) -> None:
-        self._path = folder
+        self._path = folder  # which JAX names in messages
 
     def get(self, key: str) -> bytes | None:
         """Return the compiled program of this key; None if its file is missing, damaged, or another user's."""
@@ -69,20 +64,12 @@ class _Checked:
 
 def _keep_compiled(folder: Path) -> None:
     """Make JAX store compiled programs in the folder, and read only files that have not changed since."""
-    theirs = compilation_cache.get_file_cache
-
-    def opened(path: str) -> Any:
-        return (_Checked(folder), path) if path == str(folder) else theirs(path)
-
-    compilation_cache.get_file_cache = opened
+    replace_file_cache(str(folder), _Checked(folder))
     jax.config.update("jax_compilation_cache_dir", str(folder))
     # XLA would read its own files there without a check, and they would be useless in a folder that has moved.
     jax.config.update("jax_persistent_cache_enable_xla_caches", "none")
     jax.config.update("jax_persistent_cache_min_compile_time_secs", 0.0)
     jax.config.update("jax_persistent_cache_min_entry_size_bytes", 0)
-
-
-_configure()
 
 
 @functools.cache
@@ -92,7 +79,7 @@ def _start() -> None:
         jax.default_backend()
     except (AssertionError, RuntimeError) as error:
         reason, fix = str(error).split("\n")[0] or "this JAX does not know it", "set JAX_PLATFORMS=cpu"
-        fault = Fault("jax_platforms", state.jax_platforms.value, f"cannot be started: {reason}", fix)
+        fault = Fault("jax_platforms", chosen_platforms(), f"cannot be started: {reason}", fix)
         raise InvalidInputError([fault]) from None
 
 
@@ -107,13 +94,13 @@ def own_settings() -> Iterator[None]:
     InvalidInputError : JAX cannot start on the platform that was chosen.
     """
     _start()
-    if all(setting.value == own for setting, own in _OWN) and not any(guard.value for guard in _GUARDS):
+    if all(setting.value == own for setting, own in OWN) and not any(guard.value for guard in GUARDS):
         yield
         return
     with ExitStack() as stack:
-        for setting, own in _OWN:
+        for setting, own in OWN:
             stack.enter_context(setting(own))
-        for guard in _GUARDS:
+        for guard in GUARDS:
             stack.enter_context(guard("allow"))
         yield
 
@@ -134,52 +121,149 @@ def in_own_settings(function: Callable[P, T]) -> Callable[P, T]:
     return settled
 
 
-def unchecked(cls: type[T], fields: Mapping[str, Any]) -> T:
-    """Return a record of these fields without its constructor's checks, which cannot evaluate JAX tracers."""
-    record = object.__new__(cls)
-    for name, value in fields.items():
-        object.__setattr__(record, name, value)
-    return record
+# --- programs on disk, in a folder that belongs to the user, each with a digest ---
+
+# How long a program is kept without being used [s], and how large all programs together may be [bytes]. The 25
+# programs of one orbit take 1.7 MB, those of all commands and tests with the changes of some months 98 MB in 2268
+# files. A new version of wingbeat, JAX or Python makes all of them anew and never uses the old ones again. To look
+# through 2268 files takes 10 to 20 ms, as long as it takes to compile the smallest program.
+KEPT_SECONDS = 90 * 86400
+KEPT_BYTES = 512 << 20
+# A use is noted once a day, so that reading a program seldom writes. The folder is looked through when a process
+# writes its first program, and after so many more.
+_NOTED_SECONDS = 86400
+_LOOKED = 100
+# Names of programs, and of what `write_atomically` leaves of one if its process is killed.
+_OWN_NAME = re.compile(r"(traced|compiled)-.*|(?P<rest>\.[0-9a-f]{12}\.part)")
+_written = itertools.count()
+_MAGIC = b"wingbeat program 1\n"
+_DIGEST = 32  # bytes
+_OTHERS_WRITE = stat.S_IWGRP | stat.S_IWOTH
+_OPENING = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
 
 
-def at_default(record: Any, name: str) -> bool:
-    """Say whether an optional field has its default, the number that switches it off; an array is never off."""
-    value = getattr(record, name)
-    return isinstance(value, int | float) and value == getattr(type(record), name)
+def cache_folder() -> Path:
+    """Return the user's cache folder for wingbeat (``WINGBEAT_CACHE`` overrides it).
 
-
-def register_record(
-    cls: type[T] | None = None, *, static: tuple[str, ...] = (), optional: tuple[str, ...] = ()
-) -> Any:
-    """Make a frozen dataclass a pytree; the copies that JAX makes of a record skip the constructor's checks.
-
-    The checks apply to user input. Inside compiled functions, JAX rebuilds the records from tracers, and a check
-    cannot evaluate a tracer. Fields named in `static` (names, counts) are part of the compiled function; all others
-    are data. A field named in `optional` is data only if it differs from its default, so a term that is off adds
-    nothing to the program.
+    Raises
+    ------
+    RuntimeError : the user has no home folder.
     """
-    if cls is None:
-        return functools.partial(register_record, static=static, optional=optional)
-    names = [field.name for field in dataclasses.fields(cls) if field.name not in static]  # type: ignore[arg-type]
+    if chosen := os.environ.get("WINGBEAT_CACHE"):
+        return Path(chosen)
+    return Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache").expanduser() / "wingbeat"
 
-    def held(record: Any) -> tuple[list[str], tuple[Any, ...]]:
-        off = tuple(name for name in optional if at_default(record, name))
-        values = tuple(getattr(record, name) for name in static)
-        return [name for name in names if name not in off], (off, *values) if optional else values
 
-    def flatten(record: Any) -> tuple[list[Any], tuple[Any, ...]]:
-        kept, aux = held(record)
-        return [getattr(record, name) for name in kept], aux
+def program_folder() -> Path | None:
+    """Return the folder of programs, which no other user can write to; None if it cannot be made."""
+    try:
+        return _private(cache_folder() / f"programs-{_user()}")
+    except RuntimeError as error:
+        return _without(str(error))
 
-    def flatten_with_keys(record: Any) -> tuple[list[Any], tuple[Any, ...]]:
-        kept, aux = held(record)
-        return [(jax.tree_util.GetAttrKey(name), getattr(record, name)) for name in kept], aux
 
-    def unflatten(aux: tuple[Any, ...], leaves: Any) -> Any:
-        off, values = (aux[0], aux[1:]) if optional else ((), aux)
-        fields = {name: getattr(cls, name) for name in off}
-        fields |= zip([name for name in names if name not in off], leaves, strict=True)
-        return unchecked(cls, fields | dict(zip(static, values, strict=True)))
+def kept_program(name: str) -> bytes | None:
+    """Return the program kept under a name; None if it is missing, damaged, or written by another user."""
+    folder = program_folder()
+    if folder is None:
+        return None
+    try:
+        with open(os.open(folder / name, _OPENING), "rb") as file:
+            found = os.fstat(file.fileno())
+            if not stat.S_ISREG(found.st_mode) or not _is_own(found):
+                return None
+            content = file.read()
+            if found.st_mtime < time.time() - _NOTED_SECONDS:
+                with suppress(OSError):
+                    os.utime(folder / name)
+    except (OSError, ValueError):
+        return None
+    begin = len(_MAGIC) + _DIGEST
+    program = content[begin:]
+    whole = hmac.compare_digest(content[:begin], _MAGIC + _digest(name, program))
+    return program if whole else None
 
-    jax.tree_util.register_pytree_with_keys(cls, flatten_with_keys, unflatten, flatten)
-    return cls
+
+def keep_program(name: str, program: bytes) -> None:
+    """Keep a program under a name; if it cannot be written, it is compiled again next time."""
+    folder = program_folder()
+    if folder is not None:
+        with suppress(FileError, OSError):
+            write_atomically(folder / name, _MAGIC + _digest(name, program) + program)
+            if next(_written) % _LOOKED == 0:
+                _prune(folder)
+
+
+def _prune(folder: Path) -> None:
+    """Delete programs that were not used for long, and then those used longest ago until the rest is small enough.
+
+    A process that looks for a deleted program makes it again; one that is reading it has it to its end.
+    """
+    found, now, total = [], time.time(), 0
+    with os.scandir(folder) as entries:
+        for entry in entries:
+            with suppress(OSError):  # another process has deleted it
+                held = entry.stat(follow_symlinks=False)
+                if (name := _OWN_NAME.fullmatch(entry.name)) and stat.S_ISREG(held.st_mode) and _is_own(held):
+                    found.append((held.st_mtime, held.st_size, entry.path, name["rest"]))
+    for used, size, path, rest in sorted(found, reverse=True):
+        total += size
+        if now - used > (_NOTED_SECONDS if rest else KEPT_SECONDS) or total > KEPT_BYTES:
+            with suppress(OSError):  # in use, on Windows
+                os.unlink(path)
+
+
+def _digest(name: str, program: bytes) -> bytes:
+    """Return a digest of a program and its name, so that a renamed file does not match."""
+    digest = hashlib.blake2b(name.encode() + b"\0", digest_size=_DIGEST)
+    digest.update(program)
+    return digest.digest()
+
+
+def _user() -> int:
+    return os.geteuid() if hasattr(os, "geteuid") else 0
+
+
+def _is_own(found: os.stat_result) -> bool:
+    return not hasattr(os, "geteuid") or found.st_uid == os.geteuid()
+
+
+@functools.cache
+def _private(folder: Path) -> Path | None:
+    """Return the folder, created if missing; None if it cannot be made or belongs to another user."""
+    try:
+        folder.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        _make(folder)
+        found = os.lstat(folder)
+        if not stat.S_ISDIR(found.st_mode):
+            return _without(f"{str(folder)!r} is not a folder")
+        if not _is_own(found):
+            return _without(f"{str(folder)!r} belongs to another user")
+        if os.name == "posix" and found.st_mode & _OTHERS_WRITE:
+            # Anyone may have put anything there.
+            folder.rename(folder.with_name(f"{folder.name}-not-private-{secrets.token_hex(4)}"))
+            _make(folder)
+        elif os.name == "posix" and stat.S_IMODE(found.st_mode) & 0o077:
+            folder.chmod(0o700)
+    except (OSError, ValueError) as error:
+        reason = system_reason(error)
+        return _without(f"cannot make the folder {str(folder)!r}: {reason}")
+    return folder
+
+
+def _make(folder: Path) -> None:
+    with suppress(FileExistsError):
+        folder.mkdir(mode=0o700)
+
+
+@functools.cache
+def _without(reason: str) -> None:
+    """Log one warning that says why programs are not kept; Python prints it if no logging is set up."""
+    logging.getLogger("wingbeat").warning(
+        "warning: compiled programs are not kept (%s), so every start takes longer; set WINGBEAT_CACHE to a folder "
+        "of your own",
+        reason,
+    )
+
+
+_configure()

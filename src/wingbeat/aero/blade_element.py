@@ -13,9 +13,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._base import FaultList, InvalidInputError
-from wingbeat._jax.config import jnp
-from wingbeat._jax.elementary import atan2
-from wingbeat._jax.elementwise_jvp import elementwise_jvp
+from wingbeat._jax.arrays import atan2, elementwise_jvp, jnp
 from wingbeat.aero.choosing import coefficients_of
 from wingbeat.aero.inflow import INFLOWS
 from wingbeat.aero.sectional import sectional_kernel

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.elementary import horner
+from wingbeat._jax.arrays import horner, jax, jnp
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Angles, Scalar

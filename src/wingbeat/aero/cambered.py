@@ -20,7 +20,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._base import FaultList
-from wingbeat._jax.config import jnp, register_record
+from wingbeat._jax.arrays import jnp, register_record
 from wingbeat._jax.exported import exported
 from wingbeat.aero.blends import Blend, jet_of
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspect_ratio

@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from wingbeat._base import Fault, FaultList, InvalidInputError
-from wingbeat._jax.config import in_own_settings, jax
+from wingbeat._jax.arrays import jax
+from wingbeat._jax.config import in_own_settings
 from wingbeat.aero.table_checks import MAX_DRAG
 
 if TYPE_CHECKING:

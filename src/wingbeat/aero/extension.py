@@ -28,8 +28,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 import numpy as np
 
 from wingbeat._base import FaultList
-from wingbeat._jax.config import jnp
-from wingbeat._jax.elementary import horner
+from wingbeat._jax.arrays import horner, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.aero.blends import Blend, Function, Jet, Jets, even_blend, jet_of, odd_blend
 

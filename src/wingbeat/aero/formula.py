@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._base import FaultList
-from wingbeat._jax.config import jnp, register_record
-from wingbeat._jax.elementary import sin
+from wingbeat._jax.arrays import jnp, register_record, sin
 from wingbeat.aero.coefficient_model import CoefficientModel, check_aspect_ratio
 from wingbeat.aero.extension import ExtendedKernel, check_extension, extend
 

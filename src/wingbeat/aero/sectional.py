@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from wingbeat._base import Fault, InvalidInputError
-from wingbeat._jax.config import jnp
-from wingbeat._jax.elementary import horner
+from wingbeat._jax.arrays import horner, jnp
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
 
 if TYPE_CHECKING:

@@ -10,8 +10,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
-from wingbeat._jax.config import jnp, register_record
-from wingbeat._jax.elementary import horner, sin
+from wingbeat._jax.arrays import horner, jnp, register_record, sin
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Angles, Scalar

@@ -11,8 +11,7 @@ import numpy as np
 
 from wingbeat._base import FaultList
 from wingbeat._base.sheets import Sheet, same_name
-from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.elementary import horner
+from wingbeat._jax.arrays import horner, jax, jnp
 from wingbeat.aero.blends import Jet
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspect_ratio
 from wingbeat.aero.extension import check_drag_of_joins, check_extension, extend

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Series

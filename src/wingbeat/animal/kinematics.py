@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._base import FIRST_ORDER, HARMONIC_NAMES, HIGHEST_ORDER, SHARES, FaultList, harmonic_place
-from wingbeat._jax.config import at_default, jnp, register_record, unchecked
-from wingbeat._jax.elementary import atan2, cos, sin
+from wingbeat._jax.arrays import at_default, atan2, cos, jnp, register_record, sin, unchecked
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Parameters, Phases, Scalar

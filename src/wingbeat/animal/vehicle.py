@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from wingbeat._base import FaultList
-from wingbeat._jax.config import register_record
+from wingbeat._jax.arrays import register_record
 
 # Density of muscle [kg/m3]: Mendez and Keys 1960, Metabolism 9:184.
 MUSCLE_DENSITY = 1060.0

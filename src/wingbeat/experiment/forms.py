@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import FaultList
-from wingbeat._jax.config import jax, unchecked
+from wingbeat._jax.arrays import jax, unchecked
 from wingbeat.aero.cambered import CamberedTerms
 from wingbeat.aero.coefficient_model import at_angles
 from wingbeat.aero.formula import CentreTerms, FormulaTerms

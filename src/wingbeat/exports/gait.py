@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from wingbeat._base import NOMENCLATURE, FaultList, Term
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 from wingbeat._jax.exported import jit_soon
 from wingbeat.animal.kinematics import (
     Wingbeat,

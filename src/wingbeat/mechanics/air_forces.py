@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 from wingbeat.aero.blade_element import StripForces, strip_forces, with_turning
 from wingbeat.aero.unsteady import added_inertia, added_mass
 from wingbeat.animal.kinematics import Wingbeat, span_ratio

@@ -10,9 +10,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._jax.config import jnp
-from wingbeat._jax.elementary import cos, sin
-from wingbeat._jax.elementwise_jvp import computed_once, fusion_barrier
+from wingbeat._jax.arrays import computed_once, cos, fusion_barrier, jnp, sin
 from wingbeat.aero.blade_element import StripForces, strip_forces
 from wingbeat.aero.tail import tail_force
 from wingbeat.animal.vehicle import Vehicle

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from wingbeat._base import FaultList
-from wingbeat._jax.config import at_default, jnp, register_record, unchecked
-from wingbeat._jax.elementwise_jvp import elementwise_jvp
+from wingbeat._jax.arrays import at_default, elementwise_jvp, jnp, register_record, unchecked
 from wingbeat.aero.blade_element import BladeElement, blade_element_of
 from wingbeat.aero.inflow import check_descent, disc_area, induced_flow
 from wingbeat.animal.kinematics import Wingbeat

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from wingbeat._base import FaultList
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported, jit_soon
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.equations_of_motion import accelerations_from_torques

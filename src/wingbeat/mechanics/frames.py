@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from wingbeat._jax.elementary import cos, sin
+from wingbeat._jax.arrays import cos, sin
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Component, Pair, Triple

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, unpack
 from wingbeat.mechanics.equations_of_motion import air_forces, equations_of_motion

@@ -7,7 +7,7 @@ import operator
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import PerStrip, PerStripBroadcast, Phases, Sums

@@ -10,8 +10,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._jax.config import at_default, jax, jnp
-from wingbeat._jax.elementary import cos, sin
+from wingbeat._jax.arrays import at_default, cos, jax, jnp, sin
 from wingbeat.animal.kinematics import (
     Wingbeat,
     chord_ratio,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import PerStripBroadcast, Phases, Triple

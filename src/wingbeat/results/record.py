@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from wingbeat._base.datasets import SHAPE, at_station
-from wingbeat._jax.config import at_default
+from wingbeat._jax.arrays import at_default
 from wingbeat._version import __version__
 from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.animal.species.record import Species

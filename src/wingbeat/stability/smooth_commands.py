@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from wingbeat._base import FIRST_ORDER
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, parameter, unpack, with_parameters
 from wingbeat.stability.inputs import LAWS, Compensation, law_jumps, laws_at

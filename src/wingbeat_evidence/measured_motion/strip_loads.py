@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._jax.config import in_own_settings, jax, jnp
+from wingbeat._jax.arrays import jax, jnp
+from wingbeat._jax.config import in_own_settings
 from wingbeat.aero.blade_element import BladeElement, StripForces, strip_forces, with_turning
 from wingbeat.aero.coefficient_model import Kernel
 from wingbeat.aero.inflow import disc_area, induced_flow

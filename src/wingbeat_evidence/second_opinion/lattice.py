@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wingbeat._base import FaultList
-from wingbeat._jax.config import unchecked
+from wingbeat._jax.arrays import unchecked
 from wingbeat_evidence.second_opinion.motion import Motion
 from wingbeat_evidence.second_opinion.own_loads import WingLoads
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import State

@@ -6,7 +6,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._jax.config import in_own_settings, jax, jnp
+from wingbeat._jax.arrays import jax, jnp
+from wingbeat._jax.config import in_own_settings
 from wingbeat._jax.exported import exported
 from wingbeat.aero.blade_element import BladeElement
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle

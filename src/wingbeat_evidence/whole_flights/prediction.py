@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._base import FaultList, Report, Reported, drawn
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 from wingbeat.animal.species.making import load_species
 from wingbeat.models import model_of
 from wingbeat.orbits.many.uncertainty import Samples, sample_orbits

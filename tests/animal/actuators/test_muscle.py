@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wingbeat as wb
-from wingbeat._jax.config import jax
+from wingbeat._jax.arrays import jax
 from wingbeat.animal.actuators import (
     activation,
     best_efficiency,

@@ -7,7 +7,7 @@ import numpy as np
 import wingbeat as wb
 from tests.evidence.second_opinion.test_geometry import RICH
 from tests.helpers.given_motion import PIGEON, given_motion
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 from wingbeat_evidence.second_opinion.motion import Motion
 from wingbeat_evidence.second_opinion.own_loads import own_loads
 

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._jax.config import jax, jnp
-from wingbeat._jax.elementwise_jvp import fusion_barrier
+from wingbeat._jax.arrays import fusion_barrier, jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, chord_ratio, flap_angle, pitch_angle, unpack
 from wingbeat.animal.vehicle import Drive

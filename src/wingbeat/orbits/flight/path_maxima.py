@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Columns, Indices, Quarters, SampledSeries, SamplesOfPeaks

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.mechanics.clearance import LEADING, TRAILING, flap_angles, lateral_corner, lateral_corners

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.orbits.nlp.levenberg_marquardt import least_squares
 from wingbeat.orbits.nlp.transcription import Transcription

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat._jax.config import jax
+from wingbeat._jax.arrays import jax
 from wingbeat.orbits.nlp.newton_kkt import ReducedHessian
 from wingbeat.orbits.options.continuation import ContinuationOptions
 from wingbeat.orbits.options.solver import DEFAULTS

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from wingbeat._base import NOMENCLATURE, plain
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.orbits.problem.quantity import Quantity
 
 if TYPE_CHECKING:

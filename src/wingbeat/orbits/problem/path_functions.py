@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from wingbeat._base import Fault, InvalidInputError, first_line
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported, jit_soon
 from wingbeat.animal.vehicle import Drive
 from wingbeat.orbits.flight.beat import Beat

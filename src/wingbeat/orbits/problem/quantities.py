@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wingbeat._base import NOMENCLATURE, FaultList, plain, plain_unit, suggest
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.path_maxima import spread
 from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.animal.actuators import spring_torque
 from wingbeat.orbits.flight.beat import Beat, mean_positive
 

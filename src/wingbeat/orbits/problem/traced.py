@@ -6,7 +6,7 @@ import functools
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.orbits.flight.beat import BY_STRIP, NUMBERS, Beat
 from wingbeat.orbits.flight.path_maxima import PARTS
 

@@ -23,16 +23,24 @@ from wingbeat._base.errors import (
     system_reason,
 )
 from wingbeat._base.files import MAX_LINE, make_folder, read_text, toml_tables, write_atomically, writing
-from wingbeat._base.harmonics import FIRST_ORDER, HARMONIC_NAMES, HIGHEST_ORDER, SHARES, harmonic_place
 from wingbeat._base.nomenclature import (
+    FIRST_ORDER,
+    GLIDE,
+    HARMONIC_NAMES,
+    HIGHEST_ORDER,
     NOMENCLATURE,
     PRECISION,
+    RUN,
+    SERIES,
+    SERIES_WHERE_ON,
+    SHARES,
     Term,
     attributes_of,
     axis_label,
     cf,
     find,
     for_people,
+    harmonic_place,
     label_of,
     plain,
     plain_unit,
@@ -40,9 +48,20 @@ from wingbeat._base.nomenclature import (
     written,
     written_range,
 )
-from wingbeat._base.nomenclature.answers import ANSWER, BEAT, STUDY
-from wingbeat._base.nomenclature.given import AERO, GIVEN, RUN, WINGBEAT
-from wingbeat._base.nomenclature.series import GLIDE, SERIES, SERIES_WHERE_ON
-from wingbeat._base.reports import Block, Line, Notes, Report, Reported, Row, Table, Tone, drawn, grouped
-from wingbeat._base.reports.html import html_of
-from wingbeat._base.reports.text import WIDTH, Printed, lines_of, text_of
+from wingbeat._base.reports import (
+    WIDTH,
+    Block,
+    Line,
+    Notes,
+    Printed,
+    Report,
+    Reported,
+    Row,
+    Table,
+    Tone,
+    drawn,
+    grouped,
+    html_of,
+    lines_of,
+    text_of,
+)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import secrets
 import stat
 import tomllib
 from collections.abc import Iterator
@@ -134,7 +133,7 @@ def writing(path: str | os.PathLike[str]) -> Iterator[Path]:
         if target.exists() and not target.is_file():
             kind = "a folder" if target.is_dir() else "not a plain file"
             raise FileError(f"cannot write {_shown(path)}: it is {kind}; give the path of a file")
-        candidate = target.with_name(f".{secrets.token_hex(6)}.part{target.suffix}")
+        candidate = target.with_name(f".{os.urandom(6).hex()}.part{target.suffix}")
         with Leftover(candidate.unlink):
             # Created here and not by the writer: a folder without permission is refused before hours of work.
             os.close(os.open(candidate, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from wingbeat._base import GLIDE, NOMENCLATURE, SERIES, cf, find, label_of, plain
+from wingbeat._base import GLIDE, HIGHEST_ORDER, NOMENCLATURE, SERIES, cf, find, label_of, plain
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.animal.kinematics import PARAMETER_NAMES
 from wingbeat.animal.species.numbers import FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE
@@ -29,6 +29,12 @@ def test_each_name_is_its_own_and_has_a_label():
         assert term.name == name
         assert term.label.strip(), name
         assert cf(plain(term.unit)) == term.unit, name
+
+
+def test_meanings_of_the_harmonics_name_the_highest_order():
+    said = [term for name, term in NOMENCLATURE.items() if name.endswith("_harmonics")]
+    assert all(f"up to order {HIGHEST_ORDER}" in term.meaning for term in said)
+    assert len(said) == 6
 
 
 def test_every_series_of_an_orbit_is_said_by_the_table(solved):
@@ -109,7 +115,7 @@ def _lists_of_units(tree):
 def test_no_other_module_keeps_a_list_of_units():
     found = {}
     for path in sorted(SOURCE.rglob("*.py")):
-        if "nomenclature" not in path.parts and (lists := [*_lists_of_units(ast.parse(path.read_text()))]):
+        if path.name != "nomenclature.py" and (lists := [*_lists_of_units(ast.parse(path.read_text()))]):
             found[str(path.relative_to(SOURCE))] = lists
     assert found.keys() == EXCEPTIONS
 

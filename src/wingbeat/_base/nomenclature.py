@@ -2,8 +2,8 @@
 
 Records, data sets, studies, figures, pages and the explorer use the table, `nomenclature.csv`. Units are SI in CF
 form: ``m s-1``. For readers, `plain` writes ``m/s``, `for_people` converts to degrees, and `written` gives a number
-the digits that it deserves. If the last part of a dotted name has several meanings, the table's name includes the part
-before it: ``wing.mass``.
+the digits that it deserves. If the last part of a dotted name has several meanings, the name in the table includes
+the part before it: ``wing.mass``.
 """
 
 from __future__ import annotations

@@ -27,8 +27,8 @@ from typing import NamedTuple
 import wingbeat as wb
 from wingbeat._workers.main import Context
 from wingbeat.studies.dask_engine import DaskEngine
-from wingbeat.studies.driver import Stop
 from wingbeat.studies.engine import Ended, Engine, LocalProcesses
+from wingbeat.studies.stopping import Stop
 from wingbeat.studies.store import Store
 from wingbeat.studies.units import Outcome, Unit
 

@@ -31,8 +31,8 @@ import wingbeat as wb
 from wingbeat.cli import main as wingbeat
 from wingbeat.cli import study as commands
 from wingbeat.studies import study as studies
-from wingbeat.studies.driver import Stop
 from wingbeat.studies.engine import Ended
+from wingbeat.studies.stopping import Stop
 from wingbeat.studies.store import Store
 from wingbeat.studies.units import Outcome, Unit
 

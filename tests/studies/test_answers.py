@@ -18,7 +18,7 @@ from wingbeat.orbits.solve import find_orbit
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.orbits.status import Status
 from wingbeat.studies import work
-from wingbeat.studies.driver import Stop
+from wingbeat.studies.stopping import Stop
 from wingbeat.studies.store import Store
 from wingbeat.studies.table import to_dataset
 from wingbeat.studies.units import Task, Unit

@@ -14,10 +14,9 @@ from flipped_bits import HARMLESS, REFUSED, STUDY, Sample, campaign
 import wingbeat as wb
 from tests.helpers.study_standin import RAISES
 from wingbeat._version import NUMERICAL_VERSION
-from wingbeat.studies import database, soundness, store
-from wingbeat.studies.digests import about_digest
-from wingbeat.studies.lock import only_one
-from wingbeat.studies.pages import PAGE, log_fault, whole_answers
+from wingbeat.studies import store, store_checks, store_file
+from wingbeat.studies.store_checks import only_one
+from wingbeat.studies.store_file import PAGE, about_digest, log_fault, whole_answers
 from wingbeat.studies.units import Outcome
 
 SPEEDS = [6 + 0.5 * i for i in range(12)]
@@ -251,9 +250,9 @@ def test_a_store_in_use_or_that_cannot_be_read_is_not_taken_for_damaged(cheap, m
 def test_a_store_without_digests_is_refused_with_the_cure(cheap, monkeypatch):
     study = cheap(SPEEDS)
     # As the release before made them.
-    columns = database.TABLES.replace(", digest BLOB NOT NULL", "")
+    columns = store_file.TABLES.replace(", digest BLOB NOT NULL", "")
     with closing(sqlite3.connect(study.store)) as connection:
-        connection.executescript(f"PRAGMA application_id = {database.APPLICATION}; {columns}")
+        connection.executescript(f"PRAGMA application_id = {store_file.APPLICATION}; {columns}")
         about = {"form": 1, "numerical_version": 5, "made_by": "0.9.0", "runs": 1}
         connection.executemany("INSERT INTO about VALUES (?, ?)", about.items())
         connection.commit()
@@ -268,8 +267,8 @@ def test_a_store_is_checked_once_in_a_process_and_again_when_it_has_changed(chea
     study = cheap(SPEEDS)
     assert study.run()[0] == 0
     checked = []
-    structure = soundness._check_structure
-    monkeypatch.setattr(soundness, "_check_structure", lambda held: checked.append(held) or structure(held))
+    structure = store_checks._check_structure
+    monkeypatch.setattr(store_checks, "_check_structure", lambda held: checked.append(held) or structure(held))
     for _ in range(3):
         assert study.run("status", study.file)[0] == 0
     assert len(checked) <= 1

@@ -19,7 +19,7 @@ from tests.helpers.places import ROOT
 from tests.helpers.study_standin import CRASHES, HANGS, KILLS_PARENT, RAISES
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.studies import dask_engine
-from wingbeat.studies.dask_work import Order, solve_batch
+from wingbeat.studies.dask_engine import Order, solve_batch
 
 pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks for processes in /proc")
 GRID = [1 + 0.25 * i for i in range(100)]

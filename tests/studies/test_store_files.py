@@ -14,8 +14,8 @@ import pytest
 
 import wingbeat as wb
 from wingbeat._base import FileError
-from wingbeat.studies.lock import only_one
 from wingbeat.studies.store import Store
+from wingbeat.studies.store_checks import only_one
 from wingbeat.studies.units import Outcome
 
 pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks for processes in /proc")

@@ -20,7 +20,7 @@ from tests.helpers.terminals import needs_terminal, on_terminal
 from wingbeat._workers.affinity import usable_cores
 from wingbeat.animal.species.writing import species_text
 from wingbeat.studies.engine import LocalProcesses
-from wingbeat.studies.lock import only_one
+from wingbeat.studies.store_checks import only_one
 
 pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks for processes in /proc")
 CORES = usable_cores()

@@ -15,9 +15,9 @@ from tests.helpers.engines import Here
 from wingbeat._base import WingbeatError
 from wingbeat.cli import main
 from wingbeat.studies import work
-from wingbeat.studies.digests import Fingerprint, about_digest, row_digest
-from wingbeat.studies.driver import Stop
-from wingbeat.studies.soundness import PLAN_TABLES, digest_of
+from wingbeat.studies.stopping import Stop
+from wingbeat.studies.store_checks import PLAN_TABLES, digest_of
+from wingbeat.studies.store_file import Fingerprint, about_digest, row_digest
 
 MINE = "def least(beat):\n    return beat.mean(beat.drag.sum(axis=1))\n"
 FORM = 'species = "pigeon"\nminimise = "mine.py:least"\nstarts = 1\nspeed = [9.0, 10.0]\n'

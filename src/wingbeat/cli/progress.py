@@ -15,7 +15,8 @@ from wingbeat._leftovers import Leftover
 from wingbeat.cli.endings import EXIT_INTERRUPTED, EXIT_TERMINATED
 
 if TYPE_CHECKING:
-    from wingbeat.studies.driver import Stop, Tally
+    from wingbeat.studies.driver import Tally
+    from wingbeat.studies.stopping import Stop
 
 
 # Where stderr is no terminal, a line tells of work that lasts so long, and again each time its duration doubles.

@@ -72,9 +72,9 @@ def run(
     Examples: wingbeat study designs.toml; wingbeat study run designs.toml --processes 8 --retry-failed;
     wingbeat study run designs.toml --dask tcp://login1:8786
     """
-    from wingbeat.studies.driver import listening
-    from wingbeat.studies.report import points_wait
+    from wingbeat.studies.stopping import listening
     from wingbeat.studies.study import check_run, engine_for
+    from wingbeat.studies.summary import points_wait
     from wingbeat.studies.units import FAILED
 
     check_run(processes, timeout, dask)

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import signal
-import threading
 import time
 from collections import deque
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from wingbeat.studies.engine import Ended, Engine
-from wingbeat.studies.store import Store
 from wingbeat.studies.units import CERTIFIED, FAILED, Outcome, Unit, Waiting, failed
+
+if TYPE_CHECKING:
+    from wingbeat.studies.engine import Ended, Engine
+    from wingbeat.studies.stopping import Stop
+    from wingbeat.studies.store import Store
 
 # Seconds of work in a batch: much longer than handing it out takes, but short for a waiting user.
 _BATCH_SECONDS = 1.5
@@ -21,58 +21,6 @@ _MOST = 256
 # How many processes may be lost on a point before the point is given up, by the way in which they ended. A kill
 # from outside is not the point's fault, and is unlikely to hit the same point three times.
 _TRIES = {"crashed": 3, "timeout": 2}
-# Seconds to wait for batches in flight after the first request to stop.
-GRACE = 1.0
-
-
-@dataclass
-class Stop:
-    """A request to stop, made by the signal `by`: level 1 waits briefly for batches to end, level 2 stops at once.
-
-    Signals become requests only while the driver has batches in flight; at other times they act as usual.
-    """
-
-    level: int = 0
-    by: int = 0
-    since: float = 0.0
-    driving: bool = False
-
-    def ask(self, level: int, by: int = signal.SIGINT) -> None:
-        """Request a stop; an earlier request of a higher level stays in force."""
-        if level > self.level:
-            self.level, self.by, self.since = level, by, time.monotonic()
-
-    @property
-    def due(self) -> bool:
-        """Whether the driver must no longer wait for batches."""
-        return self.level >= 2 or (self.level == 1 and time.monotonic() - self.since > GRACE)
-
-
-@contextmanager
-def listening(told: Callable[[int], None] | None = None) -> Iterator[Stop]:
-    """Take the first SIGINT as a request to stop soon, and SIGTERM or a second SIGINT as one to stop at once.
-
-    `told` is called with the level of each request.
-    """
-    stop = Stop()
-    if threading.current_thread() is not threading.main_thread():
-        yield stop
-        return
-
-    def hear(number: int, frame: Any) -> None:
-        if not stop.driving and callable(usual := before[number]):
-            usual(number, frame)
-            return
-        stop.ask(2 if number != signal.SIGINT else stop.level + 1, number)
-        if told is not None:
-            told(stop.level)
-
-    before: dict[int, Any] = {number: signal.signal(number, hear) for number in (signal.SIGINT, signal.SIGTERM)}
-    try:
-        yield stop
-    finally:
-        for number, handler in before.items():
-            signal.signal(number, handler)
 
 
 @dataclass

@@ -7,12 +7,14 @@ import hashlib
 import itertools
 import json
 import math
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wingbeat._base import Fault, FaultList, InvalidInputError, WingbeatError
 from wingbeat._version import NUMERICAL_VERSION
@@ -20,9 +22,34 @@ from wingbeat.animal.species.building import NO_SUCH_PATH, settable
 from wingbeat.animal.species.file_schema import dotted
 from wingbeat.animal.species.numbers import shown
 from wingbeat.studies.form import StudyForm, number
-from wingbeat.studies.makers import makers_of
-from wingbeat.studies.recipe import MOTION, OF_COEFFICIENTS, OF_ELEMENTS, Recipe
-from wingbeat.studies.sampling import unit_points
+from wingbeat.studies.recipe import MOTION, OF_COEFFICIENTS, OF_ELEMENTS, Recipe, makers_of
+
+
+def unit_points(method: str, count: int, directions: int, seed: int) -> NDArray[np.float64]:
+    """Return points of the unit cube, shape (count, directions).
+
+    Sobol's sequence (scrambled with the seed) begins with the same points for every count, so that points can be
+    added later. A Latin hypercube has different points for each count.
+
+    Parameters
+    ----------
+    method : "sobol" or "latin-hypercube".
+    count, directions : numbers of points and of coordinates.
+    seed : of the scrambling, or of the hypercube.
+
+    >>> bool((unit_points("sobol", 4, 2, 0) == unit_points("sobol", 8, 2, 0)[:4]).all())
+    True
+    """
+    from scipy.stats import qmc
+
+    random = np.random.default_rng(seed)
+    if method == "latin-hypercube":
+        return qmc.LatinHypercube(directions, rng=random).random(count)
+    with warnings.catch_warnings():
+        # If the count is not a power of two, the sequence is a little less even. It has no other effect.
+        warnings.filterwarnings("ignore", message="The balance properties of Sobol")
+        return qmc.Sobol(directions, scramble=True, rng=random).random(count)
+
 
 MOST_POINTS = 10_000_000
 # After this many faults of a plan, we do not look for more.

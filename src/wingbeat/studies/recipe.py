@@ -1,28 +1,124 @@
-"""The problem that a combination of a study's top-level keys defines, and how a point changes its values."""
+"""The problem that a combination of a study's top-level keys defines: how it is made, and how a point changes it.
+
+An objective may be a function of a Python file, ``mine.py:mean_lift``. The code that runs is always what
+`as_inputs` has just read from the user's file. A store holds only its digest; nothing that a store holds is run.
+"""
 
 from __future__ import annotations
 
 import dataclasses
 import functools
-import json
+import hashlib
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
-from wingbeat._base import FaultList, plain_unit, suggest
-from wingbeat.aero import BladeElement
+from wingbeat._base import FaultList, first_line, plain_unit, read_text, suggest
+from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.aero.choosing import load_hand
 from wingbeat.animal.species.building import NO_SUCH_PATH, settable
+from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.numbers import KEYS, Key, shown, spoken
 from wingbeat.animal.species.record import Species
+from wingbeat.models import Model, model_of
 from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, parameters_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
+from wingbeat.orbits.problem.quantities import Quantity, named_objective
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.results.aero_record import aero_from
-from wingbeat.results.orbit import Orbit
 from wingbeat.results.provenance import inputs_of, species_from
-from wingbeat.studies.objective import described, from_inputs
+from wingbeat.studies.form import StudyForm
+
+# --- objectives ---
+
+_MARK = ".py:"  # of a text that names a function of a file
+
+
+def as_inputs(text: str, folder: Path) -> dict[str, str]:
+    """Return inputs from which a worker makes an objective; a function's file is included as text.
+
+    Raises
+    ------
+    InvalidInputError, FileError : an unknown name, a file that cannot be read or run, no such function.
+    """
+    if _MARK not in text:
+        return {"name": named_objective(text).name}
+    file, _, name = text.rpartition(":")
+    found = {"name": name, "file": Path(file).name, "code": read_text(folder / file)}
+    from_inputs(found)
+    return found
+
+
+def described(inputs: Mapping[str, str]) -> dict[str, str]:
+    """Return what a store may hold of the inputs of an objective: the digest of the code instead of the code.
+
+    >>> described({"name": "lift", "file": "mine.py", "code": "def lift(beat): ..."})["digest"][:8]
+    '8e1f8275'
+    """
+    kept = {key: value for key, value in inputs.items() if key != "code"}
+    return kept | ({"digest": hashlib.sha256(inputs["code"].encode()).hexdigest()} if "code" in inputs else {})
+
+
+def changed_code(ours: Iterable[Mapping[str, str]], kept: Iterable[Mapping[str, Any]]) -> str:
+    """Return in words which functions of a study's files differ from those that a store's points were made with.
+
+    Parameters
+    ----------
+    ours : inputs of the study's objectives, in the form of `as_inputs`.
+    kept : inputs of the bases in the store, in the form of `Recipe.described`.
+    """
+    theirs = [described(inputs["objective"]) for inputs in kept]
+    changed = {
+        f"{one['file']}:{one['name']}"
+        for one in map(described, ours)
+        if "digest" in one
+        and one not in theirs
+        and any((one["file"], one["name"]) == (other.get("file"), other.get("name")) for other in theirs)
+    }
+    rule = "differs from the one that they were made with"
+    return "".join(f": the objective {what} {rule}" for what in sorted(changed))
+
+
+def named(text: str) -> str:
+    """Return the name of an objective, as in records, for a text that `as_inputs` accepts."""
+    return text.rpartition(":")[2] if _MARK in text else named_objective(text).name
+
+
+def from_inputs(inputs: dict[str, str]) -> Quantity:
+    """Return the objective that `as_inputs` described.
+
+    Raises
+    ------
+    InvalidInputError : its code cannot be run, or does not define it.
+    """
+    if "code" not in inputs:
+        return named_objective(inputs["name"])
+    return _run(inputs["name"], inputs["file"], inputs["code"])
+
+
+@functools.cache
+def _run(name: str, file: str, code: str) -> Quantity:
+    """Return a quantity from a file's code, cached, because JAX compiles every new function object anew."""
+    faults, space = FaultList(), {"__name__": Path(file).stem, "__file__": file}
+    where = f"minimise {file}:{name}"
+    try:
+        exec(compile(code, file, "exec"), space)
+    except (Exception, SystemExit) as error:  # whatever a user's file raises
+        reason = first_line(error)
+        faults.add(where, file, f"cannot be run: {reason}", "correct the file; it may import wingbeat and jax")
+        faults.raise_if_any()
+    found: Any = space.get(name)
+    if isinstance(found, Quantity):
+        return found
+    if not callable(found):
+        faults.add(where, name, "is not a function or a Quantity of that file", "see docs/guide/objectives.md")
+        faults.raise_if_any()
+    return Quantity(name, found)
+
+
+# --- recipes ---
 
 # Every point has values of these, whatever is varied; the limit of the payload is that of `Species.with_payload`.
 MOTION = {"speed": SPEED_LIMITS, "climb": CLIMB_LIMITS, "payload": {"at_least": 0.0, "unit": plain_unit("payload")}}
@@ -45,7 +141,7 @@ class Recipe:
     Parameters
     ----------
     species, aero : the animal and its air loads.
-    objective : in the form of `objective.as_inputs`.
+    objective : in the form of `as_inputs`.
     free, bounds : as in `OrbitProblem`.
     subject_to : limits as texts.
     search : ``starts``, ``seed``, ``most_starts``, ``advise``, ``explain``; a number that is None has its default.
@@ -172,16 +268,6 @@ class Recipe:
         """Return what a store holds of the inputs: everything but the code of a user's objective."""
         return self.inputs() | {"objective": described(self.objective)}
 
-    def orbit(self, changes: str, record: str) -> Orbit:
-        """Return the orbit of a point that a store holds.
-
-        Parameters
-        ----------
-        changes, record : JSON texts of the store.
-        """
-        problem = self.problem(json.loads(changes))
-        return Orbit.of_record(json.loads(record), problem, starts_of(self, problem), int(self.search["seed"]))
-
 
 def _listed(bounds: dict[str, tuple[float, float]] | str) -> dict[str, list[float]] | str:
     return bounds if isinstance(bounds, str) else {name: list(pair) for name, pair in bounds.items()}
@@ -228,3 +314,70 @@ def _parameter(problem: OrbitProblem, path: str) -> Parameter | None:
         places = [i for i, limit in enumerate(problem.subject_to) if limit.quantity.name == rest]
         return limit_of(problem, places[0]) if places else None
     return next((p for p in parameters_of(problem) if p.path == path), None)
+
+
+# --- from the keys of a form to the parts of a recipe ---
+
+
+def makers_of(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...], Callable[..., Any]]]:
+    """Return functions that make the parts of a base from top-level keys; equal values are evaluated only once."""
+
+    @functools.cache
+    def flown(species: str, model: str) -> tuple[Species, Model]:
+        own = load_species(_beside(species, folder, (".toml",)))
+        return own, model_of(model, own)
+
+    def animal(species: str, model: str) -> Species:
+        own, whole = flown(species, model)
+        complete = whole.species(own)
+        return whole.species(complete.with_values(form.settings)) if form.settings else complete
+
+    def loads(
+        species: str, model: str, name: str, extension: str, width_deg: float, *elements: Any
+    ) -> BladeElement:
+        own, chosen = flown(species, model)[1].aero, form.model_fields_set
+        reach = extension, width_deg
+        given = dict(zip(OF_ELEMENTS, elements, strict=True))
+        if model != "paper":  # what the study does not give is as the model says
+            given = {key: value for key, value in given.items() if key in chosen}
+            name = name if "aero" in chosen else own.coefficients.name
+        if "hand" in given:
+            given["hand"] = load_hand(_beside(given["hand"], folder, (".csv", ".toml")), *reach)
+        arm = load_coefficients(_beside(name, folder, (".csv", ".toml")), *reach)
+        return dataclasses.replace(own, coefficients=arm, **given)
+
+    def objective(species: str, model: str, name: str) -> dict[str, str]:
+        if model != "paper" and "minimise" not in form.model_fields_set:
+            name = flown(species, model)[1].objective(animal(species, model))
+        return as_inputs(name, folder)
+
+    of_model = "species", "model"
+    makers = {
+        "species": (of_model, animal),
+        "aero": ((*of_model, "aero", *OF_COEFFICIENTS, *OF_ELEMENTS), loads),
+        "minimise": ((*of_model, "minimise"), objective),
+        "bounds": ((), lambda: given if isinstance(given := form.bounds, str) else _bounds(given)),
+    }
+    return {name: (keys, functools.cache(make)) for name, (keys, make) in makers.items()}
+
+
+def _beside(name: str, folder: Path, suffixes: tuple[str, ...]) -> str:
+    """Return the path of a file in the study's folder; a name without one of the suffixes stays as it is."""
+    return str(folder / name) if name.lower().endswith(suffixes) else name
+
+
+def _bounds(given: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
+    """Return bounds in radians; bounds whose name ends in _deg are given in degrees."""
+    found, faults = {}, FaultList()
+    for name, (low, high) in given.items():
+        own = name.removesuffix("_deg")
+        degrees = name != own
+        if degrees and plain_unit(own) != "rad":
+            faults.add(
+                f"bounds.{name}", [low, high], "is not the name of an angle", f"give bounds.{own} in its unit"
+            )
+        elif degrees and own in given:
+            faults.add(f"bounds.{name}", [low, high], f"is given as {own} too", "keep one of the two")
+        found[own] = (math.radians(low), math.radians(high)) if degrees else (low, high)
+    faults.raise_if_any()
+    return found

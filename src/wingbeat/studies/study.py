@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
@@ -9,35 +10,44 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base import Fault, FaultList, FileError, InvalidInputError, label_of, plain_unit
+from wingbeat._base import (
+    Fault,
+    FaultList,
+    FileError,
+    InvalidInputError,
+    Report,
+    Reported,
+    drawn,
+    label_of,
+    plain_unit,
+)
 from wingbeat._workers.affinity import core_count
 from wingbeat.animal.species.numbers import shown
 from wingbeat.orbits.many.batch import check_processes
 from wingbeat.results.orbit import Orbit
-from wingbeat.studies.driver import Progress, Stop, Tally, drive, listening
+from wingbeat.studies.driver import Progress, Tally, drive
 from wingbeat.studies.engine import Engine, LocalProcesses
 from wingbeat.studies.form import check_form, read_form
-from wingbeat.studies.lock import only_one, real_path
-from wingbeat.studies.objective import changed_code, named
 from wingbeat.studies.plan import Plan, make_plan
-from wingbeat.studies.recipe import MOTION
-from wingbeat.studies.report import ReportedStudy, points_wait
-from wingbeat.studies.salvage import Salvaged, salvage
-from wingbeat.studies.store import Store
-from wingbeat.studies.summary import Summary
+from wingbeat.studies.recipe import MOTION, changed_code, named, starts_of
+from wingbeat.studies.stopping import Stop, listening
+from wingbeat.studies.store import Salvaged, Store, salvage
+from wingbeat.studies.store_checks import only_one, real_path
+from wingbeat.studies.summary import Summary, points_wait, study_report
 from wingbeat.studies.table import frame_of, save_table, to_dataset, varied_numbers
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
     from distributed.deploy.cluster import Cluster
+    from matplotlib.figure import Figure
 
 _SUFFIX = ".study.sqlite"
 # Largest time limit of a point [s], more than ten days: operating systems refuse to wait for years.
 _LONGEST = 1e6
 
 
-class Study(ReportedStudy):
+class Study(Reported):
     """A study and its store; made by `study`.
 
     Attributes
@@ -212,7 +222,11 @@ class Study(ReportedStudy):
             bases = [(told, base.recipe) for (told, _), base in zip(store.bases(), self.plan.bases, strict=True)]
             for row in store.rows():
                 told, recipe = bases[row.base]
-                yield {**told, **row.told}, None if row.record is None else recipe.orbit(row.changes, row.record)
+                orbit = None
+                if row.record is not None:
+                    problem, seed = recipe.problem(json.loads(row.changes)), int(recipe.search["seed"])
+                    orbit = Orbit.of_record(json.loads(row.record), problem, starts_of(recipe, problem), seed)
+                yield {**told, **row.told}, orbit
 
     @contextmanager
     def _answers(self) -> Iterator[Store]:
@@ -263,6 +277,18 @@ class Study(ReportedStudy):
         else:
             label = "minimised quantity"
         return frame, varied, quantity or "objective_value", label, [plain_unit(path) for path in varied]
+
+    def _report(self) -> Report:
+        return study_report(self.status(), self.store, self.uncertified)
+
+    def plot(self, quantity: str | None = None) -> Figure:
+        """Return a figure of a result against the varied parameters.
+
+        Parameters
+        ----------
+        quantity : a column of numbers, such as ``mean_power``; default the minimised quantity.
+        """
+        return drawn("study_page", *self.drawing(quantity))
 
     def _about(self) -> dict[str, Any]:
         return {"varied": list(self.plan.paths) or "nothing", "objective": self.plan.form.minimise}

@@ -24,11 +24,12 @@ from wingbeat._base import (
 from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.results.columns import flat
 from wingbeat.results.netcdf import netcdf_bytes
-from wingbeat.studies.store import Row, Store
 
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
+
+    from wingbeat.studies.store import Row, Store
 
 SUFFIXES = (".nc", ".csv", ".parquet")
 KIND = "study"

@@ -127,8 +127,8 @@ def _claims(numbers: list[int], folder: Path, quick: bool, processes: int, befor
 
 
 def _assumptions(sample: Sample, only: list[int], folder: Path, processes: int) -> int:
-    from wingbeat.studies.driver import listening
     from wingbeat.studies.engine import LocalProcesses
+    from wingbeat.studies.stopping import listening
     from wingbeat_evidence.paper.assumption_page import write_study
     from wingbeat_evidence.paper.assumption_study import STARTS, SURENESS
     from wingbeat_evidence.paper.pieces import Pieces

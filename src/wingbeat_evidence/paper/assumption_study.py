@@ -12,8 +12,8 @@ import numpy as np
 
 from wingbeat.animal.species.making import load_species
 from wingbeat.results.orbit import Orbit
-from wingbeat.studies.driver import Stop
 from wingbeat.studies.engine import Engine
+from wingbeat.studies.stopping import Stop
 from wingbeat.studies.study import Study, plan_study
 from wingbeat_evidence.paper.assumptions import TRIMS, Values, changes_under, free_under
 from wingbeat_evidence.paper.claim import FlightClaim

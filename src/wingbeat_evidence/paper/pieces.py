@@ -16,8 +16,8 @@ import numpy as np
 
 from wingbeat._base import FileError, make_folder, read_text, write_atomically
 from wingbeat._version import NUMERICAL_VERSION
-from wingbeat.studies.driver import Stop
 from wingbeat.studies.engine import Engine
+from wingbeat.studies.stopping import Stop
 from wingbeat_evidence.paper.assumption_study import (
     ORBITS,
     SPEEDS,

@@ -9,7 +9,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.engines import Here
-from wingbeat.studies.driver import Stop
+from wingbeat.studies.stopping import Stop
 from wingbeat_evidence.paper import assumption_page as pages
 from wingbeat_evidence.paper.assumption_study import (
     ORBITS,

@@ -1,20 +1,176 @@
-"""Check that a study's store is undamaged, whenever a store is opened and before its content is used."""
+"""What protects a store: one driver at a time, undamaged files before use, and the same files to the end.
+
+A store's lock is a file beside the store; the operating system releases it when its process ends, even by a crash.
+Every name of the store must lead to the same file: `real_path` follows symbolic links, and a store with hard links
+is not written to.
+"""
 
 from __future__ import annotations
 
+import errno
 import functools
 import os
 import sqlite3
 from collections.abc import Iterator
-from contextlib import closing, suppress
+from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 
 from wingbeat._base import FileError, system_reason
 from wingbeat._version import NUMERICAL_VERSION
-from wingbeat.studies.database import APPLICATION, FORM, TABLES, is_open_here, refusal
-from wingbeat.studies.digests import Fingerprint, about_digest, row_digest, table_digest
-from wingbeat.studies.lock import is_locked
-from wingbeat.studies.pages import PAGE, log_fault, whole_answers
+from wingbeat.studies.store_file import (
+    APPLICATION,
+    FORM,
+    PAGE,
+    TABLES,
+    Fingerprint,
+    about_digest,
+    identity_of,
+    in_words,
+    is_open_here,
+    log_fault,
+    refusal,
+    row_digest,
+    table_digest,
+    unused_name,
+    whole_answers,
+)
+
+# --- one driver at a time ---
+
+# How systems say that another process holds a lock; Windows says EACCES or EDEADLK. Any other error means that the
+# file system has no locks.
+_HELD = (errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES, errno.EDEADLK)
+
+
+def real_path(store: str | os.PathLike[str]) -> Path:
+    """Return the path of the file that a store's name leads to; SQLite keeps its log beside this file."""
+    return Path(os.path.realpath(store))
+
+
+def _take(descriptor: int) -> None:
+    """Lock a file for this process alone; raise `OSError` if another process holds the lock."""
+    if os.name == "nt":
+        import msvcrt
+
+        msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
+    else:
+        import fcntl
+
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+
+
+def is_locked(store: Path) -> bool:
+    """Return whether a process holds the lock of a store; the lock's file may remain from a killed process."""
+    try:
+        descriptor = os.open(_beside(store), os.O_RDONLY)
+    except OSError:  # there is none
+        return False
+    try:
+        _take(descriptor)
+    except OSError as error:
+        return error.errno in _HELD
+    finally:
+        os.close(descriptor)
+    return False
+
+
+def _beside(store: Path) -> Path:
+    return store.with_name(store.name + ".lock")
+
+
+class Lock:
+    """The lock of a store, held by this process; made by `only_one`.
+
+    Parameters
+    ----------
+    store : real path of the store.
+
+    Raises
+    ------
+    FileError : another process holds it, the folder cannot be written to, or its file system has no locks.
+    """
+
+    def __init__(self, store: Path) -> None:
+        self._store, self._path = store, _beside(store)
+        self._descriptor = self._taken()
+
+    def _taken(self) -> int:
+        """Return the descriptor of the locked file."""
+        while True:
+            try:
+                descriptor = os.open(self._path, os.O_RDWR | os.O_CREAT, 0o666)
+            except OSError as error:
+                reason = system_reason(error)
+                fix = "copy the study to a folder that you can write to"
+                raise FileError(f"cannot write in the folder of {str(self._store)!r}: {reason}; {fix}") from None
+            try:
+                _take(descriptor)
+            except OSError as error:
+                os.close(descriptor)
+                if error.errno in _HELD:
+                    fix = "wait for it, or look at it with `wingbeat study status`"
+                    text = f"another process is running the study of {str(self._store)!r}; {fix}"
+                else:
+                    reason = system_reason(error)
+                    text = f"cannot lock the store {str(self._store)!r}: {reason}; keep it on a local disk"
+                raise FileError(text) from None
+            # Somebody may have deleted the file between our opening and our locking of it.
+            if self._is_of(descriptor):
+                return descriptor
+            os.close(descriptor)
+
+    def _is_of(self, descriptor: int) -> bool:
+        with suppress(OSError):
+            return os.path.samestat(os.fstat(descriptor), os.stat(self._path))
+        return False
+
+    def renew(self) -> None:
+        """Take the lock again if its file was deleted.
+
+        Raises
+        ------
+        FileError : as of `Lock`: meanwhile another process has taken it.
+        """
+        if not self._is_of(self._descriptor):
+            fresh = self._taken()
+            os.close(self._descriptor)
+            self._descriptor = fresh
+
+    def release(self) -> None:
+        """Give the lock back and delete its file, but not a file that another process has put in its place."""
+        with suppress(OSError):
+            if os.name != "nt" and self._is_of(self._descriptor):  # Windows does not delete an open file
+                self._path.unlink()
+        os.close(self._descriptor)
+
+
+@contextmanager
+def only_one(store: Path) -> Iterator[Lock]:
+    """Hold the lock of a store during a block.
+
+    Parameters
+    ----------
+    store : real path of the store.
+
+    Raises
+    ------
+    FileError : as of `Lock`, or the store has several names (hard links).
+    """
+    names = 1
+    with suppress(OSError):
+        names = os.stat(store).st_nlink
+    if names > 1:
+        # Each name has a log of its own, and SQLite would write two logs into one file.
+        fix = "copy the store to a new file, and use the copy"
+        raise FileError(f"the store {str(store)!r} has {names} names (hard links), which would damage it; {fix}")
+    lock = Lock(store)
+    try:
+        yield lock
+    finally:
+        lock.release()
+
+
+# --- undamaged files before use ---
 
 # Tables that a plan determines, each with the column that orders its rows for the table's digest.
 PLAN_TABLES = {"bases": "hash", "plan_bases": "base", "plan": "ordinal"}
@@ -188,3 +344,55 @@ def _rows(connection: sqlite3.Connection, table: str, order: str) -> Iterator[tu
     # If the digest does not depend on the order of the rows, they are read in the order in which they are stored.
     tail = "NOT INDEXED" if table == "points" else f"ORDER BY {order}"
     return connection.execute(f"SELECT * FROM {table} {tail}")
+
+
+# --- the same files to the end: others may delete or replace them ---
+
+
+class Watch:
+    """A watch over the files of a store that this process writes to.
+
+    Parameters
+    ----------
+    path : of the store.
+    connection : to it; it is still of use if the store's name is gone.
+    lock : the store's lock, if this process holds it.
+    """
+
+    def __init__(self, path: Path, connection: sqlite3.Connection, lock: Lock | None) -> None:
+        self._path, self._connection, self._lock = path, connection, lock
+        self._log = path.with_name(path.name + "-wal")
+        self._store, self._logged = identity_of(path), identity_of(self._log)
+
+    def check(self) -> None:
+        """Keep all results if others have deleted or replaced the store or its log, or taken its lock.
+
+        Raises
+        ------
+        FileError : they have; the message says where the results are.
+        """
+        name = repr(str(self._path))
+        if identity_of(self._path) != self._store:
+            what = "was deleted, moved or replaced while the study ran"
+            raise FileError(f"the store {name} {what}; {self._rescue()}")
+        if self._logged is not None and identity_of(self._log) != self._logged:
+            with in_words(self._path):
+                self._connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+            told = "all results so far are in the store; run the study again"
+            raise FileError(f"the log of the store {name} was deleted while the study ran; {told}")
+        self._logged = self._logged or identity_of(self._log)  # SQLite makes it with the first transaction
+        if self._lock is not None:
+            try:
+                self._lock.renew()
+            except FileError as error:
+                raise FileError(f"the lock of the store {name} was deleted while the study ran: {error}") from None
+
+    def _rescue(self) -> str:
+        """Copy the store from the open file, which has lost its name; return where the results are."""
+        aside = unused_name(self._path, "rescued")
+        try:
+            with closing(sqlite3.connect(aside)) as copy:
+                self._connection.backup(copy)
+        except sqlite3.Error as error:
+            return f"no copy can be written beside it ({error}); if you moved it, it holds all results so far"
+        return f"all results so far are in {str(aside)!r}: rename it to {self._path.name!r} and run the study again"

@@ -23,7 +23,7 @@ TEXT = """# Convergence
 `uv run python benchmarks/convergence.py` writes this page. Each orbit has minimum frequency, with default wings
 and bounds, Su-Fan coefficients and the mirrored extension unless the row says otherwise, and is solved from the
 first start only, so that a column follows one family of orbits; families of lower frequency may exist. Cells:
-frequency [Hz] / mean hinge power [W] / peak power [W]. All orbits are certified; when the certifier flies them,
+frequency [Hz], mean hinge power [W], peak power [W]. All orbits are certified; when the certifier flies them,
 their closure is at most {closure:.0e}.
 
 {orbits}
@@ -72,7 +72,7 @@ def main() -> None:
             record = solved(*case, aero).record()
             closures += [abs(value) for value in record["closure"].values()]
             numbers = (
-                f"{record['wingbeat']['frequency']:.4f} / {record['mean_power']:.3f} / {record['peak_power']:.2f}"
+                f"{record['wingbeat']['frequency']:.4f}, {record['mean_power']:.3f}, {record['peak_power']:.2f}"
             )
             cells.append(numbers if record["status"] == "converged" else record["status"])
         rows.append(cells)

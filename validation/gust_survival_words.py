@@ -91,7 +91,7 @@ def _table(table: pd.DataFrame, orbits: list[tuple[str, str]]) -> str:
         heads.append(f"{animal}, `{model}`, {beat['speed']:g} m/s, {beat['frequency']:.2f} Hz")
         for control in CONTROLS:
             radius = rows.loc[rows["control"] == control, "spectral_radius"].iloc[0]
-            shares = " / ".join(f"{share(table, model, animal, control, kind):.3g}" for kind in kinds)
+            shares = ", ".join(f"{share(table, model, animal, control, kind):.3g}" for kind in kinds)
             cells[control].append(f"{radius:.3f}; {shares}")
     return markdown_table(heads, cells.values())
 

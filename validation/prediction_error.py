@@ -31,7 +31,7 @@ NEAR = 1.0
 # Predictions depend on the speed, measured frequencies hardly do. So bands of speed are judged apart [m/s].
 FAST = 12.0
 FEWEST = 30  # flights; fewer say nothing of some 40 numbers
-NAMED = 4  # numbers in a row of the page
+NAMED = 3  # numbers in a row of the page
 
 
 class Error(NamedTuple):

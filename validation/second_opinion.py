@@ -101,7 +101,7 @@ def page(flights: pd.DataFrame, lattices: pd.DataFrame) -> str:
     """
     cells: dict[tuple[Any, ...], list[str]] = {}
     for row in flights.itertuples():
-        means = " / ".join(
+        means = ", ".join(
             f"{value:.3g}" if abs(value) > 5e-4 else "0" for value in (getattr(row, m) for m in MEANS)
         )
         name = f"{row.animal} {row.speed} m/s"
@@ -115,14 +115,14 @@ def page(flights: pd.DataFrame, lattices: pd.DataFrame) -> str:
     rows = [
         [
             f"{row.chordwise} x {row.spanwise}, {row.steps}, {row.beats}",
-            f"{row.mean_lift:.3f} / {row.mean_thrust:.3f} / {row.aerodynamic_power:.2f}",
+            f"{row.mean_lift:.3f}, {row.mean_thrust:.3f}, {row.aerodynamic_power:.2f}",
             f"{row.first_harmonic:.3f}, {row.phase_of_first:.3f}",
         ]
         for row in lattices.itertuples()
     ]
     heads = [
         "panels (chord x span), steps per beat, beats",
-        "lift / thrust / power",
+        "lift, thrust, power",
         "first harmonic [N], its phase",
     ]
     return filled(

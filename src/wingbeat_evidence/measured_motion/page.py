@@ -15,8 +15,9 @@ was measured, beside the measured forces. For a case of your own, run `wingbeat 
 docstring of `wingbeat_evidence.read_strip_case` describes its files. `--json` prints the scores of all rows.
 
 - *Columns* of the tables of cases are terms: `thin-aerofoil` is rotation, added mass and their couples,
-  `thin-aerofoil-wake` adds the lag of the wake; `momentum` is inflow. Inflow and lag need a model that states its
-  aspect ratio. The *recommended* row, bold, is chosen by the rule below, which never sees the measured force.
+  `thin-aerofoil-wake` adds the lag of the wake. *Inflow* is that of momentum theory. Inflow and lag need a model
+  that states its aspect ratio. The *recommended* row, bold, is chosen by the rule below, which never sees the
+  measured force.
 - *mean* and *peak*: computed over measured mean and largest force. *rms*: of the difference, divided by the
   weight. *rms about mean*: after each force has lost its own mean, divided by the rms of the measured force.
   *lag*: delay of the computed force, as a fraction of the beat. *power*: given to the air.
@@ -79,7 +80,7 @@ def _summary(found: Validation) -> list[str]:
     numbers = (score.mean_ratio, score.peak_ratio, score.rms, score.rms_about_mean, score.correlation, score.lag)
     cells = [
         found.case.name,
-        regime.wing,
+        regime.wing + (" (guessed)" if regime.guessed else ""),
         f"{regime.reynolds:.0f}",
         f"{regime.reduced_frequency:.2f}",
         *_names(row),
@@ -88,7 +89,8 @@ def _summary(found: Validation) -> list[str]:
 
 
 def _section(found: Validation, figure: str) -> str:
-    lines = [f"## {found.case.name}", "", found.reason, ""]
+    # The summary gives kind of wing, Reynolds number and reduced frequency.
+    lines = [f"## {found.case.name}", "", found.reason.partition(". ")[2], ""]
     for axis, label in (("fz", "Upward force"), ("fx", "Forward force")):
         scores = [getattr(row, axis) for row in found.rows]
         if any(value is not None for score in scores for value in score.to_dict().values()):
@@ -108,16 +110,17 @@ def _section(found: Validation, figure: str) -> str:
 
 
 def _by_terms(rows: Sequence[ValidationRow], scores: Sequence[Score], has_series: bool) -> str:
-    """Return the scores, a line for each coefficient model and a column for each choice of terms."""
-    terms = list(dict.fromkeys((row.unsteady, row.aero.inflow) for row in rows))
-    lines: dict[str, list[str]] = {}
+    """Return the scores, a line for each coefficient model and a column for each choice of unsteady terms."""
+    terms = list(dict.fromkeys(row.unsteady for row in rows))
+    cells: dict[str, dict[str, list[str]]] = {}
     for row, score in zip(rows, scores, strict=True):
-        name, *own = _names(row)
+        name, unsteady, inflow = _names(row)
         cell = _shown(score.mean_ratio) + (f" ({_shown(score.rms_about_mean)})" if has_series else "")
-        cells = lines.setdefault(name, [name, *["-"] * len(terms)])
-        cells[1 + terms.index(tuple(own))] = f"**{cell}**" if row.recommended else cell
-    heads = [unsteady + (", momentum" if flow != "none" else "") for unsteady, flow in terms]
-    return markdown_table(["model", *heads], lines.values())
+        cell = f"**{cell}**" if row.recommended else cell
+        own = cells.setdefault(name, {}).setdefault(unsteady, [])
+        own.append(cell if inflow == "none" else f"inflow {cell}")
+    lines = [[name, *(", ".join(own.get(one, ["-"])) for one in terms)] for name, own in cells.items()]
+    return markdown_table(["model", *terms], lines)
 
 
 def _names(row: ValidationRow) -> tuple[str, str, str]:

@@ -60,9 +60,8 @@ TREATMENTS = (
     ),
     Treatment(
         "signed",
-        "at negative angles of attack the printed formulas give C_D, and also C_L if the formula of C_L has no "
-        "exponential term. Su-Fan's formula of C_L has such a term, which grows without bound at negative angles, "
-        "so Su-Fan's C_L is mirrored here too",
+        "at negative angles the printed formulas give C_D, and C_L but for Su-Fan's, whose exponential grows "
+        "without bound there; Su-Fan's C_L is mirrored here too",
         "signed",
     ),
     Treatment("mirrored-heavy", f"as mirrored, {_HEAVY}", "mirrored", True, 45.0),

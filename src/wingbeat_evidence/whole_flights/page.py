@@ -152,7 +152,7 @@ def overview_text(predictions: Sequence[Prediction], figures: Sequence[str] = ()
             ["animal", "flown at [m/s]", "certified", "activation"], map(_flights_of, predictions)
         ),
         figures="\n\n".join(
-            f"![{p.flights.species}: power, frequency and flap amplitude against speed, with measurements]({one})"
+            f"![{p.flights.species}: predicted and measured flight against speed]({one})"
             for p, one in zip(predictions, figures, strict=False)
         ),
     )

@@ -26,7 +26,7 @@ from wingbeat._base.style import (
     new_figure,
     shade_downstrokes,
 )
-from wingbeat.aero.unsteady import added_inertia, added_mass, damping_couple, rotation_force
+from wingbeat.aero.closed_forms import added_inertia, added_mass, damping_couple, rotation_force
 from wingbeat.mechanics.wing_points import CORNERS
 from wingbeat.plots import save_figure
 from wingbeat_evidence.measured_motion.strip_case import StripCase

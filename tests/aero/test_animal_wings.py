@@ -20,7 +20,7 @@ from wingbeat.aero import (
     Membrane,
     SuFan,
 )
-from wingbeat.aero.sectional import sectional_kernel
+from wingbeat.aero.derived_kernels import sectional_kernel
 
 NAMES = sorted(WING_ESTIMATES)
 TURN = np.radians(np.linspace(-180.0, 180.0, 3601))

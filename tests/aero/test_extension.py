@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tests.helpers.coefficients import coefficients, value_slope_curvature
 from wingbeat._jax.arrays import horner, jax, jnp
 from wingbeat.aero import EXTENSIONS, LIBRARY, Dickinson, FormulaCoefficients, FormulaTerms, SuFan
-from wingbeat.aero.blends import Blend, Jet, even_blend, jet_of, odd_blend
+from wingbeat.aero.extension import Blend, Jet, even_blend, jet_of, odd_blend
 
 RIGHT = math.pi / 2
 WIDTH = math.radians(1.0)

@@ -7,7 +7,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.coefficients import by_the_lifting_line
-from wingbeat.aero.sectional import SectionalKernel, sectional_kernel
+from wingbeat.aero.derived_kernels import SectionalKernel, sectional_kernel
 
 DEGREES = np.arange(0.0, 91.0, 2.5)
 ALL_ROUND = np.radians(np.linspace(-180.0, 180.0, 1801))

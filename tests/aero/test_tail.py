@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from tests.helpers.tail_oracle import coefficients
-from wingbeat._jax.arrays import jax, jnp
-from wingbeat.aero.tail import BROADSIDE, slender_slope, tail_force
+from wingbeat._jax.config import jax, jnp
+from wingbeat.aero.closed_forms import BROADSIDE, slender_slope, tail_force
 
 SLOPE, DRAG, AREA, DENSITY, SPEED = 3.2, 0.03, 0.005, 1.2, 9.0
 PRESSURE_AREA = 0.5 * DENSITY * SPEED**2 * AREA

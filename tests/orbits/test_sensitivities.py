@@ -11,7 +11,7 @@ from rich.console import Console
 import wingbeat as wb
 from tests.helpers.hasty import make_hasty
 from wingbeat._base import InvalidInputError
-from wingbeat.aero.fitted import FittedCurve, FittedModel, FittedWing
+from wingbeat.aero.model_file import FittedCurve, FittedModel, FittedWing
 from wingbeat.cli import main
 from wingbeat.cli.uncertainty import _plain, _print
 from wingbeat.orbits.flight.beat import flown_beat

@@ -14,14 +14,13 @@ from wingbeat.aero.animal_wings import (
     FeatheredRevolving,
     Membrane,
 )
-from wingbeat.aero.blade_element import AIRSPEEDS, FORCE_POINTS, BladeElement
+from wingbeat.aero.blade_element import AIRSPEEDS, FORCE_POINTS, BladeElement, coefficients_of, load_coefficients
 from wingbeat.aero.cambered import CamberedCoefficients, CamberedTerms
-from wingbeat.aero.choosing import coefficients_of, load_coefficients
+from wingbeat.aero.closed_forms import INFLOWS, UNSTEADY
 from wingbeat.aero.coefficient_model import CoefficientModel
 from wingbeat.aero.extension import EXTENSIONS
 from wingbeat.aero.formula import CentreTerms, FormulaCoefficients, FormulaTerms
 from wingbeat.aero.function import FunctionCoefficients
-from wingbeat.aero.inflow import INFLOWS
 from wingbeat.aero.library import LIBRARY
 from wingbeat.aero.model_file import load_model
 from wingbeat.aero.published import (
@@ -36,7 +35,6 @@ from wingbeat.aero.published import (
     thin_aerofoil_moment,
 )
 from wingbeat.aero.table import TableCoefficients, load_table
-from wingbeat.aero.unsteady import UNSTEADY
 
 __all__ = [
     "AIRSPEEDS",

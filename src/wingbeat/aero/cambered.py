@@ -22,10 +22,9 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from wingbeat._base import FaultList
 from wingbeat._jax.arrays import jnp, register_record
 from wingbeat._jax.exported import exported
-from wingbeat.aero.blends import Blend, jet_of
-from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspect_ratio
-from wingbeat.aero.extension import check_extension
-from wingbeat.aero.formula import GRADES, check_range
+from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspect_ratio, check_range
+from wingbeat.aero.extension import Blend, check_extension, jet_of
+from wingbeat.aero.formula import GRADES
 from wingbeat.aero.published import SuFan
 
 if TYPE_CHECKING:

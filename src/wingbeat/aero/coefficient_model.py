@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from wingbeat._base import Fault, FaultList, InvalidInputError
-from wingbeat._jax.arrays import jax
-from wingbeat._jax.config import in_own_settings
-from wingbeat.aero.table_checks import MAX_DRAG
+from wingbeat._jax.config import in_own_settings, jax
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Angles
 
+# What a wing can have. Sections with slotted flaps reach a lift coefficient of about 4.5, and a plate across the
+# flow has a drag coefficient of about 2. The centre of pressure is in chords from the leading edge.
+MAX_LIFT, MAX_DRAG, CENTRE_RANGE = 5.0, 5.0, (-1.0, 2.0)
+
 # The thin aerofoil in an ideal fluid has a lift coefficient of 2 pi sin(alpha) at most. Formulas and functions may
-# state it, and a drag of 0; tables, which are measurements, may not (`wingbeat.aero.table_checks`).
+# state it, and a drag of 0; tables, which are measurements, may not.
 IDEAL_LIFT = 2 * math.pi
 _ROUNDING = 1e-9
 
@@ -48,6 +51,51 @@ def check_aspect_ratio(faults: FaultList, where: str, given: Any) -> None:
     """Note a fault unless an aspect ratio is a positive number, infinite, or None."""
     if given is not None and given != math.inf:
         faults.number(where, given, above=0, fix="give span over mean chord, inf for a section, or none if unknown")
+
+
+def check_range(faults: FaultList, where: str, limits: Any) -> None:
+    """Note a fault unless `limits` are two numbers that do not decrease."""
+    if not isinstance(limits, tuple) or len(limits) != 2:
+        faults.add(where, limits, "must be a pair", "give (lowest, highest)")
+    elif all([faults.number(f"{where}[{i}]", limit) for i, limit in enumerate(limits)]) and limits[0] > limits[1]:
+        faults.add(where, limits, "must not decrease", "give (lowest, highest)")
+
+
+def check_possible(faults: FaultList, quantity: str, values: Sequence[float], where: Callable[[int], str]) -> None:
+    """Note one fault, at the worst row, if a column holds coefficients that no wing has.
+
+    Parameters
+    ----------
+    faults : collects the fault.
+    quantity : "c_l", "c_d" or "x_cp", in either case; other quantities have no limits.
+    values : the column; values that are not finite are left to other checks.
+    where : names a row of it.
+    """
+    name = quantity.lower()
+    limits = {"c_l": (-MAX_LIFT, MAX_LIFT), "c_d": (0.0, MAX_DRAG), "x_cp": CENTRE_RANGE}
+    if name not in limits:
+        return
+    low, high = limits[name]
+    given = [(value, i) for i, value in enumerate(values) if math.isfinite(value)]
+    bad = [(v, i) for v, i in given if not low <= v <= high or (name == "c_d" and v == 0)]
+    if not bad:
+        return
+    worst, row = max(bad, key=lambda pair: max(low - pair[0], pair[0] - high))
+    usual = sorted(abs(value) for value, _ in given)[len(given) // 2]
+    if name == "x_cp":
+        rule = f"must lie between {low:g} and {high:g} chords from the leading edge"
+        fix = "where the force is nearly zero it has no centre: give a value from a neighbouring row"
+        fix = "the column looks like per cent of the chord: divide it by 100" if usual > high else fix
+    elif name == "c_d" and worst <= 0:
+        rule = "must be > 0: every wing has drag, and drag is measured against the motion"
+        reversed_ = all(value <= 0 for value, _ in given)
+        fix = "reverse its sign" if reversed_ and worst < 0 else "check the zero of the balance, or drop the row"
+    else:
+        rule = f"must lie between {low:g} and {high:g}: no wing has more"
+        counts = name == "c_d" and usual > 2 * high
+        fix = "give it without a unit; per cent divided by 100 are coefficients"
+        fix = "the column looks like drag counts: divide it by 10000" if counts else fix
+    faults.add(where(row), worst, rule + (f" ({len(bad)} of {len(values)} rows)" if len(bad) > 1 else ""), fix)
 
 
 def check_curve(faults: FaultList, where: str, name: str, degrees: Angles, lift: Angles, drag: Angles) -> None:

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._base import FaultList
-from wingbeat._jax.arrays import jnp, register_record, sin
-from wingbeat.aero.coefficient_model import CoefficientModel, check_aspect_ratio
+from wingbeat._jax.arrays import register_record, sin
+from wingbeat._jax.config import jnp
+from wingbeat.aero.coefficient_model import CoefficientModel, check_aspect_ratio, check_range
 from wingbeat.aero.extension import ExtendedKernel, check_extension, extend
 
 if TYPE_CHECKING:
@@ -198,14 +199,6 @@ class CentreTerms:
         return PowerLaw(
             self.constant, power_amplitude, self.exponent, self.decay_amplitude * _DEG, self.decay_rate * _DEG
         )
-
-
-def check_range(faults: FaultList, where: str, limits: Any) -> None:
-    """Note a fault unless `limits` are two numbers that do not decrease."""
-    if not isinstance(limits, tuple) or len(limits) != 2:
-        faults.add(where, limits, "must be a pair", "give (lowest, highest)")
-    elif all([faults.number(f"{where}[{i}]", limit) for i, limit in enumerate(limits)]) and limits[0] > limits[1]:
-        faults.add(where, limits, "must not decrease", "give (lowest, highest)")
 
 
 @register_record(

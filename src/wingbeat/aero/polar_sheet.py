@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from wingbeat._base import FaultList, suggest
 from wingbeat._base.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
-from wingbeat.aero.table_checks import check_possible
+from wingbeat.aero.coefficient_model import check_possible
 
 QUANTITIES = ("C_L", "C_D", "C_M", "x_cp")
 REQUIRED = ("alpha_deg", "C_L", "C_D")

@@ -3,40 +3,179 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from wingbeat._base import FaultList
 from wingbeat._base.sheets import Sheet, same_name
-from wingbeat._jax.arrays import horner, jax, jnp
-from wingbeat.aero.blends import Jet
-from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspect_ratio
-from wingbeat.aero.extension import check_drag_of_joins, check_extension, extend
-from wingbeat.aero.monotone import monotone_curve
-from wingbeat.aero.polar_sheet import REQUIRED as REQUIRED_IN_FILE
-from wingbeat.aero.polar_sheet import PolarSheet, doubtful_drag, fitting, read_polar, refuse_several
-from wingbeat.aero.table_checks import (
-    OPTIONAL,
-    REQUIRED,
-    check_columns,
-    check_coverage,
-    is_whole_turn,
-    numbers,
-)
+from wingbeat._jax.arrays import horner
+from wingbeat._jax.config import jax, jnp
+from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspect_ratio, check_possible
+from wingbeat.aero.extension import Jet, check_drag_of_joins, check_extension, extend
+from wingbeat.aero.polar_sheet import REQUIRED, PolarSheet, doubtful_drag, fitting, read_polar, refuse_several
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
     from scipy.interpolate import PPoly
 
-    from wingbeat._jax.shapes import Angles, Cells, PieceColumns, Scalar
+    from wingbeat._jax.shapes import Angles, Cells, Knots, PieceColumns, Scalar
+
+
+def monotone_curve(knots: Knots, values: Knots, *, periodic: bool = False) -> Any:
+    """Return SciPy's `PPoly` of the quintics through `values` at rising `knots`, monotone between any two of them.
+
+    Theory: equations ``table-slope``, ``table-curvature`` and ``table-monotone``.
+
+    Parameters
+    ----------
+    knots, values : the rows, four or more, shape (n,).
+    periodic : whether the curve repeats itself; the last value is then the first.
+    """
+    # Imported here, because SciPy is slow to import and the formulas do not need it.
+    from scipy.interpolate import BPoly, CubicSpline, PchipInterpolator, PPoly
+
+    pieces = len(knots) - 1
+    # The pieces before and after each row.
+    before, after = np.arange(-1, pieces), np.arange(pieces + 1)
+    before[0], after[-1] = (pieces - 1, 0) if periodic else (0, pieces - 1)
+    steps = np.diff(knots)
+    secants = np.diff(values) / steps
+    if periodic:
+        turn = knots[-1] - knots[0]
+        around = np.concatenate([knots[-2:-1] - turn, knots, knots[1:2] + turn])
+        slopes = PchipInterpolator(around, np.concatenate([values[-2:-1], values, values[1:2]]))(knots, 1)
+    else:
+        slopes = PchipInterpolator(knots, values)(knots, 1)
+    left, right, secant = np.abs(slopes[:-1]), np.abs(slopes[1:]), np.abs(secants)
+    needed = np.maximum(0.4 * (left + right), (2 * (left + right) + np.maximum(left, right)) / 7)
+    share = np.divide(secant, needed, out=np.ones_like(secant), where=needed > secant)
+    slopes = slopes * np.minimum(share[before], share[after])
+    at_begin = (6 * secants - 4 * slopes[:-1] - 2 * slopes[1:]) / steps
+    at_end = (-6 * secants + 2 * slopes[:-1] + 4 * slopes[1:]) / steps
+    one, other = at_end[before], at_begin[after]
+    if not periodic:
+        one[0], other[-1] = other[0], one[-1]
+    curvatures = np.where(one * other > 0, np.where(np.abs(one) < np.abs(other), one, other), 0.0)
+    spline = CubicSpline(knots, values, bc_type="periodic" if periodic else "not-a-knot")
+    # A row keeps the spline's slope and curvature unless a piece beside it is then not monotone.
+    limited = np.zeros(pieces + 1, dtype=bool)
+    while True:
+        slope = np.where(limited, slopes, spline(knots, 1))
+        curvature = np.where(limited, curvatures, spline(knots, 2))
+        # A quintic is monotone if its control polygon is.
+        first, last = steps * slope[:-1], steps * slope[1:]
+        begin, end = steps**2 * curvature[:-1] / 20, steps**2 * curvature[1:] / 20
+        middle = steps * secants - 0.4 * (first + last) + end - begin
+        rises = np.stack([first, first / 5 + begin, middle, last / 5 - end, last])
+        good = np.where(secants == 0, (rises == 0).all(axis=0), (rises * np.sign(secants) >= 0).all(axis=0))
+        more = (~good[before] | ~good[after]) & ~limited
+        if not more.any():
+            jets = np.column_stack([values, slope, curvature])
+            return PPoly.from_bernstein_basis(BPoly.from_derivatives(knots, jets))
+        limited |= more
+
+
+COLUMNS = ("alpha_deg", "c_l", "c_d")
+OPTIONAL = ("x_cp",)
+MIN_ROWS = 4
+# No instrument sets angles more finely, and a curve through closer rows would be a step.
+CLOSEST_DEG = 1e-3
+# Coefficients that differ by less are the same but for rounding, as the sines of -180 and 180 degrees are.
+_SAME = 1e-6
+Where = Callable[[int, str], str]
+
+
+def numbers(faults: FaultList, cells: Sequence[Any], where: Callable[[int], str]) -> list[float]:
+    """Return the cells as floats; a cell that is not a number becomes NaN and is noted as a fault."""
+    values = []
+    for i, cell in enumerate(cells):
+        try:
+            number = float(cell)
+        except (TypeError, ValueError):
+            rule = "is empty" if isinstance(cell, str) and not cell.strip() else "is not a number"
+            faults.add(where(i), cell, rule, "write one number with a decimal point")
+            number = math.nan
+        else:
+            if not math.isfinite(number):
+                faults.add(where(i), number, "must be finite", "drop the row or give a value")
+                number = math.nan
+        values.append(number)
+    return values
+
+
+def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Where) -> None:
+    """Note angles that do not rise, coefficients that no wing has, and too few rows."""
+    angles = columns["alpha_deg"]
+    falls = [i for i in range(1, len(angles)) if angles[i] <= angles[i - 1]]
+    if falls:
+        share = f" ({len(falls)} of {len(angles)} rows)" if len(falls) > 1 else ""
+        rule = f"must be above the {angles[falls[0] - 1]:g} before it{share}"
+        fix = "sort the rows by angle and drop duplicates; of sweeps up and down, keep one"
+        fix = "the angles fall: reverse the order of the rows" if len(falls) == len(angles) - 1 else fix
+        faults.add(where(falls[0], "alpha_deg"), angles[falls[0]], rule, fix)
+    for i, angle in enumerate(angles):
+        if i and 0 < angle - angles[i - 1] < CLOSEST_DEG:
+            rule = f"must be at least {CLOSEST_DEG:g} degrees above the {angles[i - 1]:g} before it"
+            faults.add(where(i, "alpha_deg"), angle, rule, "merge the two rows")
+        if abs(angle) > 180:
+            faults.add(where(i, "alpha_deg"), angle, "must lie between -180 and 180 degrees", "wrap the angle")
+    for name, column in columns.items():
+        check_possible(faults, name, column, lambda i, name=name: where(i, name))
+    if len(angles) < MIN_ROWS:
+        rule = f"must be at least {MIN_ROWS} for a curve"
+        faults.add("rows", len(angles), rule, "measure at more angles")
+
+
+def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension: str, where: Where) -> None:
+    """Note a table that covers fewer angles than its extension needs, or more negative angles than it uses.
+
+    A whole turn whose last row differs from its first by rounding is closed: its last row becomes its first.
+    """
+    angles = columns["alpha_deg"]
+    first, last = angles[0], angles[-1]
+    at_first, at_last = where(0, "alpha_deg"), where(len(angles) - 1, "alpha_deg")
+    if max(abs(first), abs(last)) <= 2 * math.pi:
+        rule = f"is the largest angle of a column from {first:g} to {last:g}, which looks like radians"
+        faults.add(at_last, last, rule, "write alpha_deg in degrees, from 0 to at least 90")
+        return
+    if last < 90:
+        faults.add(at_last, last, "the table must reach at least 90 degrees", "measure at larger angles")
+    if first > 0:
+        faults.add(at_first, first, "the table must begin at 0 degrees or below", "add a row for 0")
+    if is_whole_turn(angles):
+        for name, column in columns.items():
+            if name == "alpha_deg":
+                continue
+            if abs(column[-1] - column[0]) > _SAME:
+                rule = f"must equal the value at -180 degrees, {column[0]:g}"
+                faults.add(where(len(angles) - 1, name), column[-1], rule, "repeat the row of -180 at 180")
+            else:
+                column[-1] = column[0]
+    elif first < 0 and extension != "signed":
+        rule = f"is negative, and the extension {extension} would ignore it"
+        more = "use signed" if first <= -90 else "add rows down to -90 and use signed"
+        drop = "drop the negative rows" + (" and use mirrored" if extension == "signed-drag" else "")
+        faults.add(at_first, first, rule, f"{drop}, or {more}")
+    elif first > -90 and extension.startswith("signed"):
+        rule = "the extension signed needs the table to begin at -90 degrees or below"
+        if extension == "signed-drag":
+            rule = "the extension signed-drag has no effect on a table"
+        fix = "use mirrored" if first >= 0 else "add rows down to -90, or drop the negative rows and use mirrored"
+        faults.add(at_first, first, rule, fix)
+
+
+def is_whole_turn(angles: Sequence[float]) -> bool:
+    """Return whether a table runs from -180 to 180 degrees."""
+    return angles[0] == -180 and angles[-1] == 180
 
 
 # Cells in which a table is looked up; more if rows are so close that two would be in one cell. With this look-up a
 # flight with quintics takes less time than one with cubics and a binary search did: 0.48 in place of 0.52 ms.
-_CELLS = 2048
+_LOOKUP_CELLS = 2048
 # Coefficients of a quintic.
 _ORDER = 6
 
@@ -56,7 +195,7 @@ class TablePieces(NamedTuple):
     @classmethod
     def of(cls, knots: NDArray[np.float64], lift: PPoly, drag: PPoly, centre: PPoly | None) -> TablePieces:
         """Return the pieces of the curves through the columns of a table."""
-        count, span = _CELLS, knots[-1] - knots[0]
+        count, span = _LOOKUP_CELLS, knots[-1] - knots[0]
         while span / count > np.diff(knots).min():
             count *= 2
         starts = knots[0] + np.arange(count) * (span / count)
@@ -107,7 +246,7 @@ class TableCoefficients(CoefficientModel):
     """Quasi-steady coefficients of a wing strip, from a table.
 
     Between two rows each coefficient is monotone, so it never leaves their values; slope and curvature are
-    continuous (`wingbeat.aero.monotone`). A table from 0 to at least 90 degrees is extended like a formula; rows
+    continuous (`wingbeat.aero.table`). A table from 0 to at least 90 degrees is extended like a formula; rows
     beyond 90 degrees only shape the slope there. A table with rows down to -90 degrees or below needs the extension
     `signed`. A table from -180 to 180 is periodic and used without extension; its `extension` is `signed`.
 
@@ -153,7 +292,7 @@ class TableCoefficients(CoefficientModel):
         faults = FaultList()
         check_aspect_ratio(faults, "aspect_ratio", self.aspect_ratio)
         check_extension(faults, self.extension, self.blend_width_deg)
-        raw = {name: getattr(self, name) for name in (*REQUIRED, *OPTIONAL) if getattr(self, name) is not None}
+        raw = {name: getattr(self, name) for name in (*COLUMNS, *OPTIONAL) if getattr(self, name) is not None}
         columns = {name: numbers(faults, list(raw[name]), lambda i, name=name: f"{name}[{i}]") for name in raw}
         for name, column in columns.items():
             if len(column) != len(columns["alpha_deg"]):
@@ -264,7 +403,7 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
     check_extension(faults, extension, blend_width_deg)
     polar = read_polar(path, faults)
     aspect_ratio = _stated_aspect_ratio(faults, polar.sheet)
-    columns = {name.lower(): polar.columns[name].tolist() for name in REQUIRED_IN_FILE}
+    columns = {name.lower(): polar.columns[name].tolist() for name in REQUIRED}
     if not faults.faults:
         refuse_several(faults, path, polar)
         faults.raise_if_any()
@@ -295,7 +434,7 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
     stream = stream[np.isfinite(stream)]
     return TableCoefficients(
         Path(path).stem,
-        *(tuple(columns[name]) for name in REQUIRED),
+        *(tuple(columns[name]) for name in COLUMNS),
         x_cp=None if centre is None else tuple(centre),
         citation=polar.sheet.file,
         reynolds_range=(float(stream.min()), float(stream.max())) if len(stream) else None,

@@ -10,9 +10,8 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from wingbeat.aero import EXTENSIONS, FORCE_POINTS, BladeElement, load_coefficients
-from wingbeat.aero.choosing import load_hand
-from wingbeat.aero.fitted import Fitted
-from wingbeat.aero.model_file import read_model
+from wingbeat.aero.blade_element import load_hand
+from wingbeat.aero.model_file import Fitted, read_model
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.record import Species
 from wingbeat.cli.options import Whole, with_settings

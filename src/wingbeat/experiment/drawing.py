@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from wingbeat._base import FaultList, InvalidInputError
 from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
-from wingbeat.aero.fitted import FittedCurve
-from wingbeat.aero.model_file import read_model
+from wingbeat.aero.model_file import FittedCurve, read_model
 from wingbeat.experiment.wing_fit import WingFit
 
 MAX_COUNT = 100_000

@@ -8,8 +8,7 @@ import math
 import numpy as np
 
 from wingbeat._version import __version__
-from wingbeat.aero.fitted import Fitted, FittedCurve, FittedWing
-from wingbeat.aero.model_file import KIND
+from wingbeat.aero.model_file import KIND, Fitted, FittedCurve, FittedWing
 from wingbeat.experiment.regression import CurveFit
 
 _HEAD = """\

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from wingbeat._base import FaultList, plain_unit
-from wingbeat.aero.table_checks import MAX_DRAG, MAX_LIFT
+from wingbeat.aero.coefficient_model import MAX_DRAG, MAX_LIFT
 
 if TYPE_CHECKING:
     from wingbeat.experiment.record import LoadCellRun

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from wingbeat._base import FaultList, InvalidInputError, write_atomically
 from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.coefficient_model import check_aspect_ratio
-from wingbeat.aero.fitted import Fitted, FittedCurve, FittedModel, FittedWing
+from wingbeat.aero.model_file import Fitted, FittedCurve, FittedModel, FittedWing
 from wingbeat.aero.polar_sheet import zero_lift
 from wingbeat.experiment.cambered_form import DragFit, DragForm, LiftForm, fit_drag, stall_notes
 from wingbeat.experiment.forms import BoxForm, CurveForm

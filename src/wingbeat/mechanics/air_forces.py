@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.arrays import jnp
 from wingbeat.aero.blade_element import StripForces, strip_forces, with_turning
-from wingbeat.aero.unsteady import added_inertia, added_mass
+from wingbeat.aero.closed_forms import added_inertia, added_mass
 from wingbeat.animal.kinematics import Wingbeat, span_ratio
 from wingbeat.mechanics.body_dynamics import body_air, pressure_offset
 from wingbeat.mechanics.flight_model import FlightModel, is_unsteady, unsteady_density

@@ -8,11 +8,11 @@ of the body, b that of a point relative to the body, and E turns a vector nose-u
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from wingbeat._jax.arrays import computed_once, cos, fusion_barrier, jnp, sin
 from wingbeat.aero.blade_element import StripForces, strip_forces
-from wingbeat.aero.tail import tail_force
+from wingbeat.aero.closed_forms import body_drag, tail_force
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.mechanics.frames import dot, from_world, quarter_turn, to_world
 from wingbeat.mechanics.strip_sums import sum_over_strips
@@ -124,25 +124,6 @@ def pressure_offset(kernel: Kernel, alpha: PerStrip, chord: PerStrip) -> PerStri
     return chord * (0.25 - kernel.centre_of_pressure(alpha))
 
 
-def body_drag(drag_area: Scalar, density: Scalar, velocity: Pair, xp: Any = jnp) -> Pair:
-    """Return the drag of the body at its centre of mass, ``-1/2 rho S |v| v`` [N], in the axes of `velocity`.
-
-    Theory: equation ``body-drag``.
-
-    Parameters
-    ----------
-    drag_area : S, drag coefficient times frontal area [m2].
-    density : rho [kg/m3].
-    velocity : v [m/s].
-    xp : the array module that computes, numpy or jax.numpy.
-    """
-    squared = dot(velocity, velocity)
-    moving = squared > 0.0
-    speed = xp.where(moving, xp.sqrt(xp.where(moving, squared, 1.0)), 0.0)
-    pressure_area = -0.5 * density * drag_area * speed
-    return pressure_area * velocity[0], pressure_area * velocity[1]
-
-
 class BodyAir(NamedTuple):
     """Air loads on the body and its tail.
 
@@ -180,7 +161,7 @@ def body_air(
     axes : nose-up pitch of the velocity's axes relative to body axes [rad].
     tilt : added to the tail's incidence [rad]; None means 0.
     """
-    drag, tail = body_drag(vehicle.body.drag_area, density, velocity), vehicle.tail
+    drag, tail = body_drag(vehicle.body.drag_area, density, velocity, jnp), vehicle.tail
     if tail is None:
         return BodyAir(drag, None)
     # Behind the barriers, geometry and force are computed once for all directions of a derivative. A flight with a

@@ -10,10 +10,10 @@ import numpy as np
 from wingbeat._base import FaultList
 from wingbeat._jax.arrays import at_default, elementwise_jvp, jnp, register_record, unchecked
 from wingbeat.aero.blade_element import BladeElement, blade_element_of
-from wingbeat.aero.inflow import check_descent, disc_area, induced_flow
+from wingbeat.aero.closed_forms import body_drag, check_descent, disc_area, induced_flow
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.vehicle import Air, Vehicle
-from wingbeat.mechanics.body_dynamics import BodyLoads, accelerations, body_air, body_drag, wing_loads
+from wingbeat.mechanics.body_dynamics import BodyLoads, accelerations, body_air, wing_loads
 from wingbeat.mechanics.frames import dot, from_world
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude, wing_motion
 

@@ -1,6 +1,7 @@
 """The unsteady loads on a motion of the wing, from sums over the strips that depend on time alone.
 
-Rotation, added mass and couples of a thin aerofoil (`wingbeat.aero.unsteady`) are at most products of two speeds.
+Rotation, added mass and couples of a thin aerofoil (`wingbeat.aero.closed_forms`) are at most products of two
+speeds.
 The motion of the body through the air in stroke axes is ``xi = (V_x, V_z, psi')``. Each speed of a strip is linear
 in xi, with factors that the wing's own motion sets. So the load on a motion is ``-rho (A . a + B . xi + C +
 psi' (D . xi + E))``, where a is the acceleration of the body. A to E are tabulated like the moments of the wing's
@@ -11,8 +12,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._jax.arrays import computed_once, jax, jnp
-from wingbeat.aero.unsteady import added_inertia, added_mass, damping_couple, rotation_lift
+from wingbeat._jax.arrays import computed_once
+from wingbeat._jax.config import jax, jnp
+from wingbeat.aero.closed_forms import added_inertia, added_mass, damping_couple, rotation_lift
 from wingbeat.mechanics.frames import dot
 from wingbeat.mechanics.strip_sums import mass_moments, sum_over_strips
 from wingbeat.mechanics.wing_shape import WingShape

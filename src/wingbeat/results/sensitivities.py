@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._base import Fault, FaultList, InvalidInputError, Report, Reported, drawn
-from wingbeat.aero.fitted import Fitted
+from wingbeat.aero.model_file import Fitted
 from wingbeat.orbits.many.uncertainty import (
     ErrorBar,
     ParameterSpread,

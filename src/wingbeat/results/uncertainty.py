@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat._base import PRECISION, FaultList
-from wingbeat.aero.fitted import Fitted
+from wingbeat.aero.model_file import Fitted
 from wingbeat.orbits.many.uncertainty import ErrorBar, Samples, sample_orbits
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.parameters import parameters_of

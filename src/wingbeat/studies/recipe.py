@@ -17,7 +17,7 @@ from typing import Any
 
 from wingbeat._base import FaultList, first_line, plain_unit, read_text, suggest
 from wingbeat.aero import BladeElement, load_coefficients
-from wingbeat.aero.choosing import load_hand
+from wingbeat.aero.blade_element import load_hand
 from wingbeat.animal.species.building import NO_SUCH_PATH, settable
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.numbers import KEYS, Key, shown, spoken

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wingbeat.aero.inflow import disc_area, induced_flow
-from wingbeat.mechanics.body_dynamics import body_drag
+from wingbeat.aero.closed_forms import body_drag, disc_area, induced_flow
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -37,12 +37,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from wingbeat.aero.closed_forms import disc_area
 from wingbeat.aero.coefficient_model import CoefficientModel
-from wingbeat.aero.inflow import disc_area
-from wingbeat.aero.wake import is_stalled
 from wingbeat_evidence.measured_motion.ladder import THIN_AEROFOIL_WAKE, UNSTEADY_STEPS, Rung
 from wingbeat_evidence.measured_motion.strip_case import StripCase
 from wingbeat_evidence.measured_motion.strip_motion import StripMotion, semi_span
+from wingbeat_evidence.measured_motion.wake import is_stalled
 
 # Dynamic viscosity of air at 15 to 20 degrees Celsius [kg/(m s)].
 _VISCOSITY = 1.8e-5

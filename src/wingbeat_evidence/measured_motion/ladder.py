@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat.aero import INFLOWS, LIBRARY, UNSTEADY, BladeElement, CoefficientModel, coefficients_of
-from wingbeat.aero.choosing import load_coefficients
+from wingbeat.aero.blade_element import load_coefficients
 
 THIN_AEROFOIL_WAKE = "thin-aerofoil-wake"
 # A flight has no lag of the wake: the two states of each strip are not in the equations of motion.

@@ -11,12 +11,11 @@ from numpy.typing import NDArray
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.config import in_own_settings
 from wingbeat.aero.blade_element import BladeElement, StripForces, strip_forces, with_turning
+from wingbeat.aero.closed_forms import added_inertia, added_mass, disc_area, induced_flow
 from wingbeat.aero.coefficient_model import Kernel
-from wingbeat.aero.inflow import disc_area, induced_flow
-from wingbeat.aero.unsteady import added_inertia, added_mass
-from wingbeat.aero.wake import shed_downwash, wake_downwash
 from wingbeat_evidence.measured_motion.strip_case import StripCase
 from wingbeat_evidence.measured_motion.strip_motion import StripMotion, semi_span
+from wingbeat_evidence.measured_motion.wake import shed_downwash, wake_downwash
 
 Array = NDArray[np.float64]
 

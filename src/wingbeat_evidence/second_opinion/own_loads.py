@@ -10,9 +10,9 @@ from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.config import in_own_settings
 from wingbeat._jax.exported import exported
 from wingbeat.aero.blade_element import BladeElement
+from wingbeat.aero.closed_forms import body_drag
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle
 from wingbeat.mechanics.air_forces import air_forces_on
-from wingbeat.mechanics.body_dynamics import body_drag
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.wing_motion import time_rates
 from wingbeat.mechanics.wing_points import point_motion
@@ -67,7 +67,7 @@ def _loads_along(model: FlightModel, wingbeat: Wingbeat, state: State, accelerat
         q_second = jnp.concatenate([body_acceleration, jnp.stack([flap[2], pitch[2]])])
         points = point_motion(model, wingbeat, q, q_dot, when / wingbeat.frequency)
         air = air_forces_on(model, wingbeat, q, q_dot, when / wingbeat.frequency, points, q_second)
-        drag = body_drag(model.vehicle.body.drag_area, model.air.density, (body.u, body.w))
+        drag = body_drag(model.vehicle.body.drag_area, model.air.density, (body.u, body.w), jnp)
         forward, up = air.generalised[0] - drag[0], air.generalised[1] - drag[1]
         return forward, up, drag[0] * body.u + drag[1] * body.w - air.power, air.strips.alpha
 

@@ -19,7 +19,7 @@ from wingbeat.aero import (
     BladeElement,
     load_coefficients,
 )
-from wingbeat.aero.choosing import load_hand
+from wingbeat.aero.blade_element import load_hand
 from wingbeat.animal.species.making import load_species, species_of
 from wingbeat.animal.species.reading import read_species_text, species_names
 from wingbeat.animal.species.record import Species

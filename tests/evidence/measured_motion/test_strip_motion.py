@@ -7,7 +7,7 @@ import pytest
 
 from tests.helpers.strip_cases import both_wings, flapping_case
 from wingbeat.aero import BladeElement
-from wingbeat.aero.inflow import disc_area
+from wingbeat.aero.closed_forms import disc_area
 from wingbeat_evidence.measured_motion.slopes import smoothed_slopes
 from wingbeat_evidence.measured_motion.strip_loads import momentum_inflow, strip_loads
 from wingbeat_evidence.measured_motion.strip_motion import semi_span, strip_motion, wing_ranges

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from tests.aero.test_wake import THEODORSEN
+from tests.evidence.measured_motion.test_wake_lag import THEODORSEN
 from tests.helpers.strip_cases import PHASES, flapping_case, section_case, write_case
 from wingbeat._base import InvalidInputError
 from wingbeat.cli import main

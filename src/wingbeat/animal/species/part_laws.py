@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 
-from wingbeat.aero.tail import slender_slope
+from wingbeat.aero.closed_forms import slender_slope
 from wingbeat.animal.species.numbers import HARVEY, Data, Law, Number
 from wingbeat.animal.vehicle import MUSCLE_DENSITY
 

@@ -9,16 +9,19 @@ from __future__ import annotations
 
 import functools
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from wingbeat._base import Fault, InvalidInputError
-from wingbeat._jax.arrays import horner, jnp
+from wingbeat._jax.arrays import horner, register_record, sin
+from wingbeat._jax.config import jnp
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Angles, Spline
+    from wingbeat._jax.shapes import Angles, Scalar, Spline
+    from wingbeat.aero.coefficient_model import Kernel
 
 # Knots of the tables over the whole turn: a spline through them is within 1e-6 of the formulas of the library, and
 # within 1e-4 in the blends.
@@ -117,3 +120,68 @@ def _spline(knots: np.ndarray, values: np.ndarray) -> np.ndarray:
         return np.full((4, _CELLS), np.nan)
     whole = np.append(values[:-1], values[0])
     return CubicSpline(knots, whole, bc_type="periodic").c[::-1] * (knots[1] - knots[0]) ** np.arange(4)[:, None]
+
+
+# Half width of the change between air from below and air from above [deg].
+_CHANGE_DEG = 5.0
+
+
+def count_arm_strips(strips: int, hand_from: float) -> int:
+    """Return how many of a wing's strips have their centre at or inside the span fraction where the hand begins.
+
+    >>> count_arm_strips(10, 0.5), count_arm_strips(10, 0.25)
+    (5, 3)
+    """
+    return sum((i + 0.5) / strips <= hand_from for i in range(strips))
+
+
+@register_record(static=("arm_strips",))
+@dataclass(frozen=True)
+class ArmHandKernel:
+    """The kernel of a wing whose inner and outer strips have different coefficients; a JAX pytree.
+
+    Parameters
+    ----------
+    arm, hand : kernels of the two parts.
+    arm_strips : number of strips that belong to the arm.
+    """
+
+    arm: Kernel
+    hand: Kernel
+    arm_strips: int
+
+    def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
+        """Return C_L and C_D at `alpha` [rad], shape (N, ...)."""
+        inner, outer = self.arm.lift_drag(alpha[: self.arm_strips]), self.hand.lift_drag(alpha[self.arm_strips :])
+        return jnp.concatenate([inner[0], outer[0]]), jnp.concatenate([inner[1], outer[1]])
+
+    def centre_of_pressure(self, alpha: Angles) -> Angles:
+        """Return x_cp at `alpha` [rad], shape (N, ...); NaN if there is none."""
+        inner = self.arm.centre_of_pressure(alpha[: self.arm_strips])
+        return jnp.concatenate([inner, self.hand.centre_of_pressure(alpha[self.arm_strips :])])
+
+
+class UpstrokeKernel(NamedTuple):
+    """The kernel of a wing that lets air through, or folds away, where air meets it from above; a JAX pytree.
+
+    Lift and drag are those of `kernel` times `factor` where ``sin(alpha) < 0``. Within 5 degrees of an angle of
+    attack of 0 or 180 degrees the multiplier changes from 1 to `factor`, with continuous second derivative.
+    """
+
+    kernel: Kernel
+    factor: Scalar
+
+    def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
+        """Return C_L and C_D at `alpha` [rad], shape (N, ...).
+
+        Theory: equation ``upstroke-factor``.
+        """
+        lift, drag = self.kernel.lift_drag(alpha)
+        below = jnp.clip(0.5 + 0.5 * sin(alpha) / math.sin(math.radians(_CHANGE_DEG)), 0.0, 1.0)
+        smooth = below * below * below * horner((10.0, -15.0, 6.0), below)
+        left = self.factor + (1.0 - self.factor) * smooth
+        return left * lift, left * drag
+
+    def centre_of_pressure(self, alpha: Angles) -> Angles:
+        """Return x_cp at `alpha` [rad], shape (N, ...); NaN if there is none."""
+        return self.kernel.centre_of_pressure(alpha)

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wingbeat as wb
-from wingbeat.aero.wake import is_stalled, largest_lift_angles, shed_downwash, wake_downwash
+from wingbeat_evidence.measured_motion.wake import is_stalled, largest_lift_angles, shed_downwash, wake_downwash
 
 # Bessel functions of Theodorsen 1935, and Wagner's function at semi-chords travelled.
 THEODORSEN = {0.1: 0.83192 - 0.17230j, 0.28: 0.67525 - 0.18188j, 0.5: 0.59794 - 0.15071j, 1.0: 0.53943 - 0.10027j}

@@ -14,7 +14,7 @@ stalled, is read at the angle of attack in the moved air, and its forces turn wi
 pi sin(alpha)`` in plunge this is Theodorsen's lift and Garrick's thrust (1936, NACA Report 567). The model of
 dynamic stall of Leishman and Beddoes 1989 (doi 10.4050/JAHS.34.3.3) starts with the same step.
 
-The lag is that of a section, as rotation and added mass (`wingbeat.aero.unsteady`) are. A whole wing of a small
+The lag is that of a section, as rotation and added mass (`wingbeat.aero.closed_forms`) are. A whole wing of a small
 aspect ratio lags less (Jones 1940).
 """
 

@@ -7,9 +7,22 @@ from collections.abc import Iterator
 
 import numpy as np
 from alerstam_flights import FREQUENCY, HELD, PAPER, POWER, Bird, Point
-from alerstam_loading import CLEARLY, SAMPLES, SPEEDS, change, left_by_fit
 from alerstam_spread import Moved
-from alerstam_summary import AIR, FITTED, Row, column, compare, exponent, loading_of, of_model
+from alerstam_summary import (
+    AIR,
+    CLEARLY,
+    FITTED,
+    SAMPLES,
+    SPEEDS,
+    Row,
+    change,
+    column,
+    compare,
+    exponent,
+    left_by_fit,
+    loading_of,
+    of_model,
+)
 from numpy.typing import NDArray
 from page_script import filled
 

@@ -129,7 +129,7 @@ def test_further_speeds_are_flown_where_the_least_is_at_an_end() -> None:
 
 @pytest.mark.usefixtures("validation")
 def test_a_prediction_is_better_than_wing_loading_only_if_it_leaves_less_scatter() -> None:
-    from alerstam_loading import change, left_by_fit
+    from alerstam_summary import change, left_by_fit
 
     random = np.random.default_rng(1)
     loading = np.exp(random.normal(3.5, 0.5, 200))

@@ -9,9 +9,9 @@ from tests.helpers.places import ROOT
 @pytest.fixture
 def words(monkeypatch):
     monkeypatch.syspath_prepend(str(ROOT / "validation"))
-    import gust_survival_words
+    import gust_survival
 
-    return gust_survival_words
+    return gust_survival
 
 
 @pytest.fixture

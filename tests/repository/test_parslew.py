@@ -9,9 +9,9 @@ from tests.helpers.places import ROOT
 @pytest.fixture
 def words(monkeypatch):
     monkeypatch.syspath_prepend(str(ROOT / "validation"))
-    import parslew_words
+    import parslew
 
-    return parslew_words
+    return parslew
 
 
 @pytest.fixture

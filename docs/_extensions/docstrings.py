@@ -11,7 +11,10 @@ import itertools
 import re
 from typing import TYPE_CHECKING, Any
 
-import wingbeat as wb
+import lazy_loader
+
+import wingbeat
+import wingbeat_evidence
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx
@@ -21,6 +24,12 @@ _ENTRY = re.compile(r"^(\S[^:]*?) : (.+)$")
 _CITED = re.compile(r"(?<=Theory: )equations? [^.]+(?=\.)")
 _LABEL = re.compile(r"``([a-z0-9-]+)``")
 _NAME = re.compile(r"(?<![`:\w])`([A-Za-z_][\w.]*)`(?!`)")
+# Each public name, and under which it has its page.
+_PLACE = {
+    name: f"{package.__name__}.{name}"
+    for package in (wingbeat_evidence, wingbeat)
+    for name in lazy_loader.attach_stub(package.__name__, str(package.__file__))[2]
+}
 
 
 def in_numpydoc_form(lines: list[str]) -> list[str]:
@@ -49,11 +58,10 @@ def equations_linked(lines: list[str]) -> list[str]:
 
 
 def names_linked(lines: list[str]) -> list[str]:
-    """Return the lines of a docstring with links to public names of wingbeat; other names are code."""
-    public = set(wb.__all__)
+    """Return the lines of a docstring with links to public names of our packages; other names are code."""
 
     def link(name: re.Match[str]) -> str:
-        return f":py:obj:`~wingbeat.{name[1]}`" if name[1] in public else f"``{name[1]}``"
+        return f":py:obj:`~{_PLACE[name[1]]}`" if name[1] in _PLACE else f"``{name[1]}``"
 
     return _NAME.sub(link, "\n".join(lines)).split("\n")
 

@@ -7,13 +7,16 @@ import shutil
 import subprocess
 import tomllib
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 import wingbeat
+import wingbeat_evidence
 from tests.helpers.places import ROOT
+from tests.helpers.public import public_names
 
 MAX_LINES = 450
 
@@ -112,17 +115,25 @@ def test_uv_lock_is_not_tracked(tracked: list[Path]) -> None:
     assert Path("uv.lock") not in tracked
 
 
-def has_own_docstring(name: str) -> bool:
+def has_own_docstring(package: ModuleType, name: str) -> bool:
     """Say whether a public name is documented; what `dataclass` writes of itself does not count."""
-    thing = getattr(wingbeat, name)
+    thing = getattr(package, name)
     text = (vars(thing).get("__doc__") if isinstance(thing, type) else thing.__doc__) or ""
     return bool(text.strip()) and not text.startswith(f"{name}(")
 
 
-def test_every_public_name_has_a_docstring() -> None:
-    public: list[str] = vars(wingbeat)["__all__"]
+@pytest.mark.parametrize("package", [wingbeat, wingbeat_evidence], ids=lambda package: package.__name__)
+def test_every_public_name_has_a_docstring(package: ModuleType) -> None:
+    public = public_names(package)
     assert public
-    assert [name for name in public if not has_own_docstring(name)] == []
+    assert [name for name in public if not has_own_docstring(package, name)] == []
+
+
+def test_what_users_need_first_is_listed_and_all_of_it_is_there() -> None:
+    listed = dir(wingbeat)
+    assert 35 <= len(listed) <= 55
+    assert {*listed} - {"__version__"} <= {*public_names(wingbeat)}
+    assert [name for name in public_names(wingbeat) if not hasattr(wingbeat, name)] == []
 
 
 @pytest.mark.parametrize(

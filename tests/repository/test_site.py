@@ -6,8 +6,10 @@ import re
 import pytest
 
 import wingbeat as wb
+import wingbeat_evidence
 from tests.helpers.browsers import AXE, shown_files
 from tests.helpers.places import ROOT
+from tests.helpers.public import public_names
 from wingbeat._base import NOMENCLATURE
 from wingbeat.animal.species.numbers import FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE
 from wingbeat.cli.app import build_app
@@ -15,6 +17,7 @@ from wingbeat.studies.form import Sample, StudyForm, Vary
 from wingbeat_evidence.measured_motion.reading import KNOWN_KEYS
 
 SITE = ROOT / "site"
+PUBLIC = [f"{package.__name__}.{name}" for package in (wb, wingbeat_evidence) for name in public_names(package)]
 # One page of each kind.
 PAGES = (
     *("index.html", "doors/biologists.html", "guide/stability.html", "theory/dynamics.html", "gallery/index.html"),
@@ -43,10 +46,10 @@ def site():
 
 
 def test_every_public_name_has_its_page():
-    listed = re.findall(
-        r"^   (\w+)$", (ROOT / "docs/reference/python.md").read_text(encoding="utf-8"), re.MULTILINE
-    )
-    assert sorted(listed) == sorted(set(wb.__all__) - {"__version__"})
+    page = (ROOT / "docs/reference/python.md").read_text(encoding="utf-8")
+    parts = re.findall(r"currentmodule:: (\w+)\n(.*?)```", page, re.DOTALL)
+    listed = [f"{package}.{name}" for package, part in parts for name in re.findall(r"^   (\w+)$", part, re.M)]
+    assert sorted(listed) == sorted(PUBLIC)
 
 
 def options_of(app):
@@ -92,8 +95,7 @@ def test_every_name_of_records_is_on_its_page(reference):
 
 
 def test_the_built_site_has_a_page_for_each_name(site):
-    built = {path.stem.removeprefix("wingbeat.") for path in (site / "reference" / "python").glob("*.html")}
-    assert set(wb.__all__) - {"__version__"} <= built
+    assert {*PUBLIC} <= {path.stem for path in (site / "reference" / "python").glob("*.html")}
 
 
 def test_the_site_has_the_explorer_with_what_the_tours_need(site):

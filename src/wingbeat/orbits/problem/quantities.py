@@ -204,6 +204,10 @@ def named_quantity(name: str) -> Quantity:
 
     Theory: equation ``quantities``.
 
+    Parameters
+    ----------
+    name : such as ``mean_power``, or with a number as in ``power_cost(0.5)``.
+
     Raises
     ------
     InvalidInputError : no quantity has this name.
@@ -225,6 +229,10 @@ def named_quantity(name: str) -> Quantity:
 
 def named_objective(name: str) -> Quantity:
     """Return the objective of this name; hyphens may replace underscores, as on the command line.
+
+    Parameters
+    ----------
+    name : as in `named_quantity`, or a short one such as ``power``.
 
     Raises
     ------

@@ -11,8 +11,8 @@ from tests.helpers.places import ROOT
 from wingbeat.cli.app import main
 from wingbeat.cli.filmed import film_lines, film_record
 from wingbeat.experiment import Film, fit_film, read_film
-from wingbeat.experiment.clip import clip_rate
 from wingbeat.experiment.film_file import MAX_FRAMES
+from wingbeat.experiment.periodic import clip_rate
 from wingbeat.orbits.problem.filmed import filmed_species
 
 CASES = ROOT / "tests/cases/films"

@@ -5,8 +5,7 @@ import pytest
 
 from wingbeat._base import InvalidInputError
 from wingbeat.experiment import CoefficientTable, fit_wing
-from wingbeat.experiment.branches import two_branches
-from wingbeat.experiment.judgement import group_difference
+from wingbeat.experiment.judgement import group_difference, two_branches
 
 STREAMS = (2e4, 6e4, 1e5)
 

@@ -8,7 +8,7 @@ import pytest
 
 from wingbeat._base import InvalidInputError
 from wingbeat.experiment import Campaign, LoadCellRun, load_measurements, reduce_run, reduce_runs, synthetic_runs
-from wingbeat.experiment.statistics import added_variance, standard_error
+from wingbeat.experiment.steadiness import added_variance, standard_error
 
 
 def run(alpha_deg=30.0, force=(1.0, 0.2, 0.01), seconds=30.0, rate=20.0, **changes):

@@ -1,4 +1,4 @@
-"""A filmed wingbeat: angles and span by phase, and what its numbers seem to be if they cannot be that."""
+"""A filmed wingbeat: angles and span by phase, what is wrong if they cannot be that, and SYNTHETIC films."""
 
 from __future__ import annotations
 
@@ -12,8 +12,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import FaultList, write_atomically
-from wingbeat.experiment.clip import MIN_BEATS, SURE, Clip, clip_rate, scatter_at
-from wingbeat.experiment.wrapping import unwrapped
+from wingbeat.animal.kinematics import (
+    Wingbeat,
+    chord_ratio,
+    flap_angle,
+    pitch_angle,
+    span_ratio,
+    sweep_angle,
+    tip_twist,
+)
+from wingbeat.experiment.periodic import MIN_BEATS, SURE, Clip, clip_rate, scatter_at
 
 # What can be filmed, and its unit.
 FILMED = {
@@ -288,3 +296,84 @@ def _one_way(values: NDArray[np.float64]) -> str:
     ways = [np.corrcoef(np.arange(len(rank)), rank)[0, 1] for rank in ranks]
     way = float(np.average(ways, weights=[len(part) for part in parts]))
     return "" if abs(way) < _ONE_WAY else "rises" if way > 0 else "falls"
+
+
+_TURN = 360.0
+Array = NDArray[np.float64]
+
+
+def unwrapped(faults: FaultList, where: str, phase: Array, angle: Array) -> tuple[Array, int]:
+    """Return an angle without jumps over the beat [deg], and the number of frames moved by whole turns.
+
+    In the order of phase within the beat, each frame is moved by whole turns until it lies within half a turn of
+    the frame before. Then all frames are moved together, so that their mean lies within half a turn of 0. A frame
+    that is not moved keeps every digit.
+
+    Parameters
+    ----------
+    faults : receives a fault if the angle does not come back to its first value after a beat.
+    where : of the column, for that fault.
+    phase : beats, shape (n,).
+    angle : as tracked [deg], shape (n,).
+
+    >>> unwrapped(FaultList(), "pitch", np.arange(4) / 4, np.array([170.0, -175.0, 172.0, 165.0]))
+    (array([170., 185., 172., 165.]), 1)
+    """
+    order = np.argsort(phase % 1.0, kind="stable")
+    smooth = np.empty_like(angle)
+    smooth[order] = np.unwrap(angle[order], period=_TURN)
+    smooth -= _TURN * np.round(smooth.mean() / _TURN)
+    first, last = smooth[order[0]], smooth[order[-1]]
+    if abs(first - last) > 0.5 * _TURN:
+        rule = f"turns from {first:.4g} to {last:.4g} degrees in one beat and does not come back"
+        faults.add(where, f"{len(angle)} frames", rule, "film more frames, or drop those where the tracker slipped")
+    return smooth, int(np.count_nonzero(np.abs(smooth - angle) > 1.0))
+
+
+def _true(name: str, wingbeat: Wingbeat, phase: NDArray[np.float64], stroke_plane: float) -> Any:
+    """Return what a perfect film of a wingbeat shows, in radians or as a fraction."""
+    if name == "flap_deg":
+        return flap_angle(wingbeat, phase)
+    if name == "sweep_deg":
+        sweep = sweep_angle(wingbeat, phase)
+        return np.zeros_like(phase) if sweep is None else sweep
+    if name == "stroke_plane_deg":
+        return np.full_like(phase, stroke_plane + wingbeat.stroke_plane_tilt)
+    if name in ("pitch_deg", "tip_pitch_deg"):
+        root, twist = np.asarray(pitch_angle(wingbeat, phase)), tip_twist(wingbeat, phase)
+        return root if name == "pitch_deg" else wingbeat.twist_ratio * root + (0.0 if twist is None else twist)
+    chord = chord_ratio(wingbeat, phase) if name == "area_fraction" else None
+    return np.asarray(span_ratio(wingbeat, phase)) * (1.0 if chord is None else np.asarray(chord))
+
+
+def synthetic_film(
+    wingbeat: Wingbeat,
+    frames: int = 60,
+    noise_deg: float = 1.0,
+    seed: int = 0,
+    columns: tuple[str, ...] = ("flap_deg",),
+    start: float = 0.0,
+    stroke_plane: float = 0.5 * math.pi,
+) -> Film:
+    """Return a film of a known wingbeat with white noise, labelled synthetic; the same seed gives the same film.
+
+    Parameters
+    ----------
+    wingbeat : the wingbeat to film, one period in equal steps.
+    frames : number of frames.
+    noise_deg : standard deviation of the angles' noise [deg]; that of fractions is a hundredth of this number.
+    seed : of the noise.
+    columns : the columns that the film shows.
+    start : phase of the wingbeat at the film's phase 0; without a column of flap, it has no effect.
+    stroke_plane : angle of the vehicle's stroke plane from the body axis [rad]; the wingbeat's tilt adds to it.
+    """
+    random = np.random.default_rng(seed)
+    phase = np.arange(frames) / frames
+    at = phase + (start if "flap_deg" in columns else 0.0)
+    seen = {}
+    for name in columns:
+        true = np.asarray(_true(name, wingbeat, at, stroke_plane))
+        angle = FILMED[name] == "deg"
+        noise = random.normal(scale=noise_deg if angle else 0.01 * noise_deg, size=frames)
+        seen[name] = (np.degrees(true) if angle else true) + noise
+    return Film("film of a known wingbeat", phase, seen, float(wingbeat.frequency), synthetic=True)

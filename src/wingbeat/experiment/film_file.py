@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from wingbeat._base import FaultList, written
 from wingbeat._base.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
-from wingbeat.experiment.clip import MIN_BEATS, SURE, Clip, clip_rate
 from wingbeat.experiment.film import BODY, COLUMNS, FILMED, WRAPPED, Film, check_flap, even_only
+from wingbeat.experiment.periodic import MIN_BEATS, SURE, Clip, clip_rate
 
 Array = NDArray[np.float64]
 # 100 s at 1000 frames a second: no animal repeats one wingbeat for longer. The fit of so many takes a second.

@@ -11,10 +11,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import FaultList
-from wingbeat.experiment.possible import check_coefficients, coefficient_notes, constant_notes
-from wingbeat.experiment.record import CHANNELS, MIN_SAMPLES, LoadCellRun, refuse_radians
-from wingbeat.experiment.statistics import added_variance, standard_error
-from wingbeat.experiment.steadiness import refuse_rest, signal_notes, stated_rest, unsteady, zero_notes
+from wingbeat.experiment.load_cell_run import (
+    CHANNELS,
+    MIN_SAMPLES,
+    LoadCellRun,
+    RunMeans,
+    check_coefficients,
+    coefficient_notes,
+    constant_notes,
+    refuse_radians,
+)
+from wingbeat.experiment.steadiness import (
+    added_variance,
+    refuse_rest,
+    signal_notes,
+    standard_error,
+    stated_rest,
+    unsteady,
+    zero_notes,
+)
 from wingbeat.experiment.table import QUANTITIES, CoefficientTable
 
 Intervals = Sequence[tuple[float, float]]
@@ -29,31 +44,6 @@ CENTRE_FLOOR = 0.02
 _BLOCKED = 0.05
 # Number of samples that are reduced together; ten copies of them take some 20 MB.
 _AT_A_TIME = 1 << 18
-
-
-class RunMeans(NamedTuple):
-    """Coefficients of one run.
-
-    Attributes
-    ----------
-    alpha_deg : angle of attack [deg].
-    reynolds : chord Reynolds number.
-    mean, sd, se : mean, standard deviation and standard error of each of `QUANTITIES`, shape (4,); those of x_cp
-        are NaN where the normal force is too small to divide by.
-    normal, normal_se : C_N and its standard error.
-    blockage : width of the plate across the stream divided by the channel's width; 0 if the latter is unknown.
-    notes : notes for the reader.
-    """
-
-    alpha_deg: float
-    reynolds: float
-    mean: NDArray[np.float64]
-    sd: NDArray[np.float64]
-    se: NDArray[np.float64]
-    normal: float
-    normal_se: float
-    blockage: float
-    notes: tuple[str, ...]
 
 
 def reduce_run(run: LoadCellRun, last: float = LAST_SECONDS, rest: Intervals = ()) -> RunMeans:

@@ -1,34 +1,35 @@
-"""The fit of a whole wing: lift, drag and centre of pressure, and the coefficient model that follows."""
+"""The fit of a whole wing: lift, drag and centre of pressure, its model file, and models drawn from its errors."""
 
 from __future__ import annotations
 
 import dataclasses
+import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import FaultList, InvalidInputError, write_atomically
+from wingbeat._version import __version__
 from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.coefficient_model import check_aspect_ratio
-from wingbeat.aero.model_file import Fitted, FittedCurve, FittedModel, FittedWing
+from wingbeat.aero.fitted import Fitted, FittedCurve, FittedModel, FittedWing
+from wingbeat.aero.model_file import KIND, read_model
 from wingbeat.aero.polar_sheet import zero_lift
-from wingbeat.experiment.cambered_form import DragFit, DragForm, LiftForm, fit_drag, stall_notes
 from wingbeat.experiment.forms import BoxForm, CurveForm
 from wingbeat.experiment.judgement import failures, judge, model_failures
-from wingbeat.experiment.model_text import model_text
 from wingbeat.experiment.regression import CurveFit, fit_curve
 from wingbeat.experiment.table import CoefficientTable
-from wingbeat.experiment.wing_forms import FORMS, WingForm
+from wingbeat.experiment.wing_forms import FORMS, DragFit, DragForm, LiftForm, WingForm, fit_drag, stall_notes
 
 # A spline through steps of one degree stays within 1e-4 of a smooth polar.
 _STEP_DEG = 1.0
 # A cambered wing acts like a plate from 45 degrees on, as `Feathered`, or from 20 degrees beyond the measurements,
 # whichever angle is larger.
 _PLATE_FROM_DEG, _JOIN_DEG = 45.0, 20.0
-
 # Data to this angle leave nothing of a side to the form [deg].
 _WHOLE_SIDE_DEG = 85.0
 
@@ -286,3 +287,160 @@ def _fitted(curve: CurveFit) -> FittedCurve:
     assert isinstance(curve.form, BoxForm)  # refused before
     terms = curve.form.kind(**curve.form.terms(curve.parameters))
     return FittedCurve(terms, curve.form.names, curve.covariance)
+
+
+_HEAD = """\
+# Coefficients of a wing strip, fitted by `wingbeat fit`. Give this file in place of a model's name:
+# wingbeat polar THIS.toml, wingbeat orbit pigeon --speed 12 --aero THIS.toml. Angles of attack a are in degrees."""
+_CAMBERED = """\
+# The formulas hold between the joins, where the wing was measured; beyond the joins the wing is a plate (su-fan).
+# ramp(x) is max(x, 0) with its corner rounded. The onsets of drag are counted from zero_lift_deg. The slope and the
+# rises are per radian."""
+
+
+def model_text(model: Fitted, form: str, curves: dict[str, CurveFit]) -> str:
+    """Return the content of the model file of a fit.
+
+    Parameters
+    ----------
+    model : what the file holds.
+    form : name of the form.
+    curves : the fitted curves by coefficient.
+    """
+    lines = [
+        _HEAD,
+        *([_CAMBERED] if isinstance(model, FittedWing) else []),
+        f"kind = {_quoted(KIND)}",
+        f"name = {_quoted(model.name)}",
+        f"citation = {_quoted(model.citation)}",
+        f"form = {_quoted(form)}",
+        f"made_by = {_quoted(f'wingbeat {__version__}')}",
+    ]
+    if isinstance(model, FittedWing):
+        ranges = {"low_join_deg": model.low_join_deg, "high_join_deg": model.high_join_deg}
+        sections = {"wing": (model.wing, curves)}
+    else:
+        ranges = {"alpha_range_deg": model.alpha_range_deg}
+        parts = {"lift": model.lift, "drag": model.drag, "centre": model.centre}
+        sections = {
+            key: (part, {label: curve})
+            for (key, part), (label, curve) in zip(parts.items(), curves.items(), strict=False)
+            if part is not None
+        }
+    lines += [f"{key} = {_row(ends)}" for key, ends in ranges.items()]
+    if model.reynolds_range is not None:
+        lines.append(f"reynolds_range = {_row(model.reynolds_range)}")
+    if model.aspect_ratio is not None:
+        lines.append(f"aspect_ratio = {float(model.aspect_ratio)!r}")
+    if model.notes:
+        lines += ["notes = [", *(f"  {_quoted(note)}," for note in model.notes), "]"]
+    for key, (part, own) in sections.items():
+        lines += ["", *_section(key, part, own)]
+    return "\n".join(lines) + "\n"
+
+
+def _section(key: str, part: FittedCurve, curves: dict[str, CurveFit]) -> list[str]:
+    limits = {name: ends for curve in curves.values() for name, ends in curve.interval().items()}
+    formulas = [f"{label} = {curve.form.formula}" for label, curve in curves.items()]
+    lines = [f"[{key}] # {formulas[0]}", *(f"# {formula}" for formula in formulas[1:])]
+    for name, value in vars(part.terms).items():
+        if value is not None:
+            low, high = limits.get(name, (value, value))
+            about = f" # 95 % interval {low:.5g} to {high:.5g}" if name in limits else " # held fixed"
+            lines.append(f"{name} = {float(value)!r}{about}")
+    lines += ["", f"[{key}.fit]", f"free = [{', '.join(_quoted(name) for name in part.free)}]", "covariance = ["]
+    lines += [f"  {_row(row)}," for row in part.covariance]
+    lines += ["]", f"points = {len(next(iter(curves.values())).values)}"]
+    for name in ("r_squared", "aicc"):
+        values = [getattr(curve, name) for curve in curves.values()]
+        if all(math.isfinite(value) for value in values):
+            lines.append(f"{name} = {_row(values) if len(values) > 1 else repr(float(values[0]))}")
+    return lines
+
+
+def _row(values: object) -> str:
+    return "[" + ", ".join(repr(float(value)) for value in np.asarray(values)) + "]"
+
+
+def _quoted(text: str) -> str:
+    """Return a TOML string, written as JSON: their escapes agree once unprintable characters are removed."""
+    return json.dumps("".join(sign for sign in text if sign.isprintable()), ensure_ascii=False)
+
+
+MAX_COUNT = 100_000
+_TRIES = 100
+
+
+def draw(
+    source: str | Path | WingFit,
+    count: int,
+    seed: int = 0,
+    *,
+    extension: str = "mirrored",
+    blend_width_deg: float = 1.0,
+) -> list[FormulaCoefficients] | list[CamberedCoefficients]:
+    """Return coefficient models whose terms are random draws from the normal distribution of a fit's parameters.
+
+    The parameters of one curve (lift, drag or centre of pressure) are drawn together, with their covariance.
+    Different curves are drawn independently, except that all terms of a cambered wing are drawn together. A sample
+    that is not a valid formula (a decay that grows) is drawn again. The same seed gives the same models.
+
+    Parameters
+    ----------
+    source : the path of a model file, or a fit.
+    count : how many models.
+    seed : of the random numbers.
+    extension, blend_width_deg : as in `FormulaCoefficients`.
+
+    Raises
+    ------
+    FileError : the file is missing or cannot be read.
+    InvalidInputError : a count or seed that is not a whole number, inputs that `read_model` refuses, a file without
+        covariance, or a covariance so wide that few samples give a valid formula.
+    """
+    faults = FaultList()
+    for name, value, lowest, highest in (("count", count, 1, MAX_COUNT), ("seed", seed, 0, 2**63)):
+        faults.whole(name, value, lowest, highest)
+    faults.raise_if_any()
+    model = source.model() if isinstance(source, WingFit) else read_model(source)
+    curves = model.curves
+    if not any(curve.free for curve in curves.values()):
+        faults.add(model.name, "no covariance", "has nothing to draw from", "fit it with `wingbeat fit`")
+    faults.raise_if_any()
+    random = np.random.default_rng(seed)
+    drawn = {name: _terms(name, curve, count, random) for name, curve in curves.items()}
+    return [
+        model.coefficients(extension, blend_width_deg, **{name: terms[i] for name, terms in drawn.items()})
+        for i in range(count)
+    ]
+
+
+def _terms(label: str, curve: FittedCurve, count: int, random: np.random.Generator) -> list[Any]:
+    """Return `count` random draws of the formula of one coefficient."""
+    if not curve.free:
+        return [curve.terms] * count
+    mean = np.array([getattr(curve.terms, name) for name in curve.free])
+    factor = _root(curve.covariance)
+    found: list[Any] = []
+    for _ in range(_TRIES):
+        for values in mean + random.normal(size=(count, len(mean))) @ factor.T:
+            try:
+                found.append(
+                    dataclasses.replace(curve.terms, **dict(zip(curve.free, values.tolist(), strict=True)))
+                )
+            except InvalidInputError:
+                continue
+        if len(found) >= count:
+            return found[:count]
+    faults = FaultList()
+    rule = "few random draws from it give a valid formula: the data do not determine this form"
+    faults.add(f"{label}, covariance", "too wide", rule, "choose a form with fewer parameters")
+    raise InvalidInputError(faults.faults)
+
+
+def _root(covariance: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return a matrix L with ``L L^T`` equal to the covariance; negative eigenvalues from rounding count as 0."""
+    spread = np.sqrt(np.diag(covariance))
+    scale = np.where(spread > 0, spread, 1.0)
+    values, vectors = np.linalg.eigh(covariance / np.outer(scale, scale))
+    return scale[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from wingbeat._base import InvalidInputError
 from wingbeat.aero.coefficient_model import MAX_DRAG, MAX_LIFT
 from wingbeat.aero.polar_sheet import doubtful_drag, reynolds_groups
-from wingbeat.aero.table_checks import MAX_DRAG, MAX_LIFT
 from wingbeat.experiment.regression import CurveFit, fit_curve
 
 if TYPE_CHECKING:

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from wingbeat._base import FaultList, InvalidInputError, plain_unit
 from wingbeat._base.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
+from wingbeat.aero.coefficient_model import MAX_DRAG, MAX_LIFT
 from wingbeat.aero.polar_sheet import check_radians
-from wingbeat.aero.table_checks import MAX_DRAG, MAX_LIFT
 
 MIN_SAMPLES = 32
 # If the angle spreads more than this within one record, the plate was still turning.

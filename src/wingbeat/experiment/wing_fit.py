@@ -16,8 +16,7 @@ from wingbeat._base import FaultList, InvalidInputError, write_atomically
 from wingbeat._version import __version__
 from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.coefficient_model import check_aspect_ratio
-from wingbeat.aero.fitted import Fitted, FittedCurve, FittedModel, FittedWing
-from wingbeat.aero.model_file import KIND, read_model
+from wingbeat.aero.model_file import KIND, Fitted, FittedCurve, FittedModel, FittedWing, read_model
 from wingbeat.aero.polar_sheet import zero_lift
 from wingbeat.experiment.forms import BoxForm, CurveForm
 from wingbeat.experiment.judgement import failures, judge, model_failures

@@ -105,10 +105,9 @@ def _numbers(faults: FaultList, option: str, words: str, known: set[int], what: 
 
 
 def _claims(numbers: list[int], folder: Path, quick: bool, processes: int, before: Path | None) -> None:
-    from wingbeat_evidence.paper.claims import judge_claims, write_claims
+    from wingbeat_evidence.paper.claims import judge_claims, read_verdicts, write_claims
     from wingbeat_evidence.paper.figures import draw_figures
     from wingbeat_evidence.paper.treatments import DRAWN, QUICK_SPEEDS, SPEEDS, TREATMENTS, all_cases, solve_cases
-    from wingbeat_evidence.paper.verdict_changes import read_verdicts
 
     begun = time.perf_counter()
     earlier = None if before is None else read_verdicts(before)

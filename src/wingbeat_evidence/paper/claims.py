@@ -8,9 +8,9 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from wingbeat._base import write_atomically
+from wingbeat._base import FileError, read_text, write_atomically
 from wingbeat_evidence.markdown import markdown_table
 from wingbeat_evidence.paper.argument_claims import argument_claims
 from wingbeat_evidence.paper.claim import FAILS, HOLDS, HOLDS_UNDER, NOT_ASKED, UNTESTABLE, Claim, Finding
@@ -21,7 +21,9 @@ from wingbeat_evidence.paper.pigeon_claims import pigeon_data_claim
 from wingbeat_evidence.paper.planform_claims import planform_claim
 from wingbeat_evidence.paper.premise_claims import premise_claims
 from wingbeat_evidence.paper.treatments import TREATMENTS, Orbits
-from wingbeat_evidence.paper.verdict_changes import changes_table, verdict_changes
+
+_LIMIT = 1 << 26
+_NONE = "-"
 
 
 def judge_claims(orbits: Orbits, quick: bool = False) -> list[Claim]:
@@ -130,3 +132,77 @@ def _cells(claim: Claim) -> list[str]:
 
 def _shown(number: float | None) -> str:
     return "not flown" if number is None else f"{number:.3g}"
+
+
+class Change(NamedTuple):
+    """A claim, its earlier and its present verdict, and why claim, test or verdict differ."""
+
+    id: str
+    before: str
+    now: str
+    why: str
+
+    @property
+    def same(self) -> bool:
+        """Whether the verdict is unchanged."""
+        return self.before == self.now
+
+
+def read_verdicts(path: str | Path) -> list[dict[str, Any]]:
+    """Return the rows of a claims.json that an earlier run wrote.
+
+    Raises
+    ------
+    FileError : the file cannot be read, or does not hold claims.
+    """
+    try:
+        rows = json.loads(read_text(path, limit=_LIMIT))
+        if not isinstance(rows, list):
+            raise TypeError("claims are a list")
+        for row in rows:
+            if not isinstance(row["claim"], str) or not isinstance(row["verdict"], str):
+                raise TypeError("a verdict is no text")
+        return [{**row, "id": str(row["id"])} for row in rows]
+    except (TypeError, ValueError, KeyError, AttributeError):
+        raise FileError(f"cannot read {str(path)!r} as claims; give the claims.json of another run") from None
+
+
+def verdict_changes(before: Sequence[dict[str, Any]], claims: Sequence[Claim]) -> list[Change]:
+    """Return the changes from the claims of an earlier run to the present ones, including new claims, in order.
+
+    Claims that the present run does not test are left out.
+    """
+    old = {row["id"]: row for row in before}
+    found = [_change(old.get(claim.id), claim) for claim in claims if claim.asked]
+    here = {claim.id for claim in claims}
+    return found + [
+        Change(name, row["verdict"], _NONE, "no longer tested") for name, row in old.items() if name not in here
+    ]
+
+
+def _change(row: dict[str, Any] | None, claim: Claim) -> Change:
+    if row is None:
+        return Change(claim.id, _NONE, claim.verdict, "new")
+    if row["claim"] != claim.claim.replace("|", "/"):
+        return Change(claim.id, row["verdict"], claim.verdict, "worded differently")
+    then, now = (
+        "no number" if number is None else f"{number:.3g}" for number in (row.get("ours"), claim.findings[0].number)
+    )
+    why = "tested as before"
+    if then != now:
+        why = f"same test, new orbits: our number was {then} and is now {now}"
+    return Change(claim.id, row["verdict"], claim.verdict, why)
+
+
+def changes_table(changes: Sequence[Change]) -> list[str]:
+    """Return the lines of a section for the page of claims: every verdict that changed, and how many did not."""
+    moved = [change for change in changes if not change.same]
+    rows = [[f"`{change.id}`", change.before, change.now, change.why] for change in moved]
+    return [
+        "## What changed in the verdicts, and why",
+        "",
+        f"Compared with an earlier run, {len(moved)} verdicts changed and {len(changes) - len(moved)} did not.",
+        "",
+        markdown_table(["claim", "before", "now", "why"], rows),
+        "",
+    ]

@@ -44,7 +44,7 @@ class Assumption:
         return self.low + share * (self.high - self.low)
 
 
-_UNSAID = "the paper does not say, and may have treated the two sets of coefficients differently"
+_UNSAID = "the paper does not say"
 # The assumption that applies to one of the animals only.
 _OWN = {"pigeon": "span_retraction", "bat": "twist_ratio"}
 
@@ -91,8 +91,7 @@ ASSUMPTIONS = (
     Assumption(
         "shoulder_aside",
         "distance of the shoulder from the plane of symmetry, divided by semi-span",
-        "the paper gives none; 0.10 in the pigeon of Harvey et al. 2022, which has a span of 0.613 m and wings of "
-        "0.278 m",
+        "0.10 in the pigeon of Harvey et al. 2022",
         0.0,
         0.10,
     ),
@@ -120,21 +119,20 @@ ASSUMPTIONS = (
     Assumption(
         "trims",
         "mean angles that are free",
-        "the paper mentions neither the mean flap angle nor the mean pitch angle",
+        "the paper mentions neither mean angle",
         choices=TRIMS,
     ),
     Assumption(
         "flap_mean_deg",
         "largest mean flap angle allowed, up or down, if this angle is free [deg]",
-        "the paper gives no bound; 0 makes the stroke symmetric about the shoulder; the species files allow 30",
+        "no bound in the paper; the species files allow 30",
         0.0,
         30.0,
     ),
     Assumption(
         "pitch_phase_deg",
         "phase lead of pitch over flap, beyond a quarter of a wingbeat [deg]",
-        "the paper gives no phase; at 0 the lead is a quarter of a wingbeat, and the wing pitches fastest where "
-        "its flapping reverses; 30 deg, a twelfth of a wingbeat, is a guess",
+        "no phase in the paper; at 0 the wing pitches fastest where its flapping reverses; 30 is a guess",
         -30.0,
         30.0,
     ),
@@ -142,8 +140,7 @@ ASSUMPTIONS = (
     Assumption("extension_dickinson", "Dickinson's coefficients at negative angles", _UNSAID, choices=EXTENSIONS),
     Assumption(
         "airspeed",
-        "which components of the airspeed determine a strip's loads; only those across the span (planar), or also "
-        "the one along the span (full)",
+        "components of the airspeed that determine a strip's loads: across the span (planar), or all (full)",
         "the paper says 'airspeed at each segment'; strip theory uses the component across the span",
         choices=AIRSPEEDS,
     ),

@@ -112,8 +112,11 @@ def markdown(claims: Sequence[Claim]) -> str:
 
 
 def _cells(claim: Claim) -> list[str]:
-    """Return the claim without its test, the paper's number and ours; for some verdicts, the assumptions."""
+    """Return the claim without its test, the paper's number and ours; for some verdicts, the assumptions or why."""
     statement = f"`{claim.id}`: " + re.split(r" (?:Tested|Ours|We read)\b", claim.claim)[0].replace("|", "/")
+    ours_is = re.search(r"Ours: (.*?\.)(?: |$)", claim.claim)
+    if ours_is and claim.verdict in (FAILS, HOLDS_UNDER):
+        statement += f" Ours: {ours_is[1]}"
     unit = "" if claim.unit == "1" else f" {claim.unit}"
     paper = f"{claim.paper:.4g}{unit}" if isinstance(claim.paper, float) else claim.paper
     if not claim.asked:

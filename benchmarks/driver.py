@@ -25,7 +25,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 import wingbeat as wb
-from wingbeat._workers.main import Context
+from wingbeat._workers.process import Context
 from wingbeat.studies.dask_engine import DaskEngine
 from wingbeat.studies.engine import Ended, Engine, LocalProcesses
 from wingbeat.studies.stopping import Stop

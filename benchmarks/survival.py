@@ -24,7 +24,7 @@ from pathlib import Path
 import numpy as np
 
 import wingbeat as wb
-from wingbeat._workers.affinity import core_count
+from wingbeat._workers.tuning import core_count
 
 STUDY = """species = ["pigeon", "bat"]
 aero = ["su-fan", "dickinson"]

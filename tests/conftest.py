@@ -14,7 +14,7 @@ from tests.helpers.browsers import FLAGS, PATIENCE
 from tests.helpers.forks import ForkServer
 from tests.helpers.memory import MOST, forget_programs, resident
 from tests.helpers.reflight import Reflight, refly
-from wingbeat._workers.gc import collect_seldom
+from wingbeat._workers.tuning import collect_seldom
 from wingbeat.cli import progress
 from wingbeat.orbits.flight.certify import Certificate, certify
 

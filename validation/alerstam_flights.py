@@ -11,7 +11,7 @@ from typing import Any
 
 import wingbeat as wb
 from wingbeat._base import FileError, read_text
-from wingbeat._workers.process_map import in_processes
+from wingbeat._workers.pool import in_processes
 from wingbeat.models import MODELS, model_of
 from wingbeat.orbits.solve import Progress
 

@@ -10,7 +10,7 @@ from alerstam_flights import POWER, SPEEDS, Bird, fly, fly_series, rough
 from alerstam_summary import best_speeds
 
 import wingbeat as wb
-from wingbeat._workers.process_map import in_processes
+from wingbeat._workers.pool import in_processes
 
 # Birds of three sizes, within, at and beyond the Reynolds numbers of the fit.
 BIRDS = ("Apus apus", "Columba palumbus", "Larus argentatus")

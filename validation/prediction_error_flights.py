@@ -12,7 +12,7 @@ import pandas as pd
 
 import wingbeat as wb
 from wingbeat._base import write_atomically
-from wingbeat._workers.process_map import in_processes
+from wingbeat._workers.pool import in_processes
 from wingbeat.cli.progress import progress_bar
 from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.solve import search_near

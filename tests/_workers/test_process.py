@@ -11,8 +11,7 @@ import pytest
 
 from tests.explorer.app.program import wait_gone
 from wingbeat._leftovers import clear_leftovers
-from wingbeat._workers.main import Message
-from wingbeat._workers.process import WorkerProcess
+from wingbeat._workers.process import Message, WorkerProcess
 
 PATIENCE = 60.0
 

@@ -176,7 +176,7 @@ from wingbeat.cli.endings import end_on_signals
 
 if __name__ == "__main__":
     end_on_signals()
-    from wingbeat._workers.process_map import in_processes
+    from wingbeat._workers.pool import in_processes
 
     list(in_processes(time.sleep, [60.0, 60.0], 2))
 """

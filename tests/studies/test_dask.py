@@ -61,7 +61,7 @@ class Cluster:
         found = []
         for process in self.study.processes():
             with open(f"/proc/{process}/cmdline", "rb") as file:
-                if b"wingbeat._workers.main" in file.read():
+                if b"wingbeat._workers.process" in file.read():
                     found.append(process)
         return found
 

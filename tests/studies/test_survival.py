@@ -17,7 +17,7 @@ import pytest
 import wingbeat as wb
 from tests.helpers.study_standin import BREAKS, CRASHES, HANGS, INFEASIBLE, LEAVES, RAISES
 from tests.helpers.terminals import needs_terminal, on_terminal
-from wingbeat._workers.affinity import usable_cores
+from wingbeat._workers.tuning import usable_cores
 from wingbeat.animal.species.writing import species_text
 from wingbeat.studies.engine import LocalProcesses
 from wingbeat.studies.store_checks import only_one

@@ -24,7 +24,7 @@ def program() -> int:
     end_on_signals()  # before all else: imports take a second
     import gc
 
-    from wingbeat._workers.gc import collect_seldom
+    from wingbeat._workers.tuning import collect_seldom
     from wingbeat.cli.app import main
     from wingbeat.cli.streams import prepare_streams
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from wingbeat._workers.affinity import core_count
+from wingbeat._workers.tuning import core_count
 
 # Address space [bytes] of a solver: one orbit took 1.96 GB on two cores with an empty cache; with a full one,
 # 1.84 GB on two cores and 1.65 GB on one. Most of it is set aside for threads. With 1.6 GB on two cores it aborts.

@@ -10,7 +10,7 @@ from cyclopts import Parameter
 from rich.console import Console
 
 from wingbeat._base import FaultList, InvalidInputError, written
-from wingbeat._workers.affinity import core_count
+from wingbeat._workers.tuning import core_count
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
 from wingbeat.cli.options import SPECIES, Climb, Settings, Whole, WithinPlausible

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from wingbeat._base import FaultList
-from wingbeat._workers.affinity import core_count
+from wingbeat._workers.tuning import core_count
 from wingbeat.orbits.infeasible.lower_bound import is_at_lower_bound
 from wingbeat.orbits.infeasible.without_orbit import Ending, unexplained, without_orbit
 from wingbeat.orbits.multistart import (

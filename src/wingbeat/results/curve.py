@@ -12,7 +12,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from wingbeat._base import FaultList, Report, Reported, drawn
-from wingbeat._workers.affinity import core_count
+from wingbeat._workers.tuning import core_count
 from wingbeat.orbits.many.branches import Branches, trace
 from wingbeat.orbits.many.transitions import marks_of
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions

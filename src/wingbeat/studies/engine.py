@@ -8,9 +8,8 @@ from dataclasses import dataclass, field
 from typing import NamedTuple, Protocol
 
 from wingbeat._base import WorkerError
-from wingbeat._workers.affinity import cores_of
-from wingbeat._workers.main import Message
-from wingbeat._workers.process import WorkerProcess
+from wingbeat._workers.process import Message, WorkerProcess
+from wingbeat._workers.tuning import cores_of
 from wingbeat.studies.units import Outcome, Unit
 
 # There are as many processes as cores, so each has one thread.

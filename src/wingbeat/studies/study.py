@@ -21,7 +21,7 @@ from wingbeat._base import (
     label_of,
     plain_unit,
 )
-from wingbeat._workers.affinity import core_count
+from wingbeat._workers.tuning import core_count
 from wingbeat.animal.species.numbers import shown
 from wingbeat.orbits.many.batch import check_processes
 from wingbeat.results.orbit import Orbit

@@ -11,7 +11,7 @@ import time
 from collections.abc import Hashable, Iterator, Mapping
 from typing import Any, NamedTuple
 
-from wingbeat._workers.main import Context
+from wingbeat._workers.process import Context
 from wingbeat.orbits.many.batch import best_of_guesses, find_with_known
 from wingbeat.orbits.many.warm_start import Answers, Known, kind, numbers_of
 from wingbeat.orbits.solution import Solution

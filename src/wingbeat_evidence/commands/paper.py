@@ -11,7 +11,7 @@ from cyclopts import Parameter
 
 from wingbeat._base import FaultList, make_folder
 from wingbeat._version import NUMERICAL_VERSION
-from wingbeat._workers.affinity import core_count
+from wingbeat._workers.tuning import core_count
 from wingbeat.cli.app import EXIT_GOOD
 from wingbeat.cli.options import Whole
 from wingbeat.cli.progress import exit_of, progress_bar, say, say_stopping

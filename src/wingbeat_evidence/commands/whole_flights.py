@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from wingbeat._base import FaultList, FileError, read_text, toml_tables, write_atomically
-from wingbeat._workers.affinity import core_count
+from wingbeat._workers.tuning import core_count
 from wingbeat.animal.species.making import load_species
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED

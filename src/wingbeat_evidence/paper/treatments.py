@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wingbeat._workers.process_map import in_processes
+from wingbeat._workers.pool import in_processes
 from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.animal.species.making import load_species
 from wingbeat.orbits.many.series import find_series

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from wingbeat._workers.fair_pool import Event, Job
+from wingbeat._workers.pool import Event, Job
 from wingbeat_explorer.app.formatting import number
 from wingbeat_explorer.app.links import to_plain
 from wingbeat_explorer.app.scenario import Scenario

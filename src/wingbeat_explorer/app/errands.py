@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat._workers.fair_pool import Event, Job
+from wingbeat._workers.pool import Event, Job
 from wingbeat_explorer.app.answer import Influence
 from wingbeat_explorer.app.downloads import Download, Downloads
 from wingbeat_explorer.app.face import Face

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from wingbeat._base import write_atomically
-from wingbeat._workers.main import Context
+from wingbeat._workers.process import Context
 from wingbeat.animal.species.making import load_species
 from wingbeat_explorer.app.links import from_plain, to_plain
 from wingbeat_explorer.app.scenario import Scenario

@@ -7,9 +7,10 @@ import tempfile
 
 from nicegui import Client
 
-from wingbeat._workers.fair_pool import Event, FairPool
+from wingbeat._workers.pool import Event
 from wingbeat_explorer.app.downloads import Downloads
 from wingbeat_explorer.app.face import animals
+from wingbeat_explorer.app.fair_pool import FairPool
 from wingbeat_explorer.app.first import read_first
 from wingbeat_explorer.app.links import to_plain
 from wingbeat_explorer.app.page import Page

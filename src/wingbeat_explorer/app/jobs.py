@@ -10,7 +10,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from wingbeat._base import FileError, InvalidInputError, first_line
-from wingbeat._workers.main import Context
+from wingbeat._workers.process import Context
 from wingbeat.models import MODELS
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution

@@ -8,7 +8,8 @@ from collections.abc import Callable
 from contextlib import AbstractContextManager, suppress
 from typing import Any, Protocol
 
-from wingbeat._workers.fair_pool import Event, FairPool, Job
+from wingbeat._workers.pool import Event, Job
+from wingbeat_explorer.app.fair_pool import FairPool
 from wingbeat_explorer.app.formatting import refusals
 from wingbeat_explorer.app.links import to_plain
 from wingbeat_explorer.app.scenario import Scenario

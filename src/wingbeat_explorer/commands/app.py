@@ -8,7 +8,7 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from wingbeat._base import Fault, FaultList, InvalidInputError, install_extra
-from wingbeat._workers.affinity import core_count
+from wingbeat._workers.tuning import core_count
 from wingbeat.cli.app import EXIT_GOOD
 from wingbeat.cli.options import Whole
 

@@ -4,7 +4,7 @@ import dataclasses
 
 import pytest
 
-from wingbeat._workers.fair_pool import Event
+from wingbeat._workers.pool import Event
 from wingbeat_explorer.app.curve import Curve, drawn
 from wingbeat_explorer.app.links import from_plain
 from wingbeat_explorer.app.scenario import Scenario

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.explorer.app.program import PATIENCE, Program, wait_gone
-from wingbeat._workers.fair_pool import FairPool
+from wingbeat_explorer.app.fair_pool import FairPool
 from wingbeat_explorer.app.links import to_plain
 from wingbeat_explorer.app.scenario import Scenario
 

@@ -10,8 +10,8 @@ import pytest
 import wingbeat as wb
 from tests.explorer.app.page import asks_for, choose, drawer, enter, solved, unfold
 from tests.helpers.browsers import PATIENCE
-from wingbeat._workers.fair_pool import Event
-from wingbeat._workers.main import Context
+from wingbeat._workers.pool import Event
+from wingbeat._workers.process import Context
 from wingbeat_explorer.app.first import first_scenario, read_first
 from wingbeat_explorer.app.jobs import do
 from wingbeat_explorer.app.links import to_plain

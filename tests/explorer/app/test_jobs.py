@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 
 import wingbeat as wb
-from wingbeat._workers.fair_pool import FairPool
-from wingbeat._workers.main import Context, StoppedError
+from wingbeat._workers.process import Context, StoppedError
+from wingbeat_explorer.app.fair_pool import FairPool
 from wingbeat_explorer.app.jobs import do
 from wingbeat_explorer.app.links import to_plain
 from wingbeat_explorer.app.scenario import Scenario

@@ -4,7 +4,7 @@ import asyncio
 import contextlib
 from concurrent.futures import ThreadPoolExecutor
 
-from wingbeat._workers.fair_pool import Event
+from wingbeat._workers.pool import Event
 from wingbeat_explorer.app.scenario import Scenario
 from wingbeat_explorer.app.session import Session
 

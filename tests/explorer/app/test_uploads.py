@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from wingbeat._workers.main import Context
+from wingbeat._workers.process import Context
 from wingbeat.animal.species.reading import template
 from wingbeat.models import model_of
 from wingbeat.results.orbit import load_orbit

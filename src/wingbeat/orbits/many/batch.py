@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, TypeVar
 import numpy as np
 
 from wingbeat._base import FaultList
-from wingbeat._workers.process_map import process_map
+from wingbeat._workers.pool import process_map
 from wingbeat.orbits.many.warm_start import Answers, Group, Known, group_similar, numbers_of
 from wingbeat.orbits.nlp.newton_kkt import ReducedHessian
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions

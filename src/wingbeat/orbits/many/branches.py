@@ -11,7 +11,7 @@ from typing import NamedTuple, TypeVar
 
 import numpy as np
 
-from wingbeat._workers.affinity import core_count
+from wingbeat._workers.tuning import core_count
 from wingbeat.orbits.many.along import SPEED, Along
 from wingbeat.orbits.nlp.local_search import Candidate, as_candidate, refine
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian

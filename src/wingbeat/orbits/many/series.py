@@ -7,7 +7,7 @@ import functools
 from collections.abc import Sequence
 
 from wingbeat._base import FaultList
-from wingbeat._workers.process_map import in_processes
+from wingbeat._workers.pool import in_processes
 from wingbeat.orbits.many.batch import check_processes
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem

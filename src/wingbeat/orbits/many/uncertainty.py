@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wingbeat._base import PRECISION
-from wingbeat._workers.process_map import in_processes
+from wingbeat._workers.pool import in_processes
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.parameters import Parameter
 from wingbeat.orbits.problem.problem import OrbitProblem

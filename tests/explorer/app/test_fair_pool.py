@@ -7,8 +7,9 @@ import time
 
 import pytest
 
-from wingbeat._workers import fair_pool
-from wingbeat._workers.fair_pool import Event, FairPool
+from wingbeat._workers import pool as pools
+from wingbeat._workers.pool import Event
+from wingbeat_explorer.app.fair_pool import FairPool
 
 PATIENCE = 60.0
 
@@ -140,7 +141,7 @@ def test_a_waiting_job_is_dropped_and_a_running_one_stops_at_its_next_step(make_
 
 
 def test_a_job_that_is_deaf_to_being_stopped_is_ended_with_its_process(make_pool, monkeypatch):
-    monkeypatch.setattr(fair_pool, "_GRACE", 0.2)
+    monkeypatch.setattr(pools, "_GRACE", 0.2)
     pool = make_pool()
     job, heard = ask(pool, ("deaf", 1000.0))
     heard.until("started")

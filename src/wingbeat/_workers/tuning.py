@@ -1,4 +1,4 @@
-"""Pin worker processes to one core each (CPU affinity), if there is a process for every core.
+"""How a process of ours uses the machine: the cores that it may use or is pinned to, and rare garbage collection.
 
 XLA hands a program from the calling thread to another thread, and back. By default, the system puts these threads
 on different cores, so each of these changes finds cold caches: see docs/evidence/performance.md.
@@ -6,6 +6,7 @@ on different cores, so each of these changes finds cold caches: see docs/evidenc
 
 from __future__ import annotations
 
+import gc
 import os
 from contextlib import suppress
 
@@ -37,3 +38,13 @@ def pin_to(core: int | None) -> None:
     if core is not None:
         with suppress(OSError):
             os.sched_setaffinity(0, {core})
+
+
+# Number of new containers after which Python looks for garbage. With Python's default of 700, it would look some
+# thousand times while a program is traced, and each time go through all that JAX holds.
+_SELDOM = 50_000
+
+
+def collect_seldom() -> None:
+    """Make garbage collection rare in this process, because the solver's objects rarely form cycles."""
+    gc.set_threshold(_SELDOM)

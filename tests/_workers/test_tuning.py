@@ -4,7 +4,7 @@ import os
 
 import pytest
 
-from wingbeat._workers.affinity import core_count, cores_of, pin_to, usable_cores
+from wingbeat._workers.tuning import core_count, cores_of, pin_to, usable_cores
 
 CORES = usable_cores()
 several = pytest.mark.skipif(not 1 < len(CORES) < 33, reason="there is one core, or none to pin to, or very many")

@@ -14,8 +14,8 @@ import pytest
 import wingbeat as wb
 from tests.explorer.app.program import wait_gone
 from tests.helpers.worker_standin import cores_at_import
-from wingbeat._workers.affinity import usable_cores
-from wingbeat._workers.process_map import in_processes, process_map
+from wingbeat._workers.pool import in_processes, process_map
+from wingbeat._workers.tuning import usable_cores
 
 CORES = usable_cores()
 several = pytest.mark.skipif(not 1 < len(CORES) < 33, reason="there is one core, or none to pin to, or very many")
@@ -114,7 +114,7 @@ def test_a_script_without_a_guard_may_share_work_that_is_not_its_own(tmp_path):
         tmp_path,
         """
         import math
-        from wingbeat._workers.process_map import in_processes
+        from wingbeat._workers.pool import in_processes
         print(list(in_processes(math.sqrt, [4.0, 9.0], 2)))
         """,
     )
@@ -122,7 +122,7 @@ def test_a_script_without_a_guard_may_share_work_that_is_not_its_own(tmp_path):
 
 
 WITH_OWN_WORK = """
-from wingbeat._workers.process_map import in_processes
+from wingbeat._workers.pool import in_processes
 class Doubled:
     def __init__(self, number):
         self.number = 2 * number

@@ -118,7 +118,7 @@ def _cells(claim: Claim) -> list[str]:
     if ours_is and claim.verdict in (FAILS, HOLDS_UNDER):
         statement += f" Ours: {ours_is[1]}"
     unit = "" if claim.unit == "1" else f" {claim.unit}"
-    paper = f"{claim.paper:.4g}{unit}" if isinstance(claim.paper, float) else claim.paper
+    paper = f"{claim.paper:.4g}{unit}" if isinstance(claim.paper, float) else str(claim.paper)
     if not claim.asked:
         return [statement, paper, "-"]
     numbers = [finding.number for finding in claim.findings if finding.number is not None]

@@ -1,26 +1,28 @@
-"""The page on what sets the frequency: its script prints its words, and theory of the wake gives its numbers."""
+"""The pages on what sets the frequency: scripts print their words, and theory of the wake gives the numbers."""
 
+import importlib
 import re
 
 import numpy as np
+import pytest
 from scipy.special import hankel2
 
 import wingbeat as wb
 from tests.helpers.places import ROOT
 
-PAGE = (ROOT / "docs" / "evidence" / "frequency_trials.md").read_text()
+DOCS, TEMPLATES = ROOT / "docs" / "evidence", ROOT / "validation" / "pages"
+PAGE = (DOCS / "frequency_trials.md").read_text(encoding="utf-8")
 
 
-def test_the_script_prints_the_words_of_the_page(monkeypatch):
+@pytest.mark.parametrize("name", ["frequency_trials", "slow_flight"])
+def test_the_script_prints_the_words_of_the_page(name, monkeypatch):
     monkeypatch.syspath_prepend(str(ROOT / "validation"))
-    import frequency_trials
-
-    template = ROOT / "validation" / "pages" / "frequency_trials.md"
-    before, after = template.read_text(encoding="utf-8").split("{table}")
-    assert PAGE.startswith(before)
-    assert PAGE.endswith(after)
-    rows = [line.split(" | ")[0].removeprefix("| ") for line in PAGE.splitlines() if line.startswith("| ")]
-    assert rows[2:] == [trial.name for trial in frequency_trials.trials()]
+    script, page = importlib.import_module(name), (DOCS / f"{name}.md").read_text(encoding="utf-8")
+    before, after = (TEMPLATES / f"{name}.md").read_text(encoding="utf-8").split("{table}")
+    assert page.startswith(before)
+    assert page.endswith(after)
+    rows = [line.split(" | ")[0].removeprefix("| ") for line in page.splitlines() if line.startswith("| ")]
+    assert rows[2:] == [trial.name for trial in script.trials()]
 
 
 def share_of_plunge(reduced_frequency):

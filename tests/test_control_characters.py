@@ -8,7 +8,8 @@ import wingbeat as wb
 from tests.helpers.species_texts import GOOD, SPECIES
 from wingbeat._base import FileError, control_in, read_text, toml_tables
 from wingbeat.cli import main
-from wingbeat.results.storage import inputs_hash, load_dataset, save_dataset
+from wingbeat.records.inputs import inputs_hash
+from wingbeat.records.result_files import load_dataset, save_result
 
 RED, TURNED = "\x1b[31m", "\u202e"
 
@@ -37,12 +38,12 @@ def test_no_text_of_a_result_reaches_the_terminal_with_one(orbit, tmp_path, caps
         orbit.assign_attrs(message=f"certified{control}"),
     )
     for lie in lies:
-        save_dataset(lie, tmp_path / "lie.nc")
+        save_result(lie, tmp_path / "lie.nc")
         assert main(["show", str(tmp_path / "lie.nc")]) == 2
         told = capsys.readouterr()
         assert control_in(told.out + told.err) is None
         assert "a text holds the control character" in told.err
-    save_dataset(renamed(orbit, "pigeon of Łódź, 2nd flock"), tmp_path / "good.nc")
+    save_result(renamed(orbit, "pigeon of Łódź, 2nd flock"), tmp_path / "good.nc")
     assert main(["show", str(tmp_path / "good.nc")]) == 0
 
 

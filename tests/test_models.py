@@ -8,8 +8,8 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.cli import main
+from wingbeat.records.inputs import problem_from
 from wingbeat.results.orbit import inputs_of
-from wingbeat.results.provenance import problem_from
 
 PIGEON, BAT = wb.load_species("pigeon"), wb.load_species("bat")
 ROBOT = wb.robot(mass=0.1, wing_span=0.6, wing_area=0.06)

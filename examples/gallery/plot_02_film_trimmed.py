@@ -18,7 +18,7 @@ import numpy as np
 import wingbeat as wb
 from wingbeat._base.style import BLUE, VERMILION
 from wingbeat.experiment import fit_body_path, fit_film, synthetic_film
-from wingbeat.results.carried import carry
+from wingbeat.results.flight import carry
 
 bat = wb.load_species("bat")
 known = wb.solve_orbit(wb.OrbitProblem(bat, speed=6.0), starts=2)

@@ -9,13 +9,11 @@ from typing import Any
 from wingbeat._base import NOMENCLATURE, FileError, for_people
 from wingbeat.animal.species.building import NOT_MEASURED
 from wingbeat.orbits.status import Status
-from wingbeat.results.limits import set_by_limit
+from wingbeat.records.judgements import set_by_limit, statements
+from wingbeat.records.numbers import SPENT, beat_mean
 from wingbeat.results.orbit import Orbit
-from wingbeat.results.plausibility import statements
-from wingbeat.results.power import SPENT
-from wingbeat.results.record import beat_mean
-from wingbeat.results.rows import limits_in_words, mass_of
 from wingbeat.viewer import scene
+from wingbeat.words.orbit_words import limits_in_words, mass_of
 from wingbeat_explorer.gauges import gauges_of
 from wingbeat_explorer.models import EXPLORER_MODELS
 

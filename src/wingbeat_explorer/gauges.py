@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from wingbeat._base import cf, for_people
-from wingbeat.results.limits import set_by_limit
-from wingbeat.results.plausibility import JUDGED_NAMES
+from wingbeat.records.judgements import JUDGED_NAMES, set_by_limit
 
 
 def gauges_of(record: dict[str, Any]) -> list[dict[str, Any]]:

@@ -13,8 +13,7 @@ from wingbeat.animal.species.scaling import CRUISE_BY_MASS
 from wingbeat.models import model_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
-from wingbeat.results.orbit import Orbit
-from wingbeat.results.solving import solve_orbits
+from wingbeat.results.orbit import Orbit, solve_orbits
 from wingbeat_explorer.face import face_of, is_plausible
 from wingbeat_explorer.measured import measured_points
 from wingbeat_explorer.models import EXPLORER_MODELS, LATTICE_MODELS, search_starts

@@ -15,7 +15,7 @@ from wingbeat.animal.kinematics import PARAMETER_NAMES
 from wingbeat.animal.species.numbers import FREE, KEYS, LOOKS, PATH, PLAUSIBLE, SHAPE
 from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.problem.quantities import QUANTITIES, Frequency
-from wingbeat.results.columns import flat
+from wingbeat.records.tables import flat
 
 SOURCE = Path(wb.__file__).parent
 # A list that is not ours: spellings in other people's files.

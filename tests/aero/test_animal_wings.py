@@ -212,7 +212,7 @@ def test_joins_that_do_not_rise_are_refused(low, high):
 
 
 def test_a_model_of_ones_own_comes_back_from_its_record():
-    from wingbeat.results.provenance import inputs_of, problem_from
+    from wingbeat.records.inputs import inputs_of, problem_from
 
     own = CamberedCoefficients(
         "own", CamberedTerms(**TERMS | {"lift_highest": 1.6}), (-50.0, -15.0), (30.0, 50.0), aspect_ratio=7.0

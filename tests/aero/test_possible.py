@@ -9,7 +9,7 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.aero import LIBRARY, BladeElement, FormulaCoefficients, FormulaTerms, SuFan, TableCoefficients
-from wingbeat.results.warnings import _outside_fit
+from wingbeat.records.orbit_record import _outside_fit
 
 LIFT, DRAG = FormulaTerms(0.0, 1.2, 2.0, 0.0), FormulaTerms(1.4, 1.0, 2.0, -90.0)
 

@@ -12,7 +12,7 @@ from wingbeat._base import InvalidInputError
 from wingbeat._jax.arrays import jax
 from wingbeat.aero.blade_element import BladeElement, strip_forces
 from wingbeat.aero.derived_kernels import UpstrokeKernel, count_arm_strips
-from wingbeat.results.provenance import inputs_of, problem_from
+from wingbeat.records.inputs import inputs_of, problem_from
 
 # Speeds along and across the chord [m/s]: six strips at five times, air from below and from above.
 ALONG = np.linspace(2.0, 9.0, 30).reshape(6, 5)

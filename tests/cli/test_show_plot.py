@@ -12,7 +12,7 @@ from rich.console import Console
 import wingbeat as wb
 from wingbeat.cli import main
 from wingbeat.cli.report import flight_summary, print_flight, print_orbit
-from wingbeat.results.storage import save_dataset
+from wingbeat.records.result_files import save_result
 
 
 @pytest.fixture(scope="module")
@@ -64,11 +64,11 @@ def test_bad_files_exit_with_2(files, tmp_path, capsys, command, name, reason):
 
 def test_damaged_attributes_exit_with_2(orbit, flight, tmp_path, capsys):
     path = tmp_path / "damaged.nc"
-    save_dataset(orbit.dataset.assign_attrs(wingbeat="{"), path)
+    save_result(orbit.dataset.assign_attrs(wingbeat="{"), path)
     for words in (["show", str(path)], ["plot", str(path), "-o", str(tmp_path / "page.svg")]):
         assert main(words) == 2
         assert "error: " in capsys.readouterr().err
-    save_dataset(flight.dataset.drop_vars("hinge_power"), path)
+    save_result(flight.dataset.drop_vars("hinge_power"), path)
     assert main(["show", str(path)]) == 2
     assert "it is damaged (hinge_power is missing)" in capsys.readouterr().err
     assert [file.name for file in tmp_path.iterdir()] == ["damaged.nc"]
@@ -127,12 +127,12 @@ def test_show_a_flight_that_was_lost(flight, tmp_path, capsys):
     lost = flight.dataset.copy(deep=True)
     for name in ("hinge_power", "actuator_power", "x", "z", "body_pitch", "u", "w", "pitch_rate"):
         lost[name].values[64:] = np.nan
-    save_dataset(lost, tmp_path / "lost.nc")
+    save_result(lost, tmp_path / "lost.nc")
     assert main(["show", str(tmp_path / "lost.nc")]) == 0
     assert capsys.readouterr().out.startswith("not finished: 0.9844 beats, then the vehicle tumbled")
     for name in ("hinge_power", "u"):
         lost[name].values[:] = np.nan
-    save_dataset(lost, tmp_path / "never.nc")
+    save_result(lost, tmp_path / "never.nc")
     assert main(["show", str(tmp_path / "never.nc"), "--json"]) == 0
     summary = json.loads(capsys.readouterr().out)
     assert (summary["beats"], summary["end"], summary["mean_power"]) == (0.0, None, None)

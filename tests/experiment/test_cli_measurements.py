@@ -232,7 +232,7 @@ def test_all_files_faults_come_at_once(here, capsys):
 def test_a_problem_with_a_fitted_cambered_wing_can_be_set_up_again(here):
     from wingbeat import OrbitProblem, load_species
     from wingbeat.orbits.problem.parameters import parameters_of
-    from wingbeat.results.provenance import inputs_of, problem_from
+    from wingbeat.records.inputs import inputs_of, problem_from
 
     alpha = np.arange(-24.0, 31.0, 2.0)
     terms = Feathered().terms
@@ -248,7 +248,7 @@ def test_a_problem_with_a_fitted_cambered_wing_can_be_set_up_again(here):
 def test_an_orbit_with_a_fitted_model_can_be_set_up_again(campaign, here):
     """Its formulas go with it, for the file may be gone by then."""
     from wingbeat import OrbitProblem, load_species
-    from wingbeat.results.provenance import inputs_of, problem_from
+    from wingbeat.records.inputs import inputs_of, problem_from
 
     assert main(["fit", str(campaign / "coefficients.csv"), "-o", "su-fan.toml"]) == 0
     own = load_coefficients("su-fan.toml")

@@ -7,7 +7,7 @@ import numpy as np
 
 import wingbeat as wb
 from tests.helpers.oracle_laws import wing_angles
-from wingbeat.results.dataset import evaluate
+from wingbeat.records.flight_dataset import evaluate
 
 NAMES = ("pigeon", "bat")
 CRUISE = (8.0, 0.5)

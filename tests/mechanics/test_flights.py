@@ -11,8 +11,8 @@ from scipy.interpolate import CubicSpline
 import wingbeat as wb
 from tests.helpers.driven import BETWEEN, KNOTS, spline_torques
 from wingbeat.mechanics.beat_by_beat import fly_beats
-from wingbeat.results.dataset import evaluate
-from wingbeat.results.storage import load_dataset
+from wingbeat.records.flight_dataset import evaluate
+from wingbeat.records.result_files import load_dataset
 
 SAMPLES = 128  # two beats of it are 257 phases, as an orbit has: JAX compiles once
 

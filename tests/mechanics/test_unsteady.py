@@ -32,7 +32,7 @@ from tests.helpers.unsteady_flights import (
 from wingbeat._jax.arrays import jax, jnp, unchecked
 from wingbeat.mechanics.beat_by_beat import fly_beats
 from wingbeat.mechanics.flight_model import body_rates, motion_table
-from wingbeat.results.dataset import evaluate
+from wingbeat.records.flight_dataset import evaluate
 
 # --- The oracle
 

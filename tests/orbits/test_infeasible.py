@@ -20,7 +20,7 @@ from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.solve import find_orbit
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.status import Status
-from wingbeat.results.warnings import rivals
+from wingbeat.records.orbit_record import rivals
 
 CASES = list(cases())
 # One of each kind; the whole of them is benchmarks/infeasible.py.

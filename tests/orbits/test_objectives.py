@@ -15,7 +15,7 @@ from wingbeat.orbits.problem.limits import parse_constraint
 from wingbeat.orbits.problem.quantities import QUANTITIES, named_objective, named_quantity
 from wingbeat.orbits.solve import certified_optimum, find_orbit
 from wingbeat.orbits.starts import start_beside, start_point, usual_starts
-from wingbeat.results.provenance import problem_from
+from wingbeat.records.inputs import problem_from
 
 PIGEON, BAT = wb.load_species("pigeon"), wb.load_species("bat")
 SPEED = 10.0

@@ -13,7 +13,8 @@ from wingbeat.orbits.nlp.defect_correction import correct
 from wingbeat.orbits.nlp.local_search import optimise
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.starts import start_point, structured_starts
-from wingbeat.results.record import beat_mean, finite_or_none
+from wingbeat.records.numbers import beat_mean
+from wingbeat.records.tables import finite_or_none
 
 # The orbit record of the specification: names, and those of its parts.
 RECORD = {

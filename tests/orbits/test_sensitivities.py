@@ -24,8 +24,7 @@ from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.sensitivity import OptimumSlopes
 from wingbeat.orbits.solve import correct_guess, find_orbit
-from wingbeat.results.sensitivities import _of_fit
-from wingbeat.results.uncertainty import Comparison, _compared
+from wingbeat.results.sensitivities import Comparison, _compared, _of_fit
 
 POWER = QUANTITIES["mean_positive_power"]
 SHARE = 0.005

@@ -9,7 +9,7 @@ from wingbeat.orbits.problem.limits import parse_constraint
 from wingbeat.orbits.problem.quantities import QUANTITIES, named_objective
 from wingbeat.orbits.problem.springs import best_spring
 from wingbeat.orbits.solve import find_orbit
-from wingbeat.results.provenance import problem_from
+from wingbeat.records.inputs import problem_from
 
 PIGEON = wb.load_species("pigeon")
 

@@ -14,7 +14,7 @@ from wingbeat.orbits.flight.shooting import flier
 from wingbeat.orbits.flight.stroke_distances import SYMMETRY
 from wingbeat.orbits.nlp.stroke_limits import StrokeLimits
 from wingbeat.orbits.options.solver import DEFAULTS
-from wingbeat.results.warnings import crossing
+from wingbeat.records.orbit_record import crossing
 
 PIGEON, BAT = wb.load_species("pigeon"), wb.load_species("bat")
 

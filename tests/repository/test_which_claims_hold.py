@@ -16,7 +16,7 @@ from tests.helpers.phrases import WORDS, percent, short, spaced, uncounted, word
 from tests.helpers.places import ROOT
 from wingbeat.aero import load_coefficients
 from wingbeat.animal.species.making import load_species
-from wingbeat.plots.measured_bands import (
+from wingbeat.plots.published import (
     PAPER_BAT_FREQUENCY,
     PAPER_BAT_SPEEDS,
     PAPER_PEAK_POWER,

@@ -12,8 +12,8 @@ import wingbeat as wb
 from tests.helpers.unsteady_flights import all_terms, states_at
 from wingbeat.cli.app import main
 from wingbeat.experiment import BodyPath, Film, fit_body_path, fit_film, read_film, synthetic_film
-from wingbeat.results.carried import carry
-from wingbeat.results.dataset import evaluate, evaluate_carried
+from wingbeat.records.flight_dataset import evaluate, evaluate_carried
+from wingbeat.results.flight import carry
 
 PHASES = np.linspace(0.0, 1.0, 9)[:-1]
 SERIES = np.zeros((3, 17))

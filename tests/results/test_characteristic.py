@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from wingbeat._base import text_of
-from wingbeat.results.characteristic import BestLine, characteristic_speeds, next_speeds
-from wingbeat.results.curve_report import curve_report, speed_in_words
+from wingbeat.records.characteristic import BestLine, characteristic_speeds, next_speeds
+from wingbeat.words.curve_words import curve_report, speed_in_words
 
 SPEEDS = np.arange(3.0, 21.0)
 TOLERANCE = 0.1

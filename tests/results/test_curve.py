@@ -17,7 +17,7 @@ from wingbeat.orbits.many.transitions import families, marks_of
 from wingbeat.orbits.options.solver import DEFAULTS
 from wingbeat.orbits.solve import find_optima
 from wingbeat.orbits.status import Status
-from wingbeat.results.curve_report import curve_report
+from wingbeat.words.curve_words import curve_report
 
 SPEEDS = [5.0, 6.0, 7.0]
 

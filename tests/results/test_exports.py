@@ -14,9 +14,9 @@ import scipy.io
 import wingbeat as wb
 from wingbeat.cli import main
 from wingbeat.experiment import BodyPath
-from wingbeat.results.carried import carry
-from wingbeat.results.columns import leaves
-from wingbeat.results.saving import Saveable, results_of
+from wingbeat.records.result_files import Saveable
+from wingbeat.records.tables import leaves, results_of
+from wingbeat.results.flight import carry
 
 PIGEON = wb.load_species("pigeon")
 HEAD = re.compile(r"# (\S.*?) = (.*?)(?: \[([^\[\]]*)\])?$")

@@ -13,16 +13,17 @@ import xarray as xr
 import wingbeat as wb
 from wingbeat._base import FileError
 from wingbeat.cli import main
-from wingbeat.results import declared
-from wingbeat.results.netcdf import digest, netcdf_bytes
-from wingbeat.results.storage import inputs_hash, load_dataset, save_dataset
+from wingbeat.records import netcdf as declared
+from wingbeat.records.inputs import inputs_hash
+from wingbeat.records.netcdf import digest, netcdf_bytes
+from wingbeat.records.result_files import load_dataset, save_result
 
 CHANGED, SEED = 150, 54
 MEASURED = """
 import sys, time
 from pathlib import Path
 from wingbeat._base import FileError
-from wingbeat.results.storage import load_dataset
+from wingbeat.records.result_files import load_dataset
 begun = time.perf_counter()
 try:
     load_dataset(sys.argv[1])
@@ -215,7 +216,7 @@ CASES = [(kind, name) for kind, acts in FORGED.items() for name in acts]
 def test_no_forged_file_is_believed(good, tmp_path, capsys, kind, name):
     """The forger computes the digest anew, so only the contradictions in the content give the file away."""
     path = tmp_path / "forged.nc"
-    save_dataset(FORGED[kind][name](good[kind]), path)
+    save_result(FORGED[kind][name](good[kind]), path)
     assert main(["show", str(path)]) == 2
     told = capsys.readouterr()
     assert told.out == ""
@@ -224,12 +225,12 @@ def test_no_forged_file_is_believed(good, tmp_path, capsys, kind, name):
 
 
 def test_a_statement_is_what_follows_from_the_numbers(good, tmp_path):
-    save_dataset(good["orbit"].assign_attrs(statement_of_plausibility="plausible: yes"), tmp_path / "o.nc")
+    save_result(good["orbit"].assign_attrs(statement_of_plausibility="plausible: yes"), tmp_path / "o.nc")
     xr.testing.assert_identical(load_dataset(tmp_path / "o.nc"), good["orbit"])
 
 
 def test_the_speeds_of_a_curve_are_what_follows_from_its_points(good, tmp_path):
-    save_dataset(good["curve"].assign_attrs(characteristic_speeds="{}"), tmp_path / "c.nc")
+    save_result(good["curve"].assign_attrs(characteristic_speeds="{}"), tmp_path / "c.nc")
     xr.testing.assert_identical(load_dataset(tmp_path / "c.nc"), good["curve"])
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from wingbeat.cli.filmed import spread_lines, spread_record
-from wingbeat.results.limit_share import limit_share
+from wingbeat.records.shares import limit_share
 from wingbeat.results.spread import Spread
 
 

@@ -12,10 +12,9 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.results.limits import set_by_limit
-from wingbeat.results.pareto_report import pareto_report
-from wingbeat.results.plausibility import is_judgement, plausibility, statements
-from wingbeat.results.rows import limits_in_words, orbit_groups
+from wingbeat.records.judgements import is_judgement, plausibility, set_by_limit, statements
+from wingbeat.words.curve_words import pareto_report
+from wingbeat.words.orbit_words import limits_in_words, orbit_groups
 
 BEAT = {"frequency": 10.4, "flap_amplitude": math.radians(24.49), "tail_tilt": math.radians(30)}
 

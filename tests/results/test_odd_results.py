@@ -12,9 +12,10 @@ import scipy.io
 import xarray as xr
 
 import wingbeat as wb
-from wingbeat.results.netcdf import own_content
-from wingbeat.results.record import vehicle_record
-from wingbeat.results.saving import SUFFIXES, results_of, save_result
+from wingbeat.records.inputs import vehicle_record
+from wingbeat.records.netcdf import own_content
+from wingbeat.records.result_files import SUFFIXES, save_result
+from wingbeat.records.tables import results_of
 
 ROBOT = wb.robot(name="r", mass=0.02, wing_span=0.4, wing_area=0.03)
 LONG = "The body pitches within each beat. " * 300

@@ -15,10 +15,10 @@ from wingbeat._base import InvalidInputError
 from wingbeat.animal.species.reading import template
 from wingbeat.animal.species.writing import species_text
 from wingbeat.cli.app import main
-from wingbeat.results.orbit_report import orbit_report
-from wingbeat.results.plausibility import statements
-from wingbeat.results.storage import save_dataset
+from wingbeat.records.judgements import statements
+from wingbeat.records.result_files import save_result
 from wingbeat.studies.recipe import recipe_from
+from wingbeat.words.orbit_words import orbit_report
 
 # Those of an animal without muscle and tail, as the model `paper` has it.
 NAMES = [
@@ -107,7 +107,7 @@ def test_two_statements_in_file_show_and_figure(orbit: wb.Orbit, tmp_path: Any, 
 def test_a_judgement_that_lacks_a_key_is_refused(orbit: wb.Orbit, tmp_path: Any, capsys: Any) -> None:
     data = orbit.dataset.copy()
     data.attrs = data.attrs | {"plausibility": json.dumps([{"name": "frequency"}])}
-    save_dataset(data, tmp_path / "bad.nc")
+    save_result(data, tmp_path / "bad.nc")
     assert main(["show", str(tmp_path / "bad.nc")]) == 2
     assert "it is damaged (plausibility holds something else than it should)" in capsys.readouterr().err
 

@@ -10,9 +10,9 @@ import xarray as xr
 import wingbeat as wb
 from wingbeat._base import SERIES
 from wingbeat._jax.arrays import jax
-from wingbeat.results.aero_record import aero_record
-from wingbeat.results.provenance import inputs_of, problem_from
-from wingbeat.results.storage import inputs_hash, orbit_attributes, save_dataset
+from wingbeat.records.forms import orbit_attributes
+from wingbeat.records.inputs import aero_record, inputs_hash, inputs_of, problem_from
+from wingbeat.records.result_files import save_result
 
 
 def but_for_the_time_it_took(record):
@@ -135,7 +135,7 @@ def test_a_table_of_coefficients_travels_with_the_orbit(bat_orbit, tmp_path):
     # The record is another orbit's: to solve this one would only prove JAX's patience.
     record, inputs = bat_orbit.orbit.record() | {"aero": aero_record(aero)}, inputs_of(problem, 2, 0)
     series = bat_orbit.orbit.dataset.assign_attrs(orbit_attributes(record, inputs))
-    save_dataset(series, tmp_path / "orbit.nc")
+    save_result(series, tmp_path / "orbit.nc")
     table.unlink()
     again = wb.load_orbit(tmp_path / "orbit.nc").problem
     assert again.aero == aero

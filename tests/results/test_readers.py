@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
-from wingbeat.results.storage import load_dataset
+from wingbeat.records.result_files import load_dataset
 from wingbeat.studies.table import save_table
 
 # A text of each kind of result, a unit, and a variable of texts with its first value.

@@ -11,7 +11,7 @@ from wingbeat.orbits.flight.floquet import multipliers_of
 from wingbeat.orbits.many.uncertainty import sample_orbits
 from wingbeat.orbits.problem.quantities import MAP_QUANTITIES
 from wingbeat.orbits.solve import correct_guess
-from wingbeat.results.stable_share import StableShare, stable_share
+from wingbeat.records.shares import StableShare, stable_share
 from wingbeat.stability.causes import multiplier_slopes
 
 RADIUS = MAP_QUANTITIES["spectral_radius"]

@@ -59,7 +59,6 @@ from wingbeat._base.reports import (
     Row,
     Table,
     Tone,
-    drawn,
     grouped,
     html_of,
     lines_of,

@@ -6,11 +6,10 @@ The blocks hold no word on how they look. As HTML, a report loads nothing and ta
 from __future__ import annotations
 
 import html
-import importlib
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import zip_longest
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
 # What a text means, from which terminal and page choose its look. "doubtful" is certified, but not plausible.
 Tone = Literal["", "title", "good", "doubtful", "bad", "warning"]
@@ -269,8 +268,3 @@ class Reported:
 
     def _repr_html_(self) -> str:
         return html_of(self._report(), type(self).__name__)
-
-
-def drawn(page: str, *given: Any, **options: Any) -> Any:
-    """Return a page of `wingbeat.plots`, looked up by name, because pages know the results that they draw."""
-    return getattr(importlib.import_module("wingbeat.plots"), page)(*given, **options)

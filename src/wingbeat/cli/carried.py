@@ -15,7 +15,7 @@ from wingbeat.animal.species.record import Species
 from wingbeat.cli.filmed import DRAWS, film_lines, film_record, plus_minus
 from wingbeat.experiment import BodyPath, FilmedBeat, fit_body_path
 from wingbeat.mechanics.flight_model import FlightModel
-from wingbeat.results.carried import CarriedFlight, carry
+from wingbeat.results.flight import CarriedFlight, carry
 
 # Numbers of the summary: what they are called, and what in the table of names has their unit.
 _NAMES = {

@@ -30,7 +30,7 @@ from wingbeat.cli.options import (
 )
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
-from wingbeat.plots.saving import save_figure
+from wingbeat.plots.figure_files import save_figure
 from wingbeat.results.curve import REFINEMENTS, solve_curve
 
 

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from wingbeat.animal.vehicle import Air
 from wingbeat.cli.printing import print_report
 from wingbeat.cli.streams import plain_console
-from wingbeat.plots.measured_powers import published_for
-from wingbeat.results.curve_report import curve_report
-from wingbeat.results.record import vehicle_from
+from wingbeat.plots.published import published_for
+from wingbeat.records.inputs import vehicle_from
+from wingbeat.words.curve_words import curve_report
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

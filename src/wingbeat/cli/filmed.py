@@ -11,7 +11,7 @@ from cyclopts import Parameter
 from wingbeat._base import NOMENCLATURE, FaultList, for_people, plain_unit, written
 from wingbeat.experiment import FilmedBeat, fit_film, read_film
 from wingbeat.experiment.film import WHOLE
-from wingbeat.results.rows import power_label
+from wingbeat.words.orbit_words import power_label
 
 if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit

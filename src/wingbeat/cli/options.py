@@ -16,8 +16,8 @@ from wingbeat._base import FaultList, FileError, InvalidInputError, first_line, 
 from wingbeat.animal.species.reading import parse_setting
 from wingbeat.animal.species.record import Species
 from wingbeat.orbits.problem.map_quantities import STABLE_RADIUS
-from wingbeat.results.aero_record import NotInFileError
-from wingbeat.results.saving import check_result_name
+from wingbeat.records.inputs import NotInFileError
+from wingbeat.records.result_files import check_result_name
 
 
 def _whole(type_: type, tokens: Sequence[Token]) -> int:

@@ -51,12 +51,10 @@ from wingbeat.experiment import FilmedBeat
 from wingbeat.orbits.problem.filmed import filmed_problem
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
-from wingbeat.results.influence_report import influence_report
-from wingbeat.results.orbit import Orbit, load_orbit
-from wingbeat.results.power import power_account
-from wingbeat.results.sensitivities import Sensitivities
+from wingbeat.records.numbers import power_account
+from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit
+from wingbeat.results.sensitivities import Sensitivities, influence_report
 from wingbeat.results.sensitivities import sensitivities as differentiate
-from wingbeat.results.solving import solve_orbit
 from wingbeat.results.spread import Spread, orbit_spread
 
 _BESIDE_FROM = ("from_", "power", "json", "output", "plot", "sensitivities", "tornado")
@@ -225,7 +223,8 @@ def _draw(found: Orbit, path: Path) -> None:
 
 def _draw_influence(influence: Sensitivities, path: Path) -> None:
     """Draw the effects of an orbit's uncertain parameters."""
-    from wingbeat.plots import save_figure, tornado_page
+    from wingbeat.plots import influence_pages as tornado_page
+    from wingbeat.plots import save_figure
 
     save_figure(tornado_page(influence), path)
 

@@ -13,8 +13,8 @@ from wingbeat._base.datasets import KIND
 from wingbeat.cli.curve_report import drawn
 from wingbeat.cli.options import check_outputs
 from wingbeat.plots import check_figure_name, power_page, save_figure, wingbeat_page
+from wingbeat.records.result_files import load_dataset
 from wingbeat.results.curve import Curve
-from wingbeat.results.storage import load_dataset
 
 
 def plot(

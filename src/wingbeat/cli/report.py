@@ -10,8 +10,7 @@ import numpy as np
 from wingbeat._base import grouped
 from wingbeat._base.datasets import STATE_NAMES
 from wingbeat.cli.printing import print_report
-from wingbeat.results.orbit_report import orbit_report, status_line
-from wingbeat.results.rows import power_rows, state_rows, wingbeat_rows
+from wingbeat.words.orbit_words import orbit_report, power_rows, state_rows, status_line, wingbeat_rows
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -12,9 +12,10 @@ from wingbeat._base.datasets import KIND
 from wingbeat.cli.curve_report import print_curve
 from wingbeat.cli.report import flight_summary, print_flight, print_orbit
 from wingbeat.cli.streams import plain_console
+from wingbeat.records.forms import parse_attributes
+from wingbeat.records.numbers import power_account
+from wingbeat.records.result_files import load_dataset
 from wingbeat.results.curve import Curve
-from wingbeat.results.power import power_account
-from wingbeat.results.storage import load_dataset, parse_attributes
 
 
 def show(

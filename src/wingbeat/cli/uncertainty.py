@@ -20,10 +20,16 @@ from wingbeat.orbits.problem.path_functions import check_quantities
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity, named_objective
 from wingbeat.orbits.status import Status
-from wingbeat.results.influence_report import in_words, ranked_in_words
-from wingbeat.results.sensitivities import QUANTITIES, sensitivities
-from wingbeat.results.solving import solve_orbit
-from wingbeat.results.uncertainty import Comparison, check_draws, uncertainty_by_samples
+from wingbeat.results.orbit import solve_orbit
+from wingbeat.results.sensitivities import (
+    QUANTITIES,
+    Comparison,
+    check_draws,
+    in_words,
+    ranked_in_words,
+    sensitivities,
+    uncertainty_by_samples,
+)
 
 _DEFAULT = (*QUANTITIES, "spectral_radius")
 

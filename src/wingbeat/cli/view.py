@@ -11,8 +11,8 @@ from cyclopts import Parameter
 from wingbeat._base import FaultList, InvalidInputError
 from wingbeat.cli.options import Whole, check_outputs, unpacking
 from wingbeat.cli.progress import progress_bar
+from wingbeat.records.result_files import load_dataset
 from wingbeat.results.orbit import load_orbit
-from wingbeat.results.storage import load_dataset
 from wingbeat.stability.feedback_checks import MOST_DELAY
 from wingbeat.viewer import Push, animate, write_page
 

@@ -11,22 +11,21 @@ from concurrent.futures import ThreadPoolExecutor
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base import FaultList, Report, Reported, drawn
+from wingbeat._base import FaultList, Report, Reported
 from wingbeat._workers.tuning import core_count
 from wingbeat.orbits.many.branches import Branches, trace
 from wingbeat.orbits.many.transitions import marks_of
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
-from wingbeat.results.characteristic import characteristic_speeds, next_speeds
-from wingbeat.results.csv_table import frame_of
-from wingbeat.results.curve_dataset import POINTS, best_line, best_of, curve_dataset, is_mean_power
-from wingbeat.results.curve_report import curve_report
+from wingbeat.plots.draw_curve import curve_page
+from wingbeat.records.characteristic import best_line, characteristic_speeds, is_mean_power, next_speeds
+from wingbeat.records.inputs import inputs_of
+from wingbeat.records.result_files import Saveable, load_dataset
+from wingbeat.records.tables import finite_or_none, frame_of
+from wingbeat.results.curve_dataset import POINTS, best_of, curve_dataset
 from wingbeat.results.orbit import Orbit
-from wingbeat.results.provenance import inputs_of
-from wingbeat.results.record import finite_or_none
-from wingbeat.results.saving import Saveable
-from wingbeat.results.storage import load_dataset
+from wingbeat.words.curve_words import curve_report
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -106,7 +105,7 @@ class Curve(Saveable, Reported):
         ----------
         published : values to draw for comparison, each a `wb.plots.Published`.
         """
-        return drawn("curve_page", self._dataset, published)
+        return curve_page(self._dataset, published)
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return a row for each speed, with the names of records: SI units and radians.

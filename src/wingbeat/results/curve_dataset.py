@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import json
 import math
 import re
@@ -17,12 +16,10 @@ from wingbeat._version import __version__
 from wingbeat.animal.kinematics import NAMED_IF_ON, PARAMETER_NAMES, in_use
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.many.branches import Branches
-from wingbeat.orbits.many.transitions import BOUNDS, Mark, certified, families, marks_of
+from wingbeat.orbits.many.transitions import Mark, certified, families, marks_of
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.results.aero_record import aero_record
-from wingbeat.results.characteristic import BestLine, characteristic_speeds
-from wingbeat.results.record import vehicle_record
-from wingbeat.results.storage import inputs_hash
+from wingbeat.records.characteristic import BestLine, _line, with_characteristic_speeds
+from wingbeat.records.inputs import aero_record, inputs_hash, vehicle_record
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -110,18 +107,6 @@ def curve_dataset(
     return with_characteristic_speeds(dataset, inputs["power_limit"])
 
 
-def with_characteristic_speeds(dataset: xr.Dataset, power_limit: float | None) -> xr.Dataset:
-    """Return the data set of a curve with the speeds that follow from it as an attribute.
-
-    Parameters
-    ----------
-    dataset : of a curve.
-    power_limit : of a minimised power [W].
-    """
-    found = characteristic_speeds(best_line(dataset), power_limit)
-    return dataset.assign_attrs(characteristic_speeds=json.dumps(found))
-
-
 def _about(name: str) -> dict[str, str]:
     return attributes_of(NOMENCLATURE[name])
 
@@ -168,23 +153,6 @@ def _largest_multiplier(record: dict[str, Any]) -> float | None:
     )
 
 
-def best_line(dataset: xr.Dataset) -> BestLine:
-    """Return the best orbits of a curve along speed, and the other families of optima.
-
-    Parameters
-    ----------
-    dataset : of the curve, also one read from a file.
-    """
-    values, family = dataset["objective_value"].values, dataset["family"].values
-    others = [_one(np.where(family == one, values, np.nan)) for one in range(int(family.max(initial=-1)) + 1)]
-    names = [str(text).split(", ") for text in dataset["active_bounds"].values[:, 0]]
-    marks = [(m["kind"], m["lower_speed"], m["upper_speed"]) for m in json.loads(dataset.attrs["marks"])]
-    objective, unit = dataset.attrs["objective"], dataset["objective_value"].attrs["units"]
-    limits = [frozenset(re.split("[<>]=", name)[0] for name in row if name) for row in names]
-    line = _line(objective, unit, dataset["speed"].values, values[:, 0], marks, limits)
-    return line._replace(others=np.array(others).reshape(-1, len(values)))
-
-
 def best_of(branches: Branches) -> BestLine:
     """Return the best orbits along speed, while the curve is being solved."""
     best = [optima[0] for optima in branches.optima]
@@ -193,34 +161,6 @@ def best_of(branches: Branches) -> BestLine:
     marks = [(mark.kind, mark.lower, mark.upper) for mark in marks_of(branches)]
     limits = [one.limited for one in best]
     return _line(problem.minimise.name, problem.minimise.unit, speed, value, marks, limits)
-
-
-def is_mean_power(objective: str, unit: str) -> bool:
-    """Whether a quantity is a mean power, of which a least value and a limit along speed mean something.
-
-    >>> is_mean_power("metabolic_power", "W"), is_mean_power("peak_power", "W"), is_mean_power("frequency", "Hz")
-    (True, False, False)
-    """
-    return unit == "W" and not objective.startswith("peak_")
-
-
-def _line(
-    objective: str,
-    unit: str,
-    speed: np.ndarray,
-    value: np.ndarray,
-    marks: list[tuple[str, float, float]],
-    limits: list[frozenset[str]],
-) -> BestLine:
-    torn = {(low, high) for kind, low, high in marks if kind != BOUNDS}
-    joined = np.array([ends not in torn for ends in itertools.pairwise(speed.tolist())], dtype=bool)
-    others = np.empty((0, len(speed)))
-    return BestLine(objective, is_mean_power(objective, unit), speed, value, joined, limits, others)
-
-
-def _one(rows: np.ndarray) -> np.ndarray:
-    """Return the values of a family, of which there is at most one at each speed."""
-    return np.where(np.isfinite(rows).any(axis=1), np.nansum(rows, axis=1), np.nan)
 
 
 def _by_speed(mark: Mark) -> dict[str, Any]:

@@ -19,10 +19,10 @@ from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.animal.species.record import Species
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.mechanics.glide import TRIMS, Glide, GlideSolver
-from wingbeat.results.aero_record import aero_record
-from wingbeat.results.record import finite_or_none, vehicle_record
-from wingbeat.results.saving import Saveable
-from wingbeat.results.warnings import guessed
+from wingbeat.records.inputs import aero_record, vehicle_record
+from wingbeat.records.orbit_record import guessed
+from wingbeat.records.result_files import Saveable
+from wingbeat.records.tables import finite_or_none
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, Report, Reported, drawn
+from wingbeat._base import FaultList, Report, Reported
 from wingbeat._version import __version__
 from wingbeat.orbits.many.series import find_series
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
@@ -20,10 +20,10 @@ from wingbeat.orbits.problem.quantities import Quantity
 from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.starts import start_count
 from wingbeat.orbits.status import Status
-from wingbeat.results.columns import table_of
+from wingbeat.plots.draw_influences import pareto_page
+from wingbeat.records.tables import finite_or_none, table_of
 from wingbeat.results.orbit import Orbit
-from wingbeat.results.pareto_report import pareto_report
-from wingbeat.results.record import finite_or_none
+from wingbeat.words.curve_words import pareto_report
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -86,7 +86,7 @@ class ParetoFront(Reported):
 
     def plot(self) -> Figure:
         """Return a figure of the front, and of how the wingbeat changes along it."""
-        return drawn("pareto_page", self.record())
+        return pareto_page(self.record())
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return a row for each limit, the first without a limit, with the names of `record`: SI units, radians."""

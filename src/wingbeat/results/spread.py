@@ -11,9 +11,9 @@ import numpy as np
 from wingbeat.animal.kinematics import Wingbeat, parameter
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import search_near
-from wingbeat.results.limit_share import LimitShare, limit_share
+from wingbeat.records.numbers import POWERS, power_summary
+from wingbeat.records.shares import LimitShare, limit_share
 from wingbeat.results.orbit import Orbit
-from wingbeat.results.record import POWERS, power_summary
 
 
 class Spread(NamedTuple):
@@ -112,4 +112,4 @@ def orbit_spread(
 
 def _row(solution: Solution) -> dict[str, float | None]:
     trimmed = {f"wingbeat.{name}": parameter(solution.wingbeat, name) for name in solution.problem.free}
-    return power_summary(solution, solution.beat()) | trimmed
+    return power_summary(solution.problem, solution.beat()) | trimmed

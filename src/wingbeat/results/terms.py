@@ -16,10 +16,10 @@ from wingbeat.orbits.many.transitions import certified, families, marks_of
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
-from wingbeat.results.aero_record import aero_record
+from wingbeat.records.inputs import aero_record
+from wingbeat.records.numbers import power_account
+from wingbeat.records.tables import finite_or_none
 from wingbeat.results.orbit import Orbit
-from wingbeat.results.power import power_account
-from wingbeat.results.record import finite_or_none
 
 SHARES = (0.0, 0.25, 0.5, 0.75, 1.0)
 _MOST = 101

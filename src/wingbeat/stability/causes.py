@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import Report, Reported, drawn
+from wingbeat._base import Report, Reported
 from wingbeat.orbits.flight.floquet import multipliers_of
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.map_quantities import MAP_QUANTITIES, MapQuantity
-from wingbeat.results.columns import table_of
+from wingbeat.plots.draw_influences import tornado_page
+from wingbeat.records.tables import table_of
 from wingbeat.results.orbit import Orbit
 from wingbeat.results.sensitivities import Sensitivities, sensitivities
 from wingbeat.stability.causes_report import causes_report
@@ -66,7 +67,7 @@ class StabilitySensitivities(Reported):
 
     def plot(self) -> Figure:
         """Return a figure that ranks the numbers of the animal by how far they can move the spectral radius."""
-        return drawn("tornado_page", self.sensitivities)
+        return tornado_page(self.sensitivities)
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return a row for each parameter, the most important first: value, range, derivative and changes.

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, Report, Reported, drawn
+from wingbeat._base import FaultList, Report, Reported
 from wingbeat.aero.winds import CosineGust
+from wingbeat.plots.draw_stability import survey_page
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.feedback import Feedback, feedback
 from wingbeat.stability.feedback_report import survey_report
@@ -90,7 +91,7 @@ class GustSurvey(Reported):
 
     def plot(self) -> Figure:
         """Return a figure of the share of gusts survived, by their size and by their direction."""
-        return drawn("survey_page", self)
+        return survey_page(self)
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return a row for each gust: size [m/s], direction [rad], start and duration [s], then how it ended.

@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, Report, Reported, drawn, install_extra
+from wingbeat._base import FaultList, Report, Reported, install_extra
 from wingbeat._version import __version__
 from wingbeat.animal.kinematics import Wingbeat, flap_angle
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.stroke_map import StrokeMap, stroke_map
 from wingbeat.orbits.problem.problem import PITCH_STATE, OrbitProblem
 from wingbeat.orbits.status import Status
+from wingbeat.plots.draw_stability import stability_page
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.averaged import averaged_jacobian
@@ -82,7 +83,7 @@ class LinearFlight(Reported):
 
     def plot(self) -> Figure:
         """Return a figure of the multipliers, the growth and what moves in each mode."""
-        return drawn("stability_page", [self.record()])
+        return stability_page([self.record()])
 
     def record(self) -> dict[str, Any]:
         """Return all numbers as a JSON-able dictionary in SI units and radians; complex numbers become pairs."""

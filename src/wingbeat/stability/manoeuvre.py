@@ -15,9 +15,9 @@ from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import parameter
 from wingbeat.orbits.problem.problem import SPEED_LIMITS
 from wingbeat.orbits.status import Status
+from wingbeat.records.tables import finite_or_none
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.results.orbit import Orbit
-from wingbeat.results.record import finite_or_none
 from wingbeat.stability.beat_map import BeatMap
 from wingbeat.stability.command_limits import ALLOWED
 from wingbeat.stability.feedback_checks import check_delay

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, cast
 
-from wingbeat._base import Line, Report, Reported, Row, Table, drawn
+from wingbeat._base import Line, Report, Reported, Row, Table
+from wingbeat.plots.draw_stability import manoeuvre_page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -30,7 +31,7 @@ class ReportedManoeuvre(Reported):
         flights : of `fly`, by names, at most three. Default: the flight with feedback in still air.
         """
         plan = cast("Manoeuvre", self)
-        return drawn("manoeuvre_page", plan, {"with feedback": plan.fly()} if flights is None else flights)
+        return manoeuvre_page(plan, {"with feedback": plan.fly()} if flights is None else flights)
 
 
 def manoeuvre_report(record: dict[str, Any]) -> Report:

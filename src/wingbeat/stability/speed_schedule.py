@@ -9,7 +9,7 @@ import numpy as np
 
 from wingbeat.animal.kinematics import parameter
 from wingbeat.orbits.status import Status
-from wingbeat.results.solving import solve_orbit
+from wingbeat.results.orbit import solve_orbit
 from wingbeat.stability.beat_map import BeatMap
 from wingbeat.stability.manoeuvre_options import ManoeuvreOptions
 from wingbeat.stability.steady_flight import SteadyFlight, defect_of, steady_flight

@@ -27,8 +27,7 @@ from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, pa
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.problem.quantities import Quantity, named_objective
 from wingbeat.orbits.starts import usual_starts
-from wingbeat.results.aero_record import aero_from
-from wingbeat.results.provenance import inputs_of, species_from
+from wingbeat.records.inputs import aero_from, inputs_of, species_from
 from wingbeat.studies.form import StudyForm
 
 # --- objectives ---

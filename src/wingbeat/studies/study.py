@@ -17,13 +17,13 @@ from wingbeat._base import (
     InvalidInputError,
     Report,
     Reported,
-    drawn,
     label_of,
     plain_unit,
 )
 from wingbeat._workers.tuning import core_count
 from wingbeat.animal.species.numbers import shown
 from wingbeat.orbits.many.batch import check_processes
+from wingbeat.plots.draw_study import study_page
 from wingbeat.results.orbit import Orbit
 from wingbeat.studies.driver import Progress, Tally, drive
 from wingbeat.studies.engine import Engine, LocalProcesses
@@ -288,7 +288,7 @@ class Study(Reported):
         ----------
         quantity : a column of numbers, such as ``mean_power``; default the minimised quantity.
         """
-        return drawn("study_page", *self.drawing(quantity))
+        return study_page(*self.drawing(quantity))
 
     def _about(self) -> dict[str, Any]:
         return {"varied": list(self.plan.paths) or "nothing", "objective": self.plan.form.minimise}

@@ -22,8 +22,8 @@ from wingbeat._base import (
     write_atomically,
 )
 from wingbeat._version import NUMERICAL_VERSION
-from wingbeat.results.columns import flat
-from wingbeat.results.netcdf import netcdf_bytes
+from wingbeat.records.netcdf import netcdf_bytes
+from wingbeat.records.tables import flat
 
 if TYPE_CHECKING:
     import pandas as pd

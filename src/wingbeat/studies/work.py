@@ -17,7 +17,7 @@ from wingbeat.orbits.many.warm_start import Answers, Known, kind, numbers_of
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import search_near
 from wingbeat.orbits.status import Status
-from wingbeat.results.record import orbit_record
+from wingbeat.records.orbit_record import orbit_record
 from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
 from wingbeat.studies.units import Outcome, Unit, failed
 

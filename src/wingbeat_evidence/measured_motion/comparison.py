@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import Report, Reported, drawn
+from wingbeat._base import Report, Reported
 from wingbeat.aero import LIBRARY, BladeElement
 from wingbeat_evidence.measured_motion.choice import (
     Regime,
@@ -117,7 +117,11 @@ class Validation(Reported):
 
     def plot(self) -> Figure:
         """Return a figure of the forces, of their residuals and of the angles of attack through time."""
-        return drawn("validation_page", self)
+        from wingbeat_evidence.measured_motion.figure import (
+            validation_page,  # which draws validations, and so knows them
+        )
+
+        return validation_page(self)
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return a table of the rows, with the names of `ValidationRow.to_dict`: ``aero``, ``fz.rms`` and so on.

@@ -7,9 +7,9 @@ import dataclasses
 import numpy as np
 
 from wingbeat.mechanics.flight_model import FlightModel, State
-from wingbeat.plots.measured_bands import PIGEON_REFERENCES
-from wingbeat.results.dataset import evaluate
-from wingbeat.results.record import beat_mean
+from wingbeat.plots.published import PIGEON_REFERENCES
+from wingbeat.records.flight_dataset import evaluate
+from wingbeat.records.numbers import beat_mean
 from wingbeat_evidence.paper.claim import Evidence, FlightClaim, TestResult
 from wingbeat_evidence.paper.energy_claims import BATS_NEED
 from wingbeat_evidence.paper.flight_claims import ARM, BAT_MEASURED, HAND, station_series

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from wingbeat.plots.measured_bands import PAPER_PEAK_POWER, PAPER_PITCH_RANGE_DEG
+from wingbeat.plots.published import PAPER_PEAK_POWER, PAPER_PITCH_RANGE_DEG
 from wingbeat_evidence.paper.claim import Evidence, FlightClaim, TestResult
 from wingbeat_evidence.paper.treatments import ANIMALS, MODELS
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from wingbeat._base.datasets import at_station
 from wingbeat._base.style import COLUMN, PAGE, drawing, legend_above, letter_panels
-from wingbeat.plots.measured_bands import PAPER_PEAK_POWER, PAPER_PITCH_RANGE_DEG, PAPER_SMALL_ALPHA_DEG
+from wingbeat.plots.published import PAPER_PEAK_POWER, PAPER_PITCH_RANGE_DEG, PAPER_SMALL_ALPHA_DEG
 from wingbeat_evidence.paper.contradictions import NEAR_PEAK, Printed, near, told
 from wingbeat_evidence.paper.figure_style import FONT_SMALL, LOOKS, Drawn, Table, dress_cycle, say, sheet
 from wingbeat_evidence.paper.treatments import DEFAULT, MODELS, SAMPLE_SPEED, TREATMENTS, Case, Orbits, certified

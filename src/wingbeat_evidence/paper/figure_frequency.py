@@ -11,7 +11,7 @@ import numpy as np
 
 from wingbeat._base.style import PAGE, drawing, dress, letter_panels
 from wingbeat.animal.species.making import load_species
-from wingbeat.plots.measured_bands import (
+from wingbeat.plots.published import (
     MEASURED_FREQUENCIES,
     PAPER_BAT_FREQUENCY,
     PAPER_BAT_RATIO,

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from wingbeat._base.datasets import at_station
-from wingbeat.plots.measured_bands import PAPER_BAT_FREQUENCY
-from wingbeat.results.record import beat_mean
+from wingbeat.plots.published import PAPER_BAT_FREQUENCY
+from wingbeat.records.numbers import beat_mean
 from wingbeat_evidence.paper.claim import Evidence, FlightClaim, TestResult
 from wingbeat_evidence.paper.pigeon_claims import deviation
 from wingbeat_evidence.paper.treatments import SAMPLE_SPEED

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from wingbeat.animal.species.making import load_species
-from wingbeat.plots.measured_bands import PIGEON_REFERENCES
+from wingbeat.plots.published import PIGEON_REFERENCES
 from wingbeat_evidence.paper.claim import Claim, Evidence, FlightClaim, TestResult, untestable
 from wingbeat_evidence.paper.treatments import SAMPLE_SPEED
 

@@ -14,7 +14,7 @@ import numpy as np
 from wingbeat._base import FaultList, InvalidInputError
 from wingbeat._base.datasets import downstrokes
 from wingbeat.aero.blade_element import BladeElement
-from wingbeat.results.aero_record import aero_from
+from wingbeat.records.inputs import aero_from
 from wingbeat_evidence.second_opinion.lattice import LatticeOptions, lattice_of, sum_of_panels
 from wingbeat_evidence.second_opinion.left_out import left_out
 from wingbeat_evidence.second_opinion.motion import Motion

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, Report, Reported, drawn
+from wingbeat._base import FaultList, Report, Reported
 from wingbeat._jax.arrays import jnp
 from wingbeat.animal.species.making import load_species
 from wingbeat.models import model_of
@@ -17,9 +17,8 @@ from wingbeat.orbits.many.uncertainty import Samples, sample_orbits
 from wingbeat.orbits.problem.quantities import QUANTITIES, Quantity
 from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.status import Status
-from wingbeat.results.orbit import Orbit
+from wingbeat.results.orbit import Orbit, solve_orbits
 from wingbeat.results.sensitivities import sensitivities
-from wingbeat.results.solving import solve_orbits
 from wingbeat_evidence.whole_flights.measured import COMPARED, MeasuredFlights
 
 if TYPE_CHECKING:
@@ -113,7 +112,11 @@ class Prediction(Reported):
 
     def plot(self) -> Figure:
         """Return a figure of the predicted flights and the measured ones."""
-        return drawn("flights_page", self)
+        from wingbeat_evidence.whole_flights.figure import (
+            flights_page,  # which draws predictions, and so knows them
+        )
+
+        return flights_page(self)
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return a row for each speed; quantities have the names of the nomenclature, behind ``values.``.

@@ -8,7 +8,7 @@ from typing import Any
 
 from wingbeat._base import NOMENCLATURE, Fault, for_people
 from wingbeat.animal.species.numbers import Number, display
-from wingbeat.results.rows import mass_of
+from wingbeat.words.orbit_words import mass_of
 
 
 def number(value: float | None, digits: int = 4) -> str:

@@ -16,12 +16,11 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import search_near
 from wingbeat.orbits.status import Status
-from wingbeat.results.netcdf import netcdf_bytes
-from wingbeat.results.orbit import Orbit
-from wingbeat.results.provenance import problem_from
-from wingbeat.results.rows import orbit_groups
+from wingbeat.records.inputs import problem_from
+from wingbeat.records.netcdf import netcdf_bytes
+from wingbeat.results.orbit import Orbit, solve_orbit
 from wingbeat.results.sensitivities import sensitivities
-from wingbeat.results.solving import solve_orbit
+from wingbeat.words.orbit_words import orbit_groups
 from wingbeat_explorer.app.formatting import refusals
 from wingbeat_explorer.app.links import from_plain
 from wingbeat_explorer.app.scenario import problem_of

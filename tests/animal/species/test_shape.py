@@ -22,7 +22,7 @@ from wingbeat.animal.species.reading import packaged_text, species_names, templa
 from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.species.writing import species_text
 from wingbeat.orbits.problem.parameters import parameters_of
-from wingbeat.results.provenance import inputs_of, species_from
+from wingbeat.records.inputs import inputs_of, species_from
 
 COLOURED = "[shape.colours]\n" + "".join(f'{name} = "#123aBC"\n' for name in COLOURS)
 LOOK = """

@@ -15,7 +15,7 @@ import xarray as xr
 
 from tests.cli.bad_input.refusals import check, contents, refuse
 from wingbeat.cli import main
-from wingbeat.results.storage import load_dataset, save_dataset
+from wingbeat.records.result_files import load_dataset, save_result
 
 # Bytes kept: HDF5's signature, pieces of its superblock, the superblock, some of the data.
 LENGTHS = (8, 16, 24, 48, 96, 512, 2048)
@@ -91,13 +91,13 @@ def test_inputs_that_were_changed_by_hand(orbit_bytes: bytes, folder: Path, caps
     good, inputs = series.attrs, json.loads(series.attrs["inputs"])
     for changed in ("", "{", "[]", "{}", "null", json.dumps(inputs | {"vehicle": {}}), None):
         attributes = good | {"inputs": changed} if changed is not None else {"wingbeat_kind": "orbit"}
-        save_dataset(
+        save_result(
             series.assign_attrs(attributes) if changed is not None else xr.Dataset(attrs=attributes), "changed.nc"
         )
         words = "cannot read 'changed.nc' as an orbit: it is damaged (|solve it again"
         refuse(capsys, f"{command} changed.nc", words)
     for name, value in (("air", {"density": -1.0}), ("speed", "fast"), ("free", ["colour"]), ("bounds", {"x": 1})):
-        save_dataset(series.assign_attrs(inputs=json.dumps(inputs | {name: value})), "changed.nc")
+        save_result(series.assign_attrs(inputs=json.dumps(inputs | {name: value})), "changed.nc")
         refuse(capsys, f"{command} changed.nc", "damaged (the inputs do not match their hash)")
 
 
@@ -108,7 +108,7 @@ def test_records_that_were_changed_by_hand(orbit_bytes: bytes, folder: Path, cap
     (folder / "orbit.nc").write_bytes(orbit_bytes)
     series = load_dataset("orbit.nc")
     for name in ("wingbeat", "vehicle", "initial_state"):
-        save_dataset(series.assign_attrs({name: value}), "changed.nc")
+        save_result(series.assign_attrs({name: value}), "changed.nc")
         for command in ("show", "show --json", "simulate --from"):
             refuse(capsys, f"{command} changed.nc", "cannot read 'changed.nc'|it is damaged (")
 

@@ -11,7 +11,7 @@ from matplotlib.image import imread
 
 import wingbeat as wb
 from wingbeat.mechanics.wing_motion import strips_of
-from wingbeat.plots.measured_bands import MEASURED_FREQUENCIES
+from wingbeat.plots.published import MEASURED_FREQUENCIES
 from wingbeat_evidence.paper.figure_coefficients import coefficients_figure
 from wingbeat_evidence.paper.figure_cycle import absence, forces_figure, pitch_figure, power_figure
 from wingbeat_evidence.paper.figure_frequency import frequency_figure

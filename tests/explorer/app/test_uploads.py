@@ -12,8 +12,8 @@ import wingbeat as wb
 from wingbeat._workers.process import Context
 from wingbeat.animal.species.reading import template
 from wingbeat.models import model_of
+from wingbeat.records.inputs import inputs_of
 from wingbeat.results.orbit import load_orbit
-from wingbeat.results.provenance import inputs_of
 from wingbeat_explorer.app import uploads
 from wingbeat_explorer.app.jobs import do
 from wingbeat_explorer.app.links import from_plain, to_json

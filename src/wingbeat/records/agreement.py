@@ -1,0 +1,357 @@
+"""Whether the numbers of a saved orbit agree: record with inputs, record with series, series with Newton's laws.
+
+A digest shows that a file was changed, but everybody can compute it. These checks show that the content of a file
+is no orbit, even if its digest fits. They fly nothing again, and take some milliseconds.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat._base import harmonic_place, is_number
+from wingbeat._base.datasets import SHAPE, STATE_NAMES
+from wingbeat._jax.config import own_settings
+from wingbeat.aero import BladeElement, SuFan
+from wingbeat.animal.kinematics import PARAMETER_NAMES, Wingbeat, parameter
+from wingbeat.orbits.flight.beat import Beat
+from wingbeat.orbits.flight.stroke_distances import SYMMETRY
+from wingbeat.orbits.infeasible.relaxation import Relaxation
+from wingbeat.orbits.options.solver import DEFAULTS
+from wingbeat.orbits.problem.drive import drive_numbers
+from wingbeat.orbits.problem.plausible import judged_names
+from wingbeat.orbits.problem.problem import PATH_NAMES
+from wingbeat.orbits.problem.quantities import QUANTITIES
+from wingbeat.orbits.status import Status
+from wingbeat.records.forms import from_json
+from wingbeat.records.inputs import (
+    OWN,
+    aero_inputs,
+    inputs_of,
+    problem_from,
+    shape_attribute,
+)
+from wingbeat.records.judgements import OF_BEAT, judged
+from wingbeat.records.numbers import alpha_range, flight_numbers, power_summary
+from wingbeat.records.series_agreement import (
+    ABSOLUTE,
+    check_newton,
+    check_series,
+    check_wings,
+    demand,
+    same,
+)
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from wingbeat.animal.species.record import Species
+
+# Quantities of an orbit keep to their limits to this share.
+_OF_LIMIT = 1e-3
+# The extremes of samples, and those between samples, which limits apply to. Measured: 6e-5.
+_OF_RANGE = 2e-2
+# An unknown is at its bound if it is closer than a tolerance; these multiples of it leave room for rounding.
+_SURELY_AT, _SURELY_NOT = 0.5, 100.0
+# What the attributes of a curve repeat of the inputs; an orbit repeats its speed too.
+REPEATED_BY_A_CURVE = ("vehicle", "air", "climb")
+
+
+def check_orbit(record: dict[str, Any], inputs: dict[str, Any], dataset: xr.Dataset) -> None:
+    """Check that record, inputs and series are those of one orbit.
+
+    Parameters
+    ----------
+    record, inputs : of an orbit.
+    dataset : its series.
+
+    Raises
+    ------
+    ValueError : which numbers do not agree.
+    LookupError, TypeError, AttributeError : record or inputs lack something, or hold it in another form.
+    """
+    series = {str(name): variable.values for name, variable in dataset.variables.items()}
+    species, converged = species_of(inputs), Status(record["status"]) is Status.CONVERGED
+    changes = [Relaxation(**change) for change in record["relaxations"]]
+    demand(not (converged and (changes or record["failed_balance"])), "a converged orbit fails no balance")
+    _check_inputs(record, inputs, species)
+    check_series(series, species.vehicle.mass * species.air.gravity)
+    _check_beat(record, series)
+    whole = {name for name, values in series.items() if values.dtype.kind != "f" or np.isfinite(values).all()}
+    flown = {*STATE_NAMES, "hinge_power", "actuator_power"} <= whole
+    if flown:
+        _check_numbers(record, species, series)
+    if converged:
+        demand(whole == {*series}, "a converged orbit flies the whole beat")
+        _check_certificate(record, inputs)
+        check_newton(series, species)
+    demand(record["stable"] is _stable(record["floquet_multipliers"], converged), "stable is not what follows")
+    own = shape_attribute(species).get(SHAPE)
+    demand(own == dataset.attrs.get(SHAPE, own), "shape is not that of the species")
+    _check_plausibility(record, inputs, species)
+
+
+def check_limits(
+    numbers: Mapping[str, Any], active: Iterable[str], inputs: dict[str, Any], unknown: Iterable[str]
+) -> None:
+    """Check that free parameters are within their bounds, and that all bounds that they reach are listed.
+
+    Parameters
+    ----------
+    numbers : of a certified orbit, by name; those of constraints are by the texts of these.
+    active : names of its active bounds and limits.
+    inputs : of the orbit or the curve.
+    unknown : names of what is sought beside the free parameters.
+
+    Raises
+    ------
+    ValueError : which number and its limits contradict.
+    """
+    active = set(active)
+    tolerance = inputs.get("options", {}).get("search", {}).get("bound_tolerance", DEFAULTS.search.bound_tolerance)
+    for name in {*inputs["free"]} & {*numbers}:
+        low, high = inputs["bounds"][name]
+        inside = min(numbers[name] - low, high - numbers[name]) / max(high - low, np.finfo(float).tiny)
+        demand(inside >= -tolerance, f"{name} is beyond its bounds")
+        demand(inside > _SURELY_AT * tolerance or name in active, f"{name} is at a bound that is not listed")
+        demand(inside < _SURELY_NOT * tolerance or name not in active, f"{name} is at no bound, but one is listed")
+    texts = limit_texts(inputs)
+    known = {*inputs["free"], *unknown, *PATH_NAMES, SYMMETRY, *texts}
+    demand(active <= known, "a bound is listed that the problem has not")
+    for text, asked in zip(texts, inputs["constraints"], strict=True):
+        if (value := numbers.get(text)) is not None:
+            beyond = (value - asked["limit"]) * (1.0 if asked["at_most"] else -1.0)
+            near = _OF_LIMIT * abs(asked["limit"]) + 1e-6
+            demand(beyond <= near, f"{asked['quantity']} is beyond its limit")
+            demand(beyond >= -near or text not in active, f"{text} is listed, but not reached")
+            reached = beyond >= -ABSOLUTE * abs(asked["limit"])
+            demand(not reached or text in active, f"{text} is reached, but not listed")
+
+
+def limit_texts(inputs: dict[str, Any]) -> list[str]:
+    """Return the constraints of inputs as texts, as in records."""
+    asked = inputs["constraints"]
+    names = [one["quantity"].removeprefix(f"{OWN} ") for one in asked]
+    return [f"{n}{'<=' if c['at_most'] else '>='}{c['limit']:g}" for n, c in zip(names, asked, strict=True)]
+
+
+def _check_inputs(record: dict[str, Any], inputs: dict[str, Any], species: Species) -> None:
+    for name in (*REPEATED_BY_A_CURVE, "speed"):
+        demand(record[name] == inputs[name], f"{name} is not that of the inputs")
+    demand(record["species"] == species.name, "species is not that of the inputs")
+    demand(record.get("model") == inputs.get("model"), "model is not that of the inputs")
+    demand(inputs["objective"] in (record["objective"], f"{OWN} {record['objective']}"), "objective is another")
+    loads = {name: value for name, value in record["aero"].items() if name != "hand"}
+    demand(loads.items() <= {**inputs["aero"], "hand": 0}.items(), "aero is not that of the inputs")
+    demand({*species.warnings} <= {*record["warnings"]}, "a warning of the species is missing")
+    stock, flown = inputs["stock_wingbeat"], record["wingbeat"]
+    for name, value in stock.items():
+        if isinstance(value, float) and name not in inputs["free"]:
+            demand(flown.get(name) == value, f"wingbeat.{name} is not free, but differs from the species' own")
+
+
+def _check_beat(record: dict[str, Any], series: dict[str, np.ndarray]) -> None:
+    """Check phases, times, and the states at both ends of the beat."""
+    wingbeat, phase = Wingbeat(**record["wingbeat"]), series["phase"]
+    even = np.arange(phase.size) / max(phase.size - 1, 1)
+    demand(phase.size > 2 and np.allclose(phase, even, 0.0, ABSOLUTE), "phase is not one beat in equal steps")
+    check_wings(wingbeat, series)
+    travelled = {"x": record["speed"] / wingbeat.frequency, "z": record["climb"] / wingbeat.frequency}
+    for name in STATE_NAMES:
+        first, last = float(series[name][0]), float(series[name][-1])
+        demand(first == record["initial_state"][name], f"initial_state.{name} is not that of the series")
+        closure = last - first - travelled.get(name, 0.0)
+        same(f"closure.{name}", record["closure"][name], closure if math.isfinite(closure) else None)
+
+
+def _check_numbers(record: dict[str, Any], species: Species, series: dict[str, np.ndarray]) -> None:
+    """Check the record's numbers against the series, with the functions that made the record."""
+    wingbeat, vehicle = record["wingbeat"], species.vehicle
+    weight = vehicle.mass * species.air.gravity
+    of_vehicle = {"mass": vehicle.mass, "weight": weight, "semi_span": vehicle.wing.semi_span}
+    known = {**series, **wingbeat, **record, **of_vehicle, "drive": vehicle.drive}
+    beat = Beat(**{name: known[name] for name in Beat._fields})
+    problem: Any = SimpleNamespace(vehicle=vehicle, air=species.air, speed=record["speed"])
+    with own_settings():
+        driven = drive_numbers(beat)
+        of_beat = {name: float(np.max(QUANTITIES[name].of(beat))) for name in OF_BEAT}
+    found = {
+        **power_summary(problem, beat),
+        **flight_numbers(problem, wingbeat["frequency"], wingbeat["flap_amplitude"]),
+        **driven,
+        "body_pitch_range": float(np.ptp(series["body_pitch"])),
+    }
+    for name, value in found.items():
+        same(name, record[name], value)
+    per_mass = {"positive_power_per_mass": record["mean_positive_power"] / vehicle.mass}
+    values = {**record, **wingbeat, **of_beat, **per_mass}
+    for one in record["plausibility"]:
+        same(one["name"], one["value"], values[one["name"]])
+    if (least := record["objective"]) in {*found, *wingbeat}:
+        same("objective_value", record["objective_value"], {**found, **wingbeat}[least])
+    for name, station in (("alpha_quarter_span", 0.25), ("alpha_three_quarter_span", 0.75)):
+        same(name, record[name], alpha_range(beat, station))
+
+
+def _check_certificate(record: dict[str, Any], inputs: dict[str, Any]) -> None:
+    options = inputs.get("options", {}).get("certificate", {})
+    tolerance = options.get("closure_tolerance", DEFAULTS.certificate.closure_tolerance)
+    worst = max(map(abs, record["closure"].values()))
+    demand(worst <= tolerance, f"a converged orbit does not close to {worst:.2g}")
+    demand([*record["constraints"]] == limit_texts(inputs), "constraints are not those of the inputs")
+    known = {one["name"]: one["value"] for one in record["plausibility"]} | record
+    for text, asked in zip(record["constraints"], inputs["constraints"], strict=True):
+        if asked["quantity"] in known:
+            own, found = record["constraints"][text], known[asked["quantity"]]
+            near = own == found or (None not in (own, found) and math.isclose(own, found, rel_tol=_OF_RANGE))
+            demand(near, f"{text} does not agree with the series")
+    wingbeat = Wingbeat(**record["wingbeat"])
+    numbers = {name: float(parameter(wingbeat, name)) for name in inputs["free"]} | record["constraints"]
+    check_limits(numbers, record["active_bounds"], inputs, record["initial_state"])
+
+
+def _stable(multipliers: list[list[Any]], converged: bool) -> bool | None:
+    demand(len(multipliers) == 4, "there are not four Floquet multipliers")
+    return max(math.hypot(*pair) for pair in multipliers) < 1.0 if converged else None
+
+
+def _check_plausibility(record: dict[str, Any], inputs: dict[str, Any], species: Species) -> None:
+    """Check that all numbers that can be judged are, and that each judgement follows from value and species."""
+    problem: Any = SimpleNamespace(species=species, speed=record["speed"])
+    names = judged_names(species, tuple(inputs["free"]))
+    demand([one["name"] for one in record["plausibility"]] == list(names), "plausibility lacks a judgement")
+    for one in record["plausibility"]:
+        demand(one == judged(problem, one["name"], one["value"]), f"{one['name']} is judged wrongly")
+
+
+def species_of(inputs: dict[str, Any]) -> Species:
+    """Return the species of inputs that set up a problem, and nothing but what a problem has.
+
+    The air loads are left out, for a model of them may take a second; `Orbit.problem` sets them up.
+
+    Parameters
+    ----------
+    inputs : of an orbit.
+
+    Raises
+    ------
+    ValueError, LookupError, TypeError, AttributeError : they are not the inputs of a problem.
+    """
+    known = [one for one in inputs["constraints"] if not one["quantity"].startswith(OWN)]
+    least = "frequency" if inputs["objective"].startswith(OWN) else inputs["objective"]
+    plain = inputs | {"aero": aero_inputs(BladeElement(SuFan())), "objective": least, "constraints": known}
+    problem = problem_from(plain)
+    again = inputs_of(problem, inputs["starts"], inputs["seed"])
+    wrong = [name for name, value in again.items() if plain[name] != value]
+    demand(not wrong, f"the inputs {', '.join(wrong)} are not those of a problem")
+    names = (problem.species.common_name, problem.species.scientific_name)
+    texts = (*names, *problem.species.free, *problem.species.guessed_bounds, *problem.species.warnings)
+    for number in problem.species.numbers.values():
+        texts += number.unit, number.source
+        ends = number.range or ()
+        demand(_is_plain(number.value) and all(map(is_number, ends)), "a number of the species is none")
+    ends = (
+        end for pair in (*problem.species.bounds.values(), *problem.species.path_bounds.values()) for end in pair
+    )
+    demand(all(map(is_number, ends)), "a bound of the species is none")
+    demand(all(isinstance(text, str) for text in texts), "a text of the species is none")
+    return problem.species
+
+
+def _is_plain(value: Any) -> bool:
+    return is_number(value) or (isinstance(value, list | tuple) and all(map(_is_plain, value)))
+
+
+_LISTS = ("marks", "constraints")
+# Numbers that every certified orbit has, moving or not.
+_ALWAYS = (
+    *(f"{part}_{name}" for part in ("initial", "closure") for name in STATE_NAMES),
+    *("mean_power", "peak_power", "mean_positive_power", "mean_actuator_power", "peak_actuator_power"),
+    *("body_pitch_range", "largest_multiplier"),
+)
+
+
+def check_curve(dataset: xr.Dataset, inputs: dict[str, Any]) -> None:
+    """Check that points, marks and inputs are those of one curve.
+
+    Parameters
+    ----------
+    dataset : of a curve, in the form of one.
+    inputs : of the curve.
+
+    Raises
+    ------
+    ValueError : which numbers do not agree.
+    LookupError, TypeError, AttributeError : the inputs lack something, or hold it in another form.
+    """
+    columns = {str(name): variable.values for name, variable in dataset.variables.items()}
+    species, about = species_of(inputs | {"speed": inputs["speed"][0]}), dataset.attrs
+    for name in REPEATED_BY_A_CURVE:
+        own = from_json(about[name]) if isinstance(about[name], str) else float(about[name])
+        demand(own == inputs[name], f"{name} is not that of the inputs")
+    demand(about["species"] == species.name, "species is not that of the inputs")
+    demand(inputs["objective"] in (about["objective"], f"{OWN} {about['objective']}"), "objective is another")
+    demand(inputs["power_limit"] is None or inputs["power_limit"] > 0, "power_limit is not positive")
+    speeds = columns["speed"]
+    demand(speeds.tolist() == inputs["speed"], "speed is not that of the inputs")
+    demand(bool((np.diff(speeds) > 0).all()), "speed does not increase")
+    demand(columns["optimum"].tolist() == list(range(columns["optimum"].size)), "optimum does not count from 0")
+    demand(columns["continued"].shape[0] == speeds.size - 1, "continued has not one item for each pair of speeds")
+    for name in _LISTS:
+        demand(all(isinstance(one, str | dict) for one in json.loads(about[name])), f"{name} is of another form")
+    demand(all(isinstance(one, str) for one in json.loads(about["warnings"])), "warnings are of another form")
+    for mark in json.loads(about["marks"]):
+        demand({*mark} == {"kind", "lower_speed", "upper_speed", "what"}, "a mark is of another form")
+        demand({mark["lower_speed"], mark["upper_speed"]} <= {*speeds.tolist()}, "a mark is at none of the speeds")
+        demand(isinstance(mark["kind"], str) and isinstance(mark["what"], str), "a mark is of another form")
+    found = columns["family"] >= 0
+    for i, status in enumerate(columns["status"].tolist()):
+        converged = Status(status) is Status.CONVERGED
+        demand(converged == bool(found[i, 0]), "status does not fit the optima")
+        enough = not converged or columns["distinct_optima"][i] >= found[i].sum()
+        demand(bool(enough), "distinct_optima is too small")
+        _check_point(columns, i, found[i], species, inputs, str(about["objective"]))
+
+
+def _check_point(
+    columns: dict[str, np.ndarray], i: int, found: np.ndarray, species: Species, inputs: dict[str, Any], least: str
+) -> None:
+    """Check the optima at one speed: the numbers of those that there are, and nothing in place of the others."""
+    numbers = {name: v[i] for name, v in columns.items() if v.ndim == 2 and v.dtype.kind == "f"}
+    for name, values in numbers.items():
+        demand(not np.isfinite(values[~found]).any(), f"{name} has values where there is no optimum")
+    demand(bool((np.diff(numbers["objective_value"][found]) >= 0).all()), "the optima of a speed are not in order")
+    speed = float(columns["speed"][i])
+    problem: Any = SimpleNamespace(species=species, vehicle=species.vehicle, air=species.air, speed=speed)
+    weight = species.vehicle.mass * species.air.gravity
+    options = inputs.get("options", {}).get("certificate", {})
+    tolerance = options.get("closure_tolerance", DEFAULTS.certificate.closure_tolerance)
+    for k in np.flatnonzero(found).tolist():
+        own = {name: float(v[k]) for name, v in numbers.items()}
+        derived = flight_numbers(problem, own["frequency"], own["flap_amplitude"])
+        derived["cost_of_transport"] = own["mean_positive_power"] / (weight * speed) if weight * speed else None
+        for name, value in derived.items():
+            same(name, own[name] if math.isfinite(own[name]) else None, value)
+        if least in own:
+            same("objective_value", own["objective_value"], own[least])
+        for name in {*_ALWAYS, *PARAMETER_NAMES} & {*own}:
+            demand(math.isfinite(own[name]), f"{name} of an optimum is no number")
+        worst = max(abs(own[f"closure_{name}"]) for name in STATE_NAMES)
+        demand(worst <= tolerance, f"an optimum does not close to {worst:.2g}")
+        listed = filter(None, str(columns["active_bounds"][i, k]).split(", "))
+        check_limits({name: own[name] for name in {*PARAMETER_NAMES} & {*own}}, listed, inputs, STATE_NAMES)
+        demand(own["mean_power"] <= own["mean_positive_power"] <= max(own["peak_power"], 0.0), "powers contradict")
+        for name in PARAMETER_NAMES:
+            stock = inputs["stock_wingbeat"].get(name)
+            if name in own and harmonic_place(name) is None and name not in inputs["free"] and stock is not None:
+                demand(own[name] == stock, f"{name} is not free, but differs from the species' own")
+        outside = {*filter(None, str(columns["outside_ranges"][i, k]).split(", "))}
+        values = {**own, "positive_power_per_mass": own["mean_positive_power"] / species.vehicle.mass}
+        for name in {*judged_names(species, tuple(inputs["free"]))} & {*values}:
+            is_out = judged(problem, name, values[name])["within"] is False
+            demand(is_out == (name in outside), f"{name} is judged wrongly")

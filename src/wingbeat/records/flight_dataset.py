@@ -1,0 +1,97 @@
+"""Labelled time series of a flight: an xarray Dataset with units and long names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat._base import NOMENCLATURE, SERIES, SERIES_WHERE_ON, attributes_of
+from wingbeat.animal.kinematics import Wingbeat, chord_ratio, tip_twist
+from wingbeat.mechanics.flight_loads import Loads, MissingLoads, carried_loads, flight_loads
+from wingbeat.mechanics.flight_model import FlightModel, State
+from wingbeat.mechanics.wing_points import CORNERS, strip_corners
+from wingbeat.records.forms import SERIES_DIMS
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+_BLOCK = 257
+
+
+def evaluate(model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray) -> Loads:
+    """Return the loads along sampled states, shape (K, 6), as NumPy arrays."""
+    found = _in_blocks(flight_loads, model, wingbeat, phase, states)
+    return Loads(*(np.concatenate(values)[: len(phase)] for values in zip(*found, strict=True)))
+
+
+def evaluate_carried(
+    model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray, accelerations: np.ndarray
+) -> tuple[Loads, MissingLoads]:
+    """Return the loads of a body with prescribed accelerations, shape (K, 3), and the missing force and moment."""
+    found = list(_in_blocks(carried_loads, model, wingbeat, phase, states, accelerations))
+
+    def whole(parts: Iterable[Any]) -> list[np.ndarray]:
+        return [np.concatenate(values)[: len(phase)] for values in zip(*parts, strict=True)]
+
+    return Loads(*whole(loads for loads, _ in found)), MissingLoads(*whole(missing for _, missing in found))
+
+
+def _in_blocks(
+    function: Callable[..., Any],
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    phase: np.ndarray,
+    states: np.ndarray,
+    *more: np.ndarray,
+) -> Iterator[Any]:
+    """Evaluate in blocks of equal length, because JAX compiles anew for each length; the last block is padded."""
+    for first in range(0, len(phase), _BLOCK):
+        here = np.minimum(np.arange(first, first + _BLOCK), len(phase) - 1)
+        yield function(model, wingbeat, State(*states[here].T), phase[here], *(a[here] for a in more))
+
+
+def flight_dataset(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    phase: np.ndarray,
+    states: np.ndarray,
+    found: Loads,
+    attributes: dict[str, Any],
+    missing: MissingLoads | None = None,
+) -> xr.Dataset:
+    """Assemble states and loads into a Dataset with dimensions phase, station, corner and axis."""
+    import xarray as xr
+
+    by_name = dict(zip(State._fields, np.asarray(states).T, strict=True))
+    laws = {"chord_ratio": chord_ratio(wingbeat, phase), "tip_twist": tip_twist(wingbeat, phase)}
+    by_name |= {name: np.asarray(law) for name, law in laws.items() if law is not None}
+    by_name |= {f"missing_{name}": value for name, value in (missing._asdict() if missing else {}).items()}
+    by_name["time"] = phase / wingbeat.frequency
+    by_name |= {name: value for name, value in found._asdict().items()}
+    corners = np.concatenate(list(_in_blocks(strip_corners, model, wingbeat, phase, states)))
+    by_name["strip_corner"] = corners[: len(phase)]
+    by_name |= _columns(found.acceleration, "u_rate", "w_rate", "pitch_acceleration")
+    by_name |= _columns(found.air_force, "force_x", "force_z", "pitching_moment")
+    by_name |= _columns(found.centre_of_mass, "centre_of_mass_x", "centre_of_mass_z")
+    by_name |= _columns(found.momentum, "momentum_x", "momentum_z")
+    coordinates = {
+        "phase": phase,
+        "station": (np.arange(model.strips) + 0.5) / model.strips,
+        "corner": list(CORNERS),
+        "axis": ["x", "y", "z"],
+    }
+    return xr.Dataset(
+        {
+            term.name: (SERIES_DIMS.get(term.name, ("phase",)), by_name[term.name], attributes_of(term))
+            for term in (*SERIES, *SERIES_WHERE_ON)
+            if term.name in by_name
+        },
+        {name: (name, value, attributes_of(NOMENCLATURE[name])) for name, value in coordinates.items()},
+        {"Conventions": "CF-1.11", **attributes},
+    )
+
+
+def _columns(values: np.ndarray, *names: str) -> dict[str, np.ndarray]:
+    return {name: values[..., i] for i, name in enumerate(names)}

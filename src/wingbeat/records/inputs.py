@@ -1,0 +1,344 @@
+"""The inputs of the air loads as a dictionary: for a record, or to set up the same air loads again."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+from collections.abc import Callable
+from typing import Any
+
+from wingbeat._base import InvalidInputError
+from wingbeat._base.datasets import SHAPE
+from wingbeat._jax.arrays import at_default
+from wingbeat.aero import (
+    LIBRARY,
+    BladeElement,
+    CamberedCoefficients,
+    CamberedTerms,
+    CentreTerms,
+    CoefficientModel,
+    FormulaCoefficients,
+    FormulaTerms,
+    FunctionCoefficients,
+    TableCoefficients,
+    load_coefficients,
+)
+from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
+from wingbeat.animal.species.numbers import Range, number_from
+from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.shape import shape_from, shape_record
+from wingbeat.animal.vehicle import Air, Body, Tail, Vehicle, Wing
+from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
+from wingbeat.orbits.problem.limits import Constraint
+from wingbeat.orbits.problem.origin import origin_from
+from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantities import Quantity, named_objective, named_quantity
+from wingbeat.records.inputs import Motor, Muscle, Springs
+
+# Words before the name of a user's function, and after a function that no file can restore.
+OWN = "the user's own"
+SET_ANEW = "is not in the file; set up the problem with this function again"
+_FORMULA = ("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg")
+_CAMBERED = ("name", "low_join_deg", "high_join_deg", "citation", "doi", "grade", "reynolds_range")
+_TABLE = ("name", "alpha_deg", "c_l", "c_d", "x_cp", "citation", "reynolds_range")
+
+
+class NotInFileError(ValueError):
+    """The inputs name a function of the user's, which a file cannot hold."""
+
+
+def aero_record(aero: BladeElement) -> dict[str, Any]:
+    """Return the inputs of the air loads; a function of the user's is represented by a digest of its program."""
+    named = _named(aero.coefficients)
+    digest = {"function": named.pop("function")} if "function" in named else {}
+    return {
+        **named,
+        "strips": aero.strips,
+        "force_point": aero.force_point,
+        "airspeed": aero.airspeed,
+        **further_terms(aero),
+        **digest,
+    }
+
+
+def further_terms(aero: BladeElement) -> dict[str, Any]:
+    """Return the terms of the air loads that Su et al. do not have, by name; terms that are off are left out."""
+    terms: dict[str, Any] = {} if aero.unsteady == "none" else {"unsteady": aero.unsteady}
+    if aero.inflow != "none":
+        terms |= {"inflow": aero.inflow, "induced_factor": aero.induced_factor}
+    if terms and aero.share != 1:
+        terms["share"] = aero.share
+    if aero.hand != "none":
+        terms |= {"hand": _named(aero.hand), "hand_from": aero.hand_from}
+    if aero.upstroke_factor != 1:
+        terms["upstroke_factor"] = aero.upstroke_factor
+    return terms
+
+
+def aero_inputs(aero: BladeElement) -> dict[str, Any]:
+    """Return the record of the air loads with the numbers of models that are not in the library."""
+    record = aero_record(aero) | _numbers(aero.coefficients)
+    return record if aero.hand == "none" else record | {"hand": record["hand"] | _numbers(aero.hand)}
+
+
+def aero_from(aero: dict[str, Any]) -> BladeElement:
+    """Set up the air loads from what `aero_inputs` returned.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError : the dictionary was not made by `aero_inputs`.
+    """
+    numbers = ("unsteady", "inflow", "induced_factor", "share", "hand_from", "upstroke_factor")
+    terms = {name: aero[name] for name in numbers if name in aero}
+    hand = _coefficients(aero["hand"]) if "hand" in aero else "none"
+    elements = aero["strips"], aero["force_point"], aero["airspeed"]
+    return BladeElement(_coefficients(aero), *elements, hand=hand, **terms)
+
+
+def _named(coefficients: CoefficientModel) -> dict[str, Any]:
+    """Return name, extension and blend width of a coefficient model, and a digest if it is a function."""
+    named = {name: getattr(coefficients, name) for name in ("extension", "blend_width_deg")}
+    named = {"coefficients": coefficients.name, **named}
+    if isinstance(coefficients, FunctionCoefficients):
+        named["function"] = f"{OWN}, {coefficients.program.digest[:16]}"
+    return named
+
+
+def _numbers(coefficients: Any) -> dict[str, Any]:
+    """Return the numbers from which a coefficient model can be set up; none if its name suffices."""
+    if isinstance(coefficients, TableCoefficients):
+        return {"table": {name: getattr(coefficients, name) for name in _TABLE} | _aspect_ratio(coefficients)}
+    if isinstance(coefficients, FormulaCoefficients) and not _is_built_in(coefficients):
+        formula = {name: getattr(coefficients, name) for name in _FORMULA} | _aspect_ratio(coefficients)
+        for name in ("lift_terms", "drag_terms", "centre_terms"):
+            terms = getattr(coefficients, name)
+            formula[name] = None if terms is None else dict(vars(terms))
+        return {"formula": formula}
+    if isinstance(coefficients, CamberedCoefficients) and not _is_built_in(coefficients):
+        cambered = {name: getattr(coefficients, name) for name in _CAMBERED} | _aspect_ratio(coefficients)
+        return {"cambered": cambered | {"terms": dict(vars(coefficients.terms))}}
+    return {}
+
+
+def _aspect_ratio(coefficients: CoefficientModel) -> dict[str, float | str]:
+    """Return the aspect ratio of a model that states one; JSON has no infinity."""
+    if coefficients.aspect_ratio is None:
+        return {}
+    return {"aspect_ratio": "inf" if math.isinf(coefficients.aspect_ratio) else coefficients.aspect_ratio}
+
+
+def _is_built_in(coefficients: FormulaCoefficients | CamberedCoefficients) -> bool:
+    """Return whether the library has this model under its name; a fit may have the name of a published model."""
+    if coefficients.name not in LIBRARY:
+        return False
+    return LIBRARY[coefficients.name](coefficients.extension, coefficients.blend_width_deg) == coefficients
+
+
+def _coefficients(given: dict[str, Any]) -> Any:
+    how = {"extension": given["extension"], "blend_width_deg": given["blend_width_deg"]}
+    if "function" in given:
+        raise NotInFileError(f"{OWN} function {given['coefficients']!r} {SET_ANEW}")
+    if "table" in given:
+        return TableCoefficients(**_tuples(given["table"]), **how)
+    if "cambered" in given:
+        cambered = _tuples(given["cambered"])
+        terms = CamberedTerms(**cambered.pop("terms"))
+        return CamberedCoefficients(**cambered, terms=terms, blend_width_deg=given["blend_width_deg"])
+    if "formula" not in given:
+        return load_coefficients(given["coefficients"], **how)
+    formula = _tuples(given["formula"])
+    centre = formula.pop("centre_terms")
+    lift, drag = (FormulaTerms(**formula.pop(name)) for name in ("lift_terms", "drag_terms"))
+    return FormulaCoefficients(
+        **formula,
+        lift_terms=lift,
+        drag_terms=drag,
+        centre_terms=None if centre is None else CentreTerms(**centre),
+        **how,
+    )
+
+
+def _tuples(numbers: dict[str, Any]) -> dict[str, Any]:
+    known = {key: tuple(value) if isinstance(value, list) else value for key, value in numbers.items()}
+    return known | {"aspect_ratio": math.inf} if known.get("aspect_ratio") == "inf" else known
+
+
+# Parts that a vehicle may lack.
+_PARTS = {"tail": Tail, "muscle": Muscle, "motor": Motor, "springs": Springs}
+
+
+def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
+    """Return the vehicle's numbers."""
+    wing = dict(vars(vehicle.wing))
+    wing["chord"] = list(wing["chord"]) if isinstance(wing["chord"], tuple) else wing["chord"]
+    wing["shoulder"] = list(wing["shoulder"])
+    others = {name: getattr(vehicle, name) for name in _PARTS}
+    found = {name: dict(vars(part)) for name, part in others.items() if part is not None}
+    return {"body": dict(vars(vehicle.body)), "wing": wing, **found}
+
+
+def vehicle_from(record: dict[str, Any]) -> Vehicle:
+    """Return the vehicle that `vehicle_record` described, without a tail or other part that the record lacks.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError : the dictionary was not made by `vehicle_record`.
+    """
+    parts = {name: made(**record[name]) for name, made in _PARTS.items() if name in record}
+    return Vehicle(Body(**record["body"]), Wing(**record["wing"]), **parts)
+
+
+def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
+    """Return the wingbeat's numbers; the laws in `NAMED_IF_ON` are left out if they are off."""
+    left_out = [name for name in NAMED_IF_ON if at_default(wingbeat, name) or getattr(wingbeat, name) == ()]
+    return {
+        name: list(value) if isinstance(value, tuple) else value
+        for name, value in vars(wingbeat).items()
+        if name not in left_out
+    }
+
+
+def shape_attribute(species: Species | None) -> dict[str, str]:
+    """Return the attribute of a data set that says how the animal looks; nothing without a species."""
+    if species is None:
+        return {}
+    return {SHAPE: json.dumps({"kind": species.kind} | (species.shape.drawn() if species.shape else {}))}
+
+
+def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOptions = DEFAULTS) -> dict[str, Any]:
+    """Return a problem's inputs, number of starts and seed, and the solver options that differ from defaults."""
+    species = problem.species
+    inputs = {
+        "species": {
+            "name": species.name,
+            "common_name": species.common_name,
+            "scientific_name": species.scientific_name,
+            "kind": species.kind,
+            "free": species.free,
+            "bounds": species.bounds,
+            "guessed_bounds": sorted(species.guessed_bounds),
+            "path_bounds": species.path_bounds,
+            "warnings": species.warnings,
+            "numbers": species.numbers,
+            "plausible": species.plausible,
+            **({} if species.shape is None else {"shape": shape_record(species.shape)}),
+        },
+        "vehicle": vehicle_record(problem.vehicle),
+        "stock_wingbeat": wingbeat_record(species.wingbeat),
+        "aero": aero_inputs(problem.aero),
+        "air": dict(vars(problem.air)),
+        "speed": problem.speed,
+        "climb": problem.climb,
+        "free": problem.free,
+        "bounds": problem.bounds,
+        "wings_may_cross": problem.wings_may_cross,
+        "objective": _asked_for(problem.minimise),
+        "constraints": [
+            {"quantity": _asked_for(c.quantity), "limit": c.limit, "at_most": c.at_most} for c in problem.subject_to
+        ],
+        "starts": starts,
+        "seed": seed,
+    }
+    if problem.origin is not None:
+        inputs["model"] = problem.origin.record()
+    if options != DEFAULTS:
+        inputs["options"] = options.changed()
+    return json.loads(json.dumps(inputs))
+
+
+def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
+    """Set up the problem that `inputs_of` described.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError : the dictionary was not made by `inputs_of`.
+    """
+    species = species_from(inputs)
+    return OrbitProblem(
+        species,
+        speed=inputs["speed"],
+        climb=inputs["climb"],
+        aero=aero_from(inputs["aero"]),
+        free=tuple(inputs["free"]),
+        bounds=_pairs(inputs["bounds"]),
+        wings_may_cross=inputs["wings_may_cross"],
+        minimise=_brought_back(named_objective, inputs["objective"]),
+        subject_to=[
+            Constraint(_brought_back(named_quantity, c["quantity"]), c["limit"], c["at_most"])
+            for c in inputs["constraints"]
+        ],
+        air=species.air,
+        origin=origin_from(inputs["model"]) if "model" in inputs else None,
+    )
+
+
+def own_functions(inputs: dict[str, Any]) -> list[str]:
+    """Return the names of the user's own objective, quantities and coefficients, which a file cannot restore."""
+    names = [inputs["objective"], *(c["quantity"] for c in inputs["constraints"])]
+    own = [name for name in names if name.startswith(OWN)]
+    aero = inputs["aero"]
+    return own + [part["coefficients"] for part in (aero, aero.get("hand", {})) if "function" in part]
+
+
+def species_from(inputs: dict[str, Any]) -> Species:
+    """Set up the species that `inputs_of` described, without its reasons and alternatives, which are not stored.
+
+    Raises
+    ------
+    KeyError, TypeError, ValueError : the dictionary was not made by `inputs_of`.
+    """
+    known = inputs["species"]
+    return Species(
+        name=known["name"],
+        common_name=known["common_name"],
+        scientific_name=known["scientific_name"],
+        kind=known.get("kind", ""),  # a file of a version without kinds has none
+        vehicle=vehicle_from(inputs["vehicle"]),
+        wingbeat=Wingbeat(**inputs["stock_wingbeat"]),
+        air=Air(**inputs["air"]),
+        free=tuple(known["free"]),
+        bounds=_pairs(known["bounds"]),
+        guessed_bounds=frozenset(known["guessed_bounds"]),
+        path_bounds=_pairs(known["path_bounds"]),
+        reasons={},
+        numbers={path: number_from(*number) for path, number in known["numbers"].items()},
+        alternatives={},
+        # A file of a version that judged nothing has no ranges.
+        plausible={name: _plausible_range(*one) for name, one in known.get("plausible", {}).items()},
+        warnings=tuple(known["warnings"]),
+        shape=shape_from(known["shape"]) if "shape" in known else None,
+    )
+
+
+def _plausible_range(
+    low: float | None, high: float | None, unit: str, source: str, speeds: list[float] | None
+) -> Range:
+    return Range(low, high, unit, source, None if speeds is None else (speeds[0], speeds[1]))
+
+
+def _pairs(bounds: dict[str, list[float]]) -> dict[str, tuple[float, float]]:
+    return {name: (low, high) for name, (low, high) in bounds.items()}
+
+
+def _asked_for(quantity: Quantity) -> str:
+    """Return the name that restores a quantity; for a user's function, a name that the reader refuses."""
+    try:
+        known = named_objective(quantity.name) == quantity or named_quantity(quantity.name) == quantity
+    except InvalidInputError:
+        known = False
+    return quantity.name if known else f"{OWN} {quantity.name}"
+
+
+def _brought_back(find: Callable[[str], Any], name: str) -> Any:
+    if name.startswith(OWN):
+        raise NotInFileError(f"{name!r} {SET_ANEW}")
+    try:
+        return find(name)
+    except InvalidInputError as error:
+        raise ValueError(f"unknown objective or quantity {name!r}") from error
+
+
+def inputs_hash(inputs: dict[str, Any]) -> str:
+    """Return the SHA-256 of the inputs; the order of the inputs does not matter."""
+    return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()

@@ -1,0 +1,221 @@
+"""Whether an orbit is plausible: its numbers compared with the species' ranges, apart from the certificate."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import Any, NamedTuple
+
+from wingbeat._base.style import in_words
+from wingbeat.orbits.flight.beat import Beat
+from wingbeat.orbits.problem.plausible import judged_names
+from wingbeat.orbits.problem.problem import PATH_NAMES, OrbitProblem
+from wingbeat.orbits.problem.quantities import QUANTITIES
+
+# The reader's name of each judged number.
+JUDGED_NAMES = {
+    "positive_power_per_mass": "power per mass",
+    "peak_activation": "peak activation",
+    "frequency": "frequency",
+    "flap_amplitude": "flap amplitude",
+    "tail_tilt": "tail tilt",
+    "peak_force_over_weight": "peak force over weight",
+    "mean_body_pitch": "mean body pitch",
+    "body_pitch_range": "range of body pitch",
+    "strouhal": "Strouhal number",
+    "reynolds": "Reynolds number",
+}
+
+# Judged numbers that are not in a record, and which quantities of a beat they are.
+OF_BEAT = ("peak_force_over_weight", "mean_body_pitch")
+_KEYS = {"name", "value", "unit", "low", "high", "within", "source"}
+
+
+class Statements(NamedTuple):
+    """How well an orbit closes, and whether it is plausible; `good` if it is certified and plausible."""
+
+    closes: str
+    plausible: str
+    good: bool
+
+
+def plausibility(problem: OrbitProblem, beat: Beat, record: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return name, value, unit, low, high, within and source of each judged number; SI and radians.
+
+    An unknown end of a range is None. `within` is false if the value is beyond a known end, None if the number has
+    no value (such as the Strouhal number in hover) or nothing is known of its range, and true otherwise. Activation
+    is judged where there is muscle, the tail's tilt where a tail tilts.
+
+    Parameters
+    ----------
+    problem, beat : the problem and its certified beat.
+    record : the judged numbers of the orbit record.
+    """
+    values = {
+        **record,
+        **record["wingbeat"],
+        "positive_power_per_mass": record["mean_positive_power"] / problem.vehicle.mass,
+        **{name: float(QUANTITIES[name].of(beat).max()) for name in OF_BEAT},
+    }
+    return [judged(problem, name, values[name]) for name in judged_names(problem.species, problem.free)]
+
+
+def judged(problem: OrbitProblem, name: str, value: float | None) -> dict[str, Any]:
+    """Return the judgement of one number; `plausibility` says what it holds.
+
+    Parameters
+    ----------
+    problem : gives species and speed.
+    name, value : of the number, SI and radians; None if it has no value.
+    """
+    known = problem.species.plausible_range(name, problem.speed)
+    low, high = known.low, known.high
+    within = None
+    if value is not None and math.isfinite(value) and (low, high) != (None, None):
+        within = (low is None or value >= low) and (high is None or value <= high)
+    return {
+        "name": name,
+        "value": value,
+        "unit": known.unit,
+        "low": low,
+        "high": high,
+        "within": within,
+        "source": known.source,
+    }
+
+
+def is_judgement(value: Any) -> bool:
+    """Return whether a value read from a file has the form of the record's ``plausibility``."""
+    whole = isinstance(value, list) and all(isinstance(one, dict) and one.keys() == _KEYS for one in value)
+    return whole and all(one["name"] in JUDGED_NAMES and isinstance(one["source"], str) for one in value)
+
+
+def statements(record: dict[str, Any]) -> Statements:
+    """Return the two statements on an orbit record: ``closes to 3e-09`` and ``plausible: no: ...``."""
+    residuals = list((record.get("closure") or {}).values())
+    worst = None if not residuals or None in residuals else max(map(abs, residuals))
+    certified = record.get("status") == "converged"
+    if certified and worst is not None:
+        closes = f"closes to {worst:.0e}"
+    else:
+        closes = "does not close: the flight diverged" if worst is None else f"does not close: residual {worst:.2g}"
+    judged = record.get("plausibility") or []
+    outside = [one for one in judged if one["within"] is False]
+    if outside:
+        return Statements(closes, f"plausible: no: {'; '.join(map(_how, outside))}", False)
+    known, unknown = [], []
+    for one in judged:
+        (unknown if one["low"] is None and one["high"] is None else known).append(one)
+    names = [JUDGED_NAMES[one["name"]] for one in unknown]
+    listed = " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
+    left_out = f"no range is known for {listed}" if names else ""
+    # If more numbers are open than judged, there is no ground for a yes.
+    if len(unknown) > sum(one["within"] is not None for one in known) or not known:
+        return Statements(closes, f"plausible: not known: {left_out or 'no range is known'}", False)
+    return Statements(closes, f"plausible: yes{left_out and f'; {left_out}'}", certified)
+
+
+def _how(one: dict[str, Any]) -> str:
+    """Return in words how a number is outside its range, angles in degrees."""
+    value: float = one["value"]
+    above = one["high"] is not None and value > one["high"]
+    end: float = one["high" if above else "low"]
+    if one["name"] == "positive_power_per_mass" and above and "muscle" in one["source"] and value >= 1.05 * end:
+        return f"{value / end:.2g} times the power of muscle"
+    factor, unit = (math.degrees(1.0), "deg") if one["unit"] == "rad" else (1.0, one["unit"])
+    unit = "" if unit == "1" else f" {unit}"
+    # Enough digits to tell the value from the end of the range.
+    digits = next(n for n in range(3, 17) if n == 16 or f"{value * factor:.{n}g}" != f"{end * factor:.{n}g}")
+    name, side = JUDGED_NAMES[one["name"]], "above" if above else "below"
+    return f"{name} {value * factor:.{digits}g} {side} {end * factor:.{digits}g}{unit}"
+
+
+# Numbers of which all but one determine the last, at a given speed and for a given vehicle.
+_RELATED = (
+    frozenset({"strouhal", "frequency", "flap_amplitude"}),
+    frozenset({"muscle_work_per_mass", "muscle_power_per_mass", "frequency"}),
+    frozenset({"positive_power_per_mass", "mean_positive_power"}),
+    frozenset({"cost_of_transport", "mean_positive_power"}),
+    frozenset({"reduced_frequency", "frequency"}),
+)
+
+# Names of the path and of the state that do not read as words.
+_CALLED = {"flap": "flap angle", "plane_of_symmetry": "the wing's distance from the plane of symmetry"}
+_CALLED |= {"u": "initial speed forward", "w": "initial speed upward"}
+_CALLED |= {f"pitch_{part}": f"wing pitch {part}" for part in ("mean", "amplitude", "phase")}
+
+# A limit that stands for an end of a plausible range is 0.02 % inside it.
+_INSIDE = 5e-4  # relative
+
+
+class SetBy(NamedTuple):
+    """What set a number: the value of its own limit, None if it follows from others; and the names of the limits.
+
+    `limit` is also None for a limit along the whole path (``flap``, ``body_pitch``), which a record does not hold.
+    """
+
+    limit: float | None
+    by: tuple[str, ...]
+
+    @property
+    def words(self) -> str:
+        """In words, such as ``set by the limit`` or ``follows from the limit of flap amplitude``.
+
+        >>> SetBy(None, ("flap_amplitude",)).words
+        'follows from the limit of flap amplitude'
+        """
+        if self.limit is not None:  # its own
+            return "set by the limit"
+        return f"follows from the limit{'s' if len(self.by) > 1 else ''} of {' and '.join(map(called, self.by))}"
+
+
+def set_by_limit(record: dict[str, Any]) -> dict[str, SetBy]:
+    """Return the numbers of a certified orbit that a limit has set, by name, with what set each.
+
+    A limit is a bound of a free parameter, a limit along the path, a limit given by the user, or an end of a
+    plausible range that bounds the search. Numbers that follow from such numbers alone are returned too: the
+    Strouhal number, frequency and flap amplitude if two of them are at limits, and the frequency that was minimised
+    if the flap amplitude is at its limit, because their product hardly changes.
+
+    Parameters
+    ----------
+    record : of `Orbit.record`, or a part of it with ``active_bounds``, ``objective`` and ``wingbeat``; SI, radians.
+
+    >>> beat = {"frequency": 5.1, "flap_amplitude": 1.2}
+    >>> found = set_by_limit({"active_bounds": ["flap_amplitude"], "objective": "frequency", "wingbeat": beat})
+    >>> found["flap_amplitude"], found["frequency"].words
+    (SetBy(limit=1.2, by=('flap_amplitude',)), 'follows from the limit of flap amplitude')
+    """
+    if record.get("status", "converged") != "converged":
+        return {}
+    reached = {**(record.get("initial_state") or {}), **(record.get("wingbeat") or {})}
+    ends = {one["name"]: (one["low"], one["high"]) for one in record.get("plausibility") or ()}
+    found: dict[str, SetBy] = {}
+    for text in record.get("active_bounds") or ():
+        name, *limit = re.split("[<>]=", text)
+        value = float(limit[0]) if limit else None if name in PATH_NAMES else reached.get(name)
+        found[name] = SetBy(next((end for end in ends.get(name, ()) if _close(value, end)), value), (name,))
+    if "flap" in found:
+        found.setdefault("flap_amplitude", SetBy(None, ("flap",)))
+    if record.get("objective") == "frequency" and "flap_amplitude" in found:
+        found.setdefault("frequency", SetBy(None, found["flap_amplitude"].by))
+    for related in _RELATED * 2:  # twice, because one may follow from another
+        missing = related - found.keys()
+        if len(missing) == 1:
+            (follows,) = missing
+            by = dict.fromkeys(name for one in sorted(related - missing) for name in found[one].by)
+            found[follows] = SetBy(None, tuple(by))
+    return found
+
+
+def _close(value: float | None, end: float | None) -> bool:
+    return value is not None and end is not None and math.isclose(value, end, rel_tol=_INSIDE)
+
+
+def called(name: str) -> str:
+    """Return how a limited number is called within a sentence.
+
+    >>> called("flap"), called("tail_tilt")
+    ('flap angle', 'tail tilt')
+    """
+    return _CALLED.get(name, in_words(name))

@@ -1,0 +1,285 @@
+"""The orbit record: everything about an orbit in one JSON-able dictionary, names as in the API."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from wingbeat._base import NOMENCLATURE
+from wingbeat._version import __version__
+from wingbeat.aero import CamberedCoefficients, CoefficientModel
+from wingbeat.animal.kinematics import ANGLES, Wingbeat
+from wingbeat.animal.vehicle import Air, Vehicle
+from wingbeat.mechanics.clearance import flap_angles, has_room, lateral_corners
+from wingbeat.mechanics.flight_model import State
+from wingbeat.orbits.flight.beat import Beat
+from wingbeat.orbits.infeasible.lower_bound import is_at_lower_bound
+from wingbeat.orbits.problem.drive import drive_numbers
+from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.solution import Solution
+from wingbeat.orbits.status import Status
+from wingbeat.records.inputs import aero_record, vehicle_record, wingbeat_record
+from wingbeat.records.judgements import plausibility
+from wingbeat.records.numbers import alpha_range, flight_numbers, power_summary
+from wingbeat.records.tables import finite_or_none
+
+
+def orbit_record(solution: Solution) -> dict[str, Any]:
+    """Return the record of an orbit.
+
+    A number without a value (a cost of transport in hover, any number of a diverged flight) is None, never NaN.
+    """
+    problem, wingbeat, certificate = solution.problem, solution.wingbeat, solution.certificate
+    beat = solution.beat()
+    record = {
+        "status": solution.status.value,
+        "message": solution.message,
+        "species": problem.species.name,
+        **({} if problem.origin is None else {"model": problem.origin.record()}),
+        "vehicle": vehicle_record(problem.vehicle),
+        "aero": aero_record(problem.aero),
+        "air": dict(vars(problem.air)),
+        "speed": float(problem.speed),
+        "climb": float(problem.climb),
+        "objective": problem.minimise.name,
+        "objective_value": solution.objective,
+        "constraints": {str(c): solution.value_of(c.quantity, beat) for c in problem.subject_to},
+        "wingbeat": wingbeat_record(wingbeat),
+        "initial_state": dict(zip(State._fields, certificate.states[0].tolist(), strict=True)),
+        "active_bounds": list(solution.active_bounds),
+        "closure": dict(solution.closure),
+        "failed_balance": [{**vars(s), "unit": s.unit} for s in solution.deficits],
+        "relaxations": [dict(vars(r)) for r in solution.relaxations],
+        "optimality": solution.optimality,
+        "starts": solution.starts,
+        "distinct_optima": solution.distinct_optima,
+        "starts_at_best": solution.starts_at_best,
+        **power_summary(problem, beat),
+        **drive_numbers(beat),
+        **flight_numbers(problem, wingbeat.frequency, wingbeat.flap_amplitude),
+        "body_pitch_range": float(np.ptp(certificate.states[:, 2])),
+        "alpha_quarter_span": alpha_range(beat, 0.25),
+        "alpha_three_quarter_span": alpha_range(beat, 0.75),
+        "floquet_multipliers": [[float(m.real), float(m.imag)] for m in solution.multipliers],
+        "stable": bool(np.abs(solution.multipliers).max() < 1.0) if solution.status is Status.CONVERGED else None,
+        **_stability_price(solution),
+        "warnings": orbit_warnings(solution, beat),
+        "solve_seconds": solution.seconds,
+        "version": __version__,
+    }
+    record["plausibility"] = plausibility(problem, beat, record)
+    return finite_or_none(record)
+
+
+def _stability_price(solution: Solution) -> dict[str, float | None]:
+    """Return the price of stability; empty if the problem was not also solved without its limits of stability."""
+    if solution.free_objective is None:
+        return {}
+    return {"free_objective": solution.free_objective, "price_of_stability": solution.price_of_stability}
+
+
+# The wake matters at speeds up to about three times the induced velocity of hover. At that speed it changes alpha
+# by about 10 %.
+_SLOW = 3.0
+_MENTION = 0.01
+# Pitching by this much within a wingbeat turns a sixth of the lift alternately into thrust and drag.
+_SWING = math.radians(20.0)
+# Number of phases at which a stroke is checked. Limits above which there is a warning: how far the wing goes across
+# the plane of symmetry (share of the semi-span), and how far it goes past the shoulder's range [rad].
+_STROKE_SAMPLES, _ACROSS, _PAST = 256, 1e-4, 1e-3
+# Reduced frequency above which the lag of the wake matters.
+_LAG = 0.3
+# Optima whose objectives differ by less than this share are practically equal.
+_RIVAL = 0.01
+
+
+def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
+    """Return the warnings that a reader should see before trusting an orbit."""
+    problem = solution.problem
+    air = problem.air
+    notes = list(problem.species.warnings)
+    if problem.aero.inflow == "none":
+        notes += induced_flow(problem.vehicle, air, math.hypot(problem.speed, problem.climb))
+    if problem.aero.unsteady != "none":
+        notes += lag_of_wake(problem, solution.wingbeat)
+    notes += fitted_range(solution, beat)
+    for name in solution.active_bounds:
+        if name in problem.species.guessed_bounds and problem.bounds[name] == _own_bounds(problem, name):
+            notes.append(f"the optimum is at the bound of {name}; that bound is a guess, see the species file")
+        if name in ("u", "w", "pitch_rate"):
+            what = NOMENCLATURE[name].short_label
+            notes.append(f"the initial {what} is at the solver's limit; do not trust this orbit")
+    swing = float(np.ptp(solution.certificate.pitch))
+    if swing > _SWING:
+        notes.append(
+            f"the body pitches by {math.degrees(swing):.0f} degrees within each wingbeat; "
+            "no flying animal that we know of pitches so much"
+        )
+    notes += crossing(problem.vehicle, problem.aero.strips, solution.wingbeat, problem.bounds["flap"])
+    if is_at_lower_bound(problem, solution.unknowns, solution.options.search.bound_tolerance):
+        notes += at_lower_bound(solution)
+        return notes
+    notes += rivals(solution)
+    if solution.distinct_optima > 1:
+        notes.append(
+            f"{solution.starts} starts found {solution.distinct_optima} distinct optima; {solution.starts_at_best} "
+            "ended in this one, the best found; a better one may exist"
+        )
+    return notes
+
+
+def at_lower_bound(solution: Solution) -> list[str]:
+    """Warn that the minimised frequency is at its lower bound: other orbits at the bound are equally good."""
+    if solution.status is not Status.CONVERGED:
+        return []
+    low = solution.problem.bounds["frequency"][0]
+    return [
+        f"the minimised frequency is at its lower bound, {low:g} Hz: more starts cannot improve it. Other "
+        "orbits at this bound are equally good. Lower the bound, minimise a power, or find the glides of this "
+        "species with `wingbeat glide`"
+    ]
+
+
+def _own_bounds(problem: OrbitProblem, name: str) -> tuple[float, float]:
+    """Return the species' bounds of a parameter or of the path; bounds set by the user do not count as guesses."""
+    species = problem.species
+    return (species.path_bounds | species.bounds)[name]
+
+
+def rivals(solution: Solution) -> list[str]:
+    """Warn of other optima that are nearly as good, and say where they differ most."""
+    if solution.status is not Status.CONVERGED:
+        return []
+    best, unknowns = solution.objective, solution.problem.unknowns()
+    near = [o for o in solution.optima if o.objective - best <= _RIVAL * abs(best)]
+    away = [np.abs(o.unknowns - solution.unknowns) / unknowns.scale for o in near]
+    others = [(o, a) for o, a in zip(near, away, strict=True) if a.max() > solution.options.search.same_optimum]
+    if not others:
+        return []
+    other, apart = max(others, key=lambda pair: pair[1].max())
+    place = int(apart.argmax())
+    name, angle = unknowns.names[place], unknowns.names[place] in (*ANGLES, "body_pitch", "pitch_rate")
+    here, there = (
+        values[place] * (math.degrees(1.0) if angle else 1.0) for values in (solution.unknowns, other.unknowns)
+    )
+    unit = "" if not angle else " degrees/s" if name == "pitch_rate" else " degrees"
+    return [
+        f"other optima within 1 % of the best: {len(others)}; in the one that differs most, "
+        f"{name} is {there:.3g}{unit}, and here it is {here:.3g}{unit}"
+    ]
+
+
+def crossing(vehicle: Vehicle, strips: int, wingbeat: Wingbeat, flap: tuple[float, float]) -> list[str]:
+    """Warn of wings that cross the plane of symmetry, and so each other, or that flap beyond their range.
+
+    The solver avoids both; a prescribed wingbeat, such as a filmed one, may not.
+
+    Parameters
+    ----------
+    vehicle, strips, wingbeat : what flies.
+    flap : lowest and highest flap angle that the shoulder allows [rad].
+    """
+    phase = np.arange(_STROKE_SAMPLES) / _STROKE_SAMPLES
+    leading, trailing = lateral_corners(vehicle.passive, wingbeat, phase, count=strips)
+    pitch_axis = 0.75 * leading + 0.25 * trailing
+    nearest = np.minimum(leading, trailing) if has_room(vehicle) else pitch_axis
+    across, notes = -float(nearest.min()), []
+    if across > _ACROSS * vehicle.wing.semi_span:
+        notes.append(
+            f"each wing passes through the plane of symmetry by up to {1e3 * across:.2g} mm, "
+            "where it meets the other wing: no animal can do this"
+        )
+    angles = flap_angles(wingbeat, phase)
+    low, high = flap
+    if max(low - angles.min(), angles.max() - high) > _PAST:
+        least, most, low, high = np.degrees([angles.min(), angles.max(), low, high])
+        reach = f"the shoulder allows {low:.0f} to {high:.0f}"
+        notes.append(f"the wing flaps from {least:.0f} to {most:.0f} degrees; {reach}")
+    return notes
+
+
+def induced_flow(vehicle: Vehicle, air: Air, speed: float) -> list[str]:
+    """Warn where induced flow matters, by the momentum theory of a hovering actuator disc."""
+    disc = math.pi * vehicle.wing.semi_span**2
+    induced = math.sqrt(vehicle.mass * air.gravity / (2.0 * air.density * disc))
+    if speed >= _SLOW * induced:
+        return []
+    return [
+        f"the model has no induced flow: it understates power at {speed:.1f} m/s, which is below "
+        f"{_SLOW * induced:.1f} m/s, three times the induced velocity of hover"
+    ]
+
+
+def lag_of_wake(problem: OrbitProblem, wingbeat: Wingbeat) -> list[str]:
+    """Warn if the unsteady terms overstate lift: they leave out the wake's lag, which grows with reduced frequency.
+
+    Theodorsen's function falls to 0.69 of steady lift at a reduced frequency of 0.3, and to 0.55 at 1.
+    """
+    wing, speed = problem.vehicle.wing, problem.speed
+    reduced = math.pi * wingbeat.frequency * wing.mean_chord / speed if speed else math.inf
+    if reduced <= _LAG:
+        return []
+    return [
+        f"the unsteady terms leave out the lag of the wake, which matters above a reduced frequency of {_LAG:g} "
+        f"({'in hover' if math.isinf(reduced) else f'here {reduced:.2g}'}): the lift from alpha is overstated"
+    ]
+
+
+def fitted_range(solution: Solution, beat: Beat) -> list[str]:
+    """Warn if strips leave the Reynolds numbers or angles of attack of the fit, and say for what share.
+
+    Every phase and every strip counts equally; strips have equal width.
+    """
+    aero = solution.problem.aero
+    notes = []
+    for part in aero.parts:
+        where = "" if aero.hand == "none" else f" of the {part.name}"
+        of_part = beat.strip_reynolds[:, part.strips], beat.alpha[:, part.strips]
+        notes += _outside_fit(part.coefficients, *of_part, where) if of_part[0].size else []
+    if aero.upstroke_factor != 1:
+        notes.append(f"the upstroke factor of {aero.upstroke_factor:g} is a guess: no source measured it")
+    return notes
+
+
+def _outside_fit(coefficients: CoefficientModel, reynolds: np.ndarray, alpha: np.ndarray, where: str) -> list[str]:
+    notes = []
+    if coefficients.reynolds_range is not None:
+        low, high = coefficients.reynolds_range
+        share = _outside(reynolds, low, high)
+        if share > _MENTION:
+            notes.append(
+                f"Reynolds number outside the fitted {low:g} to {high:g} for {share:.0%} of strips and instants"
+                f"{where} (it runs from {reynolds.min():.0f} to {reynolds.max():.0f})"
+            )
+    low, high = coefficients.used_range_deg
+    degrees, measured = np.degrees(alpha), coefficients.alpha_range_deg[1]
+    share = _outside(degrees, low, high)
+    if share > _MENTION:
+        also = float(np.mean((degrees > high) & (degrees <= measured)))
+        notes.append(
+            f"angle of attack outside the fitted {low:g} to {high:g} degrees for "
+            f"{share:.0%} of strips and instants{where}: there {_beyond(coefficients)}"
+            + (f", also from {high:g} to {measured:g} degrees, which were measured ({also:.1%})" if also else "")
+        )
+    return notes + guessed(coefficients)
+
+
+def guessed(coefficients: CoefficientModel) -> list[str]:
+    """Warn if the coefficients are in part a guess."""
+    if getattr(coefficients, "grade", "") != "C":
+        return []
+    name = coefficients.name
+    return [f"the coefficients of {name} are in part a guess; wb.aero.WING_ESTIMATES marks the guessed numbers"]
+
+
+def _beyond(coefficients: CoefficientModel) -> str:
+    """Say where the coefficients beyond the angles of the fit come from."""
+    if isinstance(coefficients, CamberedCoefficients):
+        return "the coefficients pass into those of a flat plate"
+    return f"the extension '{coefficients.extension}' applies"
+
+
+def _outside(values: np.ndarray, low: float, high: float) -> float:
+    return float(np.mean((values < low) | (values > high)))

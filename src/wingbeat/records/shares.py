@@ -1,0 +1,169 @@
+"""How often a quantity of random draws sits at a limit, and what is printed of it instead of an error bar."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from wingbeat._base import PRECISION, written, written_range
+
+# From this share of the draws on, mean and deviation describe the limit rather than the orbits.
+_MOST = 0.5
+
+
+class LimitShare(NamedTuple):
+    """Among draws of a quantity, those that a limit has set; made by `limit_share`.
+
+    Attributes
+    ----------
+    limits : values that a limit gave the quantity, increasing.
+    at_limit, draws : number of draws at a limit, and of all draws.
+    others : smallest and largest value of the other draws; None if there are none.
+    """
+
+    limits: tuple[float, ...]
+    at_limit: int
+    draws: int
+    others: tuple[float, float] | None
+
+    @property
+    def share(self) -> float:
+        """Share of the draws that are at a limit."""
+        return self.at_limit / self.draws if self.draws else 0.0
+
+    @property
+    def most(self) -> bool:
+        """Whether a limit has set the quantity in so many draws that it has no error bar."""
+        return self.share >= _MOST
+
+    def in_words(self, unit: str = "", factor: float = 1.0) -> str:
+        """Return in words how many draws a limit has set.
+
+        Parameters
+        ----------
+        unit, factor : to print, and from the quantity's own unit to it.
+
+        >>> LimitShare((5.045,), 300, 300, None).in_words("Hz")
+        'set by the limit 5.045 Hz in 100 % of the samples'
+        """
+        limits = " and ".join(written(factor * limit) for limit in self.limits)
+        plural = "s" if len(self.limits) > 1 else ""
+        after = f" {unit}" if unit and unit != "1" else ""
+        percent = 100 * self.share
+        # Never 0 % or 100 % if that is not all.
+        shown = f"{percent:.0f}" if percent in (0.0, 100.0) else f"{min(max(percent, 1.0), 99.0):.0f}"
+        return f"set by the limit{plural} {limits}{after} in {shown} % of the samples"
+
+    def shown(self, value: float, error: float, unit: str = "", factor: float = 1.0) -> str:
+        """Return the quantity as it is printed: with its error, or with the limit that set it.
+
+        Parameters
+        ----------
+        value, error : of the quantity, in its own unit; an error of not-a-number is not known.
+        unit, factor : as in `in_words`.
+
+        >>> LimitShare((5.045,), 30, 40, (5.1, 5.6)).shown(5.2, 0.2, "Hz")
+        'set by the limit 5.045 Hz in 75 % of the samples, 5.10 to 5.60 Hz in the others'
+        >>> LimitShare((), 0, 40, (5.1, 5.6)).shown(5.2, 0.1234, "Hz")
+        '5.20 +- 0.12 Hz'
+        """
+        usual = written(factor * value, factor * error, unit)
+        if not self.at_limit:
+            return usual
+        words = self.in_words(unit, factor)
+        if not self.most:
+            return f"{usual}, {words}"
+        if self.others is None:
+            return words
+        low, high = sorted(factor * end for end in self.others)
+        return f"{words}, {written_range(low, high, unit)} in the others"
+
+
+def limit_share(values: np.ndarray, at_limit: np.ndarray) -> LimitShare:
+    """Count the draws of a quantity that are at a limit.
+
+    Parameters
+    ----------
+    values : of the certified draws, shape (n,).
+    at_limit : whether each is at its limit, shape (n,).
+
+    >>> limit_share(np.array([5.0, 5.0, 5.3]), np.array([True, True, False]))
+    LimitShare(limits=(5.0,), at_limit=2, draws=3, others=(5.3, 5.3))
+    """
+    held, others = np.sort(values[at_limit]), values[~at_limit]
+    # Values that agree as closely as certified orbits do are one limit.
+    first = np.diff(held, prepend=-np.inf) > PRECISION * np.abs(held)
+    ends = (float(others.min()), float(others.max())) if others.size else None
+    return LimitShare(tuple(held[first].tolist()), int(at_limit.sum()), len(values), ends)
+
+
+# Standard deviations on each side of a share for an interval of 95 %.
+_DEVIATIONS = 1.96
+
+
+class StableShare(NamedTuple):
+    """Number of stable orbits among the certified orbits of random draws; made by `uncertainty_by_samples`.
+
+    Attributes
+    ----------
+    stable : number of certified orbits whose spectral radius is below 1.
+    certified : number of draws with a certified orbit.
+    drawn : number of all draws.
+
+    >>> import wingbeat as wb
+    >>> print(wb.StableShare(stable=124, certified=200, drawn=200))
+    stable in 62 % of 200 orbits, 55 to 68 %
+    """
+
+    stable: int
+    certified: int
+    drawn: int
+
+    @property
+    def share(self) -> float | None:
+        """Share of the certified orbits that are stable; None if none is certified."""
+        return self.stable / self.certified if self.certified else None
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Interval of the share, 95 %: what so few draws leave open, not the error of the ranges.
+
+        It is the score interval of a binomial share (Wilson 1927, doi 10.1080/01621459.1927.10502953), which is
+        meaningful for shares of 0 and 1, too.
+
+        >>> [round(end, 2) for end in StableShare(124, 200, 200).interval]
+        [0.55, 0.68]
+        """
+        n, square = self.certified, _DEVIATIONS**2
+        if n == 0:
+            return 0.0, 1.0
+        share = self.stable / n
+        middle = (share + square / (2 * n)) / (1 + square / n)
+        half = _DEVIATIONS * math.sqrt(share * (1 - share) / n + square / (4 * n**2)) / (1 + square / n)
+        return max(middle - half, 0.0), min(middle + half, 1.0)
+
+    def record(self) -> dict[str, Any]:
+        """Return all numbers as a JSON-able dictionary."""
+        return {**self._asdict(), "share": self.share, "interval": list(self.interval)}
+
+    def __str__(self) -> str:
+        """Return the share as a sentence: ``stable in 62 % of 200 orbits, 55 to 68 %``."""
+        if self.share is None:
+            return f"none of {self.drawn} draws has a certified orbit"
+        low, high = (f"{100 * end:.0f}" for end in self.interval)
+        lost = self.drawn - self.certified
+        without = f"; {lost} of {self.drawn} draws have no orbit" if lost else ""
+        return f"stable in {100 * self.share:.0f} % of {self.certified} orbits, {low} to {high} %{without}"
+
+
+def stable_share(radii: np.ndarray, drawn: int) -> StableShare:
+    """Count the stable orbits.
+
+    Parameters
+    ----------
+    radii : spectral radii of the certified orbits, shape (n,).
+    drawn : number of draws, certified or not.
+    """
+    return StableShare(int(np.sum(np.asarray(radii) < 1.0)), len(radii), drawn)

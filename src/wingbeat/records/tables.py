@@ -1,0 +1,321 @@
+"""Nested records as flat columns with dotted names, and the unit of each value."""
+
+from __future__ import annotations
+
+import io
+import itertools
+import json
+import math
+import re
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from wingbeat._base import InvalidInputError, cf, is_number, plain_unit
+from wingbeat._base.datasets import KIND, SHAPE
+from wingbeat.orbits.problem.quantities import named_objective, named_quantity
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+
+def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield the values of nested tables by their dotted names; items of a list of numbers are numbered from 0.
+
+    Other lists become JSON text.
+
+    >>> dict(flat({"wing": {"mass": 0.02, "shoulder": [0.0, 0.1]}, "warnings": ["odd"]}))
+    {'wing.mass': 0.02, 'wing.shoulder.0': 0.0, 'wing.shoulder.1': 0.1, 'warnings': '["odd"]'}
+    """
+    for path, value in leaves(record, before):
+        yield path, json.dumps(value) if isinstance(value, list) else value
+
+
+def leaves(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
+    """Yield the same as `flat`, except that a list remains a list unless it holds only numbers."""
+    for key, value in record.items():
+        path = f"{before}{key}"
+        if isinstance(value, dict):
+            yield from leaves(value, f"{path}.")
+        elif isinstance(value, list) and value and numeric(value):
+            yield from leaves({str(i): item for i, item in enumerate(value)}, f"{path}.")
+        else:
+            yield path, value
+
+
+def numeric(value: list[Any]) -> bool:
+    """Return whether a list holds numbers, missing numbers and lists of them alone."""
+    return all(numeric(v) if isinstance(v, list) else isinstance(v, int | float | None) for v in value)
+
+
+def table_of(records: Iterable[dict[str, Any]]) -> pd.DataFrame:
+    """Return a table of pandas with a row for each record, whose columns have the dotted names of `flat`.
+
+    A range that is None becomes two missing numbers, so that every row has the same columns.
+
+    Parameters
+    ----------
+    records : nested tables of the same form.
+
+    >>> table_of([{"price": {"frequency": 1.5}, "range": [0.0, 1.0]}]).columns.to_list()
+    ['price.frequency', 'range.0', 'range.1']
+    """
+    import pandas as pd
+
+    missing = [math.nan, math.nan]
+    whole = [{**one, "plausible": one["plausible"] or missing} if "plausible" in one else one for one in records]
+    return pd.DataFrame([dict(flat(record)) for record in whole])
+
+
+def result_unit(dataset: xr.Dataset, results: dict[str, Any], path: str, value: Any) -> str:
+    """Return the unit of a single value in a data set's attributes; an empty text if it is not known.
+
+    Parameters
+    ----------
+    dataset, results : the data set, and the content of its attributes.
+    path, value : dotted name and value of one of the results.
+    """
+    head, last = path.partition(".")[0], path.rpartition(".")[2]
+    if isinstance(value, bool | str | dict | None) or (isinstance(value, list) and not (value and numeric(value))):
+        return ""
+    if last in dataset.variables and "units" in dataset[last].attrs:
+        return dataset[last].attrs["units"]
+    try:
+        if path == "objective_value":
+            return cf(named_objective(results["objective"]).unit)
+        if head == "constraints":
+            return cf(named_quantity(re.split("[<>=]", path.partition(".")[2])[0]).unit)
+    except InvalidInputError:  # a function of the user's, whose unit no record holds
+        return ""
+    return cf(plain_unit(path))
+
+
+# The coordinate along which each kind of result has its rows.
+_ROWS = {"orbit": "phase", "flight": "phase", "torque-driven flight": "time"}
+_ROWS |= {"curve": "speed", "glide": "angle_of_attack"}
+
+
+class _Column(NamedTuple):
+    name: str
+    unit: str
+    meaning: str
+    values: Any
+
+
+def csv_text(dataset: xr.Dataset, results: dict[str, Any]) -> str:
+    """Return the text of a CSV file.
+
+    Parameters
+    ----------
+    dataset : of one of the kinds in `_ROWS`.
+    results : the content of its attributes, from `results_of`.
+    """
+    kind = results["wingbeat_kind"]
+    along = _ROWS[kind]
+    columns = list(_columns(dataset, along))
+    out = io.StringIO()
+    out.write(f"# {kind}, written by the package wingbeat; SI units, angles in radians; ")
+    out.write(f"one row per {along.replace('_', ' ')}\n")
+    out.write("#\n# results: name = value [unit]; values are JSON\n")
+    for path, value in _single_values(dataset, along, results):
+        name = _one_line(path)
+        out.write(f"# {name} = {json.dumps(value)}{_bracket(result_unit(dataset, results, path, value))}\n")
+    out.write("#\n# columns: name [unit] meaning\n")
+    for column in columns:
+        out.write(f"# {column.name}{_bracket(column.unit)} {_one_line(column.meaning)}".rstrip() + "\n")
+    out.write(",".join(column.name for column in columns) + "\n")
+    for row in zip(*([_cell(v) for v in column.values.tolist()] for column in columns), strict=True):
+        out.write(",".join(row) + "\n")
+    return out.getvalue()
+
+
+def frame_of(dataset: xr.Dataset) -> pd.DataFrame:
+    """Return the rows and columns of the CSV file as a table of pandas.
+
+    Parameters
+    ----------
+    dataset : of one of the kinds in `_ROWS`.
+    """
+    import pandas as pd
+
+    columns = _columns(dataset, _ROWS[dataset.attrs[KIND]])
+    return pd.DataFrame({column.name: column.values for column in columns})
+
+
+def _columns(dataset: xr.Dataset, along: str) -> Iterator[_Column]:
+    """Yield the columns of each variable that has the rows' dimension, the rows' own coordinate first."""
+    for name in (along, *(name for name in dataset.variables if name != along)):
+        variable = dataset[name]
+        if along not in variable.dims:
+            continue
+        attributes, others = variable.attrs, [dim for dim in variable.dims if dim != along]
+        meaning, unit = attributes.get("long_name", ""), attributes.get("units", "")
+        moved = variable.transpose(along, *others).values
+        for at in itertools.product(*(range(dataset.sizes[dim]) for dim in others)):
+            ends = [_end(dataset, str(dim), i) for dim, i in zip(others, at, strict=True)]
+            own = "_".join([str(name), *(short for short, _ in ends if short)])
+            said = ", ".join(part for part in (meaning, *(long for _, long in ends)) if part)
+            yield _Column(own, unit, said, moved[(slice(None), *at)])
+
+
+def _end(dataset: xr.Dataset, dim: str, index: int) -> tuple[str, str]:
+    """Return the endings of a column's name and meaning for one index along a dimension; indices start at 1."""
+    if dim == "optimum":  # most readers want the best optimum of each speed, so its column has the plain name
+        return (f"{dim}_{index + 1}", f"number {index + 1} of the optima at this speed") if index else ("", "")
+    label = dataset[dim].values[index]
+    if isinstance(label, str):
+        return label.replace(" ", "_"), str(label)
+    return f"{dim}_{index + 1}", f"{dim} {label:.6g}"
+
+
+def _single_values(dataset: xr.Dataset, along: str, results: dict[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Yield all values outside the table: results by dotted name, then variables without the rows' dimension."""
+    yield from leaves(results)
+    for name, variable in dataset.variables.items():
+        if along not in variable.dims and name != "optimum":
+            yield str(name), variable.values.tolist()
+
+
+def _bracket(unit: str) -> str:
+    return f" [{unit}]" if unit else ""
+
+
+def _cell(value: Any) -> str:
+    """Return the text of a cell: a number with all its digits, or a text on one line.
+
+    Texts are always in quotes, for without them readers would take what follows a ``#`` for a comment.
+    """
+    if isinstance(value, float):
+        if math.isfinite(value):
+            return repr(value)
+        return "NaN" if math.isnan(value) else "Inf" if value > 0 else "-Inf"
+    if isinstance(value, str):
+        return '"' + _one_line(value).replace('"', '""') + '"'
+    return str(value)
+
+
+def _one_line(text: str) -> str:
+    return "; ".join(text.splitlines())
+
+
+# A name that MATLAB accepts, of at most `namelengthmax` characters, and the words of its language (`iskeyword`).
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,62}")
+_KEYWORDS = frozenset(
+    (
+        *("break", "case", "catch", "classdef", "continue", "else", "elseif", "end", "for", "function", "global"),
+        *("if", "otherwise", "parfor", "persistent", "return", "spmd", "switch", "try", "while"),
+    )
+)
+
+
+def mat_bytes(dataset: xr.Dataset, results: dict[str, Any]) -> bytes:
+    """Return the content of a MATLAB file, version 5, which Octave and every MATLAB since version 5 can read.
+
+    Parameters
+    ----------
+    dataset : of any result; the names of its variables are names of MATLAB.
+    results : the content of its attributes, from `results_of`.
+    """
+    from scipy.io import savemat
+
+    variables = {str(name): variable for name, variable in dataset.variables.items()}
+    content: dict[str, Any] = {name: _array(variable.values) for name, variable in variables.items()}
+    for struct, attribute in (("units", "units"), ("meaning", "long_name")):
+        content[struct] = {name: v.attrs[attribute] for name, v in variables.items() if attribute in v.attrs}
+    content["dimensions"] = {name: _value(list(map(str, v.dims))) for name, v in variables.items()}
+    content["results"] = _value(results)
+    content["results_units"] = _value(_units(dataset, results, results, ""))
+    held = io.BytesIO()
+    savemat(held, content, long_field_names=True, do_compression=True, oned_as="column")
+    return held.getvalue()
+
+
+def _units(dataset: xr.Dataset, results: dict[str, Any], part: dict[str, Any], before: str) -> dict[str, Any]:
+    """Return the units of all numbers in a part of the results, under the same names."""
+    found: dict[str, Any] = {}
+    for key, value in part.items():
+        path = f"{before}{key}"
+        unit = result_unit(dataset, results, path, value)
+        if isinstance(value, dict):
+            found[key] = _units(dataset, results, value, f"{path}.")
+        elif unit:
+            found[key] = unit
+    return found
+
+
+def _array(values: np.ndarray) -> np.ndarray:
+    """Return numbers as doubles, MATLAB's default type, and texts as a cell array."""
+    return values.astype(float) if values.dtype.kind in "biuf" else values.astype(object)
+
+
+def _is_name(name: str) -> bool:
+    return _NAME.fullmatch(name) is not None and name not in _KEYWORDS
+
+
+def _value(value: Any) -> Any:
+    """Return one part of a record in MATLAB's types; a missing value becomes NaN."""
+    if value is None:
+        return np.nan
+    if isinstance(value, dict):
+        if all(map(_is_name, value)):
+            return {key: _value(item) for key, item in value.items()}
+        # MATLAB does not accept a limit such as "peak_power<=30" as the name of a field.
+        return _value([{"name": key, "value": item} for key, item in value.items()])
+    if isinstance(value, list):
+        return _listed(value)
+    return float(value) if is_number(value) else value
+
+
+def _listed(items: list[Any]) -> np.ndarray:
+    """Return a list as a matrix if it holds numbers in rows of one length, else as a cell array."""
+    if numeric(items):
+        with suppress(ValueError):  # rows of several lengths
+            return np.array(items, dtype=float)
+    cells = np.empty(len(items), dtype=object)
+    for i, item in enumerate(items):
+        cells[i] = _value(item)
+    return cells
+
+
+# Attributes of a dataset that are plain text even if they read as JSON, such as a species called "12".
+_TEXTS = (
+    *("Conventions", "wingbeat_kind", "status", "message", "species", "objective", "trim", "version"),
+    *("inputs", "inputs_hash", "statement_of_closure", "statement_of_plausibility"),
+)
+
+
+def results_of(dataset: xr.Dataset) -> dict[str, Any]:
+    """Return the attributes of a result as plain dictionaries and lists.
+
+    All inputs together stay one JSON text, from which the result can be computed again. The shape of the animal is
+    left out: only our drawings use it.
+    """
+    found = {}
+    for name, value in dataset.attrs.items():
+        if name == SHAPE:
+            continue
+        value = value.item() if hasattr(value, "item") else value
+        found[name] = _decoded(value) if isinstance(value, str) and name not in _TEXTS else value
+    return found
+
+
+def _decoded(text: str) -> Any:
+    """Return what a JSON text holds; a text that is no JSON, such as ``prescribed``, is returned unchanged."""
+    try:
+        return json.loads(text)
+    except ValueError:
+        return text
+
+
+def finite_or_none(value: Any) -> Any:
+    """Return a copy with every float that is not finite replaced by None."""
+    if isinstance(value, dict):
+        return {key: finite_or_none(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [finite_or_none(item) for item in value]
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    return value

@@ -1,0 +1,1 @@
+"""What records say to a reader: rows, sentences and reports."""

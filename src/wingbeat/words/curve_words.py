@@ -1,0 +1,258 @@
+"""What a power curve says to a reader, as the blocks of a report."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from typing import Any
+
+from wingbeat._base import Block, Line, Notes, Report, Row, Table, find, for_people, written, written_range
+from wingbeat._base.datasets import climb_text
+from wingbeat._base.style import in_words
+from wingbeat.records.judgements import SetBy, called, set_by_limit
+
+# Of characteristic speeds that do not say it by their name.
+_LABELS = {
+    "maximum_range": "greatest range",
+    "fastest_sustained": "fastest within the power limit",
+    "slowest_sustained": "slowest within the power limit",
+}
+_HEADINGS = ("U\n[m/s]", "f\n[Hz]", "P+\n[W]", "CoT\n[-]", "flap\n[deg]", "optima", "at the limit of")
+_NEAR = 0.02  # share of a speed within which the lowest computed point stands for the minimum
+_MINIMISED_AT = 3  # column of the minimised quantity, after the power
+
+
+def curve_report(record: dict[str, Any]) -> Report:
+    """Return a row for each speed, changes of the best orbit between them, characteristic speeds and warnings.
+
+    Parameters
+    ----------
+    record : of `Curve.record`.
+    """
+    points = record["points"]
+    animal, minimised = record["species"] + climb_text(record["climb"]), in_words(record["objective"])
+    certified = len(points) - len(record["gaps"])
+    headings: list[str] = list(_HEADINGS)
+    factor, unit = _unit(record["objective"])
+    other = record["objective"] not in ("frequency", "mean_positive_power")  # which have columns of their own
+    if other:
+        headings.insert(_MINIMISED_AT, f"minimised\n[{unit or '-'}]")
+    rows = tuple(Row(_row(point, factor if other else None)) for point in points)
+    blocks: list[Block] = [
+        Line(f"{animal}, minimum {minimised}: {certified} of {len(points)} speeds certified"),
+        Table(rows, tuple(headings), "r" * (len(headings) - 1) + "l"),
+        *([Line("* added to find the characteristic speeds")] if any(point["refined"] for point in points) else []),
+        *_limited(record),
+        *_implausible(points),
+        Line(""),
+        Line("changes from one speed to the next", tone="title"),
+    ]
+    for mark in record["marks"]:
+        where = f"{mark['lower_speed']:g} to {mark['upper_speed']:g} m/s"
+        text = f"  {mark['kind']}, {where}: {mark['what']}"
+        blocks.append(Line(text, tone="" if mark["kind"] == "bounds" else "warning"))
+    if not record["marks"]:
+        blocks.append(Line("  one branch, always at the same bounds"))
+    blocks += _characteristic(record)
+    if record["warnings"]:
+        blocks += [Line("warnings", tone="title"), Notes(tuple(record["warnings"]))]
+    return blocks
+
+
+def _implausible(points: list[dict[str, Any]]) -> list[Block]:
+    """Say at which speeds the best orbit is outside which plausible ranges; nothing if no speed has an orbit."""
+    judged = [(point["speed"], point["optima"][0]["outside_ranges"]) for point in points if point["optima"]]
+    if not judged:
+        return []
+    lines: list[Block] = [Line(""), Line("outside plausible ranges", tone="title")]
+    for names, group in itertools.groupby(judged, key=lambda one: one[1]):
+        speeds = [speed for speed, _ in group]
+        if names:
+            lines.append(Line(f"  at {_span(speeds)} m/s: {str(names).replace('_', ' ')}", tone="warning"))
+    return lines if len(lines) > 2 else [*lines, Line("  at no speed")]
+
+
+def _limited(record: dict[str, Any]) -> list[Block]:
+    """Say at which speeds limits have set which numbers of the best orbit, which are then no predictions."""
+    spans: dict[tuple[str, str], list[list[float]]] = {}
+    for place, point in enumerate(record["points"]):
+        for name, what in _set_by_limit(point, record["objective"]).items():
+            own = what.by == (name,)  # also of a limit along the path, whose value the curve does not hold
+            runs = spans.setdefault((called(name), "set by the limit" if own else what.words), [])
+            if not runs or runs[-1][-1] != record["points"][place - 1]["speed"]:
+                runs.append([])
+            runs[-1].append(point["speed"])
+    if not spans:
+        return []
+    told = [
+        Line(f"  {name} {words} at {' and '.join(map(_span, runs))} m/s") for (name, words), runs in spans.items()
+    ]
+    return [Line(""), Line("set by limits, so not predicted", tone="title"), *told]
+
+
+def _set_by_limit(point: dict[str, Any], objective: str) -> dict[str, SetBy]:
+    if not point["optima"]:
+        return {}
+    best = point["optima"][0]
+    names = [name for name in str(best["active_bounds"]).split(", ") if name]
+    return set_by_limit({"active_bounds": names, "objective": objective, "wingbeat": best})
+
+
+def _span(speeds: list[float]) -> str:
+    return f"{speeds[0]:g}" if len(speeds) == 1 else f"{speeds[0]:g} to {speeds[-1]:g}"
+
+
+def _characteristic(record: dict[str, Any]) -> list[Block]:
+    """Return a line for each characteristic speed, and what to minimise to get those of power."""
+    objective = in_words(record["objective"])
+    lines: list[Block] = [Line(f"characteristic speeds, of the least {objective}", tone="title")]
+    speeds = record["characteristic_speeds"]
+    for name, found in speeds.items():
+        over = " over speed" if name == "maximum_range" and "minimum_power" in speeds else ""
+        lines.append(Line(f"  {speed_label(name)}: {_told(found, objective + over, record['objective'])}"))
+    if not {"minimum_power", "maximum_range"} & speeds.keys():
+        why = f"not given, because {objective} was minimised; to get them add --minimise positive-power"
+        lines.append(Line(f"  speeds of minimum power and greatest range: {why}"))
+    return lines
+
+
+def speed_label(name: str) -> str:
+    """Return a characteristic speed's name in words.
+
+    >>> speed_label("maximum_range"), speed_label("minimum_frequency")
+    ('greatest range', 'minimum frequency')
+    """
+    return _LABELS.get(name, name.replace("_", " "))
+
+
+def speed_in_words(found: dict[str, Any] | None) -> str:
+    """Return a characteristic speed with its error bar, or why none is given.
+
+    Parameters
+    ----------
+    found : an entry of `Curve.characteristic_speeds`.
+
+    >>> speed_in_words({"status": "at_or_below", "speed": None, "interval": [None, 4.0]})
+    'at or below 4 m/s, where the curve ends'
+    >>> speed_in_words({"status": "found", "speed": 8.4762, "interval": [8.36, 8.56]})
+    '8.48 m/s (8.36 to 8.56)'
+    """
+    if found is None:
+        return "none"
+    if found["status"] == "found":
+        low, high = found["interval"]
+        return written_range(low, high, "m/s", found["speed"])
+    if found["status"] in ("at_or_below", "at_or_above"):
+        (end,) = (speed for speed in found["interval"] if speed is not None)
+        where = "in hover" if end == 0 else f"{found['status'].replace('_', ' ')} {end:g} m/s"
+        return f"{where}, where the curve {'begins' if end == 0 else 'ends'}"
+    return {
+        "beside_jump": "none is given, because the best wingbeat changes branch there",
+        "beside_gap": "none is given, because a speed without an orbit is beside it",
+        "set_by_limit": "none is given, because the limit has set the minimised quantity",
+    }[found["status"]]
+
+
+def _unit(objective: str) -> tuple[float, str]:
+    """Return the factor to the reader's unit of the minimised quantity, and that unit; a user's own has none."""
+    term = find(objective)
+    return for_people(term.unit) if term is not None else (1.0, "")
+
+
+def _row(point: dict[str, Any], factor: float | None) -> tuple[str, ...]:
+    """Return the cells of a speed; with a factor to its unit, also the minimised quantity."""
+    shown = f"{point['speed']:g}{'*' if point['refined'] else ''}"
+    if not point["optima"]:
+        none = ("",) * (4 if factor is None else 5)
+        return (shown, *none, "0", f"{point['status']}: {point['message']}")
+    best = point["optima"][0]
+    cost = best["cost_of_transport"]
+    minimised = () if factor is None else (f"{best['objective_value'] * factor:.4g}",)
+    return (
+        shown,
+        f"{best['frequency']:.4g}",
+        f"{best['mean_positive_power']:.4g}",
+        *minimised,
+        "-" if cost is None else f"{cost:.3g}",
+        f"{math.degrees(best['flap_amplitude']):.3g}",
+        f"{point['distinct_optima']}",
+        best["active_bounds"] or "nothing",
+    )
+
+
+def _told(found: dict[str, Any] | None, quantity: str, objective: str) -> str:
+    text = speed_in_words(found)
+    if found is None:
+        return text
+    factor, unit = _unit(objective)
+    value = written(factor * found["value"], unit=unit)
+    if "lowest" not in found:
+        return f"{text}, {value}" if found["status"] == "found" else text
+    near = found["speed"] is not None and abs(found["speed"] - found["lowest"]) <= _NEAR * found["speed"]
+    text += f", {value}" if near else f"; the least computed is {value} at {found['lowest']:g} m/s"
+    if found["status"] in ("found", "at_or_below", "at_or_above"):
+        low, high = found["within_2_percent"]
+        text += f"; {quantity} is within 2 % of its minimum from {written_range(low, high, 'm/s')}"
+    if found["rivals"]:
+        others = " and ".join(f"{speed:g}" for speed in found["rivals"])
+        text += f"; other minima within 1 % at {others} m/s"
+    both = [name for name in found["limits"] if name not in found["changed_limits"]]
+    if both and found["status"] != "set_by_limit":
+        text += f"; with {_named(both)} at {_its(both)}"
+    if found["changed_limits"]:
+        names = found["changed_limits"]
+        text += f"; a limit chose it: {_named(names)} at {_its(names)} on one side of it only"
+    return text
+
+
+def _named(names: list[str]) -> str:
+    return " and ".join(called(name) for name in names)
+
+
+def _its(names: list[str]) -> str:
+    return "its limit" if len(names) == 1 else "their limits"
+
+
+def pareto_report(record: dict[str, Any]) -> Report:
+    """Return a row for each limit: what is reached, and what it costs.
+
+    Parameters
+    ----------
+    record : of `ParetoFront.record`.
+    """
+    minimised, limited = (in_words(record[kind]) for kind in ("objective", "quantity"))
+    where = f"{record['species']} at {record['speed']:g} m/s{climb_text(record['climb'])}"
+    factor, unit = for_people(record["quantity_unit"])
+    of_objective, objective_unit = for_people(record["objective_unit"])
+    headings = (f"limit [{unit or '-'}]", "reached", f"{minimised} [{objective_unit or '-'}]", "rise [%]")
+    rows = tuple(Row(_front_cells(record, point, factor, of_objective)) for point in record["points"])
+    return [
+        Line(f"{where}: least {minimised} for each limit of the {limited}", wraps=False),
+        Table(rows, (*headings, "f [Hz]", "P+ [W]", ""), "rrrrrrl"),
+    ]
+
+
+def _front_cells(
+    record: dict[str, Any], point: dict[str, Any], factor: float, of_objective: float
+) -> tuple[str, ...]:
+    """Return the cells of a point; factors turn the limited and the minimised quantity into units of the reader."""
+    shown = "none" if point["limit"] is None else f"{factor * point['limit']:.4g}"
+    if point["objective_value"] is None:
+        return (shown, *[""] * 5, f"{point['status']}: {point['message']}")
+    beat = {name: point[name] for name in ("frequency", "flap_amplitude")}
+    limited = set_by_limit(
+        {"active_bounds": point["active_bounds"], "objective": record["objective"], "wingbeat": beat}
+    )
+    # The limit of the front has a column of its own.
+    names = [called(name) for name in limited if name != record["quantity"]]
+    remarks = ["dominated" if point["dominated"] else ("stable" if point["stable"] else "unstable")]
+    remarks += [f"set by limits: {', '.join(names)}"] if names else []
+    return (
+        shown,
+        f"{factor * point['quantity_value']:.4g}",
+        f"{of_objective * point['objective_value']:.4g}",
+        "" if point["rise"] is None else f"{100 * point['rise']:.2f}",
+        f"{point['frequency']:.4g}",
+        f"{point['mean_positive_power']:.4g}",
+        "; ".join(remarks),
+    )

@@ -1,0 +1,317 @@
+"""An orbit record as rows of label and value in readable units, for terminal and page."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from typing import Any
+
+from wingbeat._base import (
+    NOMENCLATURE,
+    Block,
+    Line,
+    Notes,
+    Report,
+    Tone,
+    cf,
+    find,
+    for_people,
+    grouped,
+    plain_unit,
+    readable_limit,
+)
+from wingbeat._base.datasets import STATE_NAMES
+from wingbeat._base.style import in_words
+from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
+from wingbeat.orbits.problem.report import loads_in_words, model_rows, place_in_words
+from wingbeat.records.judgements import SetBy, called, set_by_limit, statements
+
+Rows = list[tuple[str, str]]
+# The metabolic power of a live animal, as it is measured, holds more.
+_LEFT_OUT = ", without resting rate, heart, breathing, other muscles and the muscle's recovery"
+Limited = Mapping[str, SetBy]  # numbers that a limit has set, by name
+_NONE: Limited = {}
+
+# Values that switch off a law that the paper does not have; a row with such a value is left out.
+_OFF: dict[str, Any] = {
+    **dict.fromkeys(
+        ("pitch_phase", "sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt", "tail_tilt"), 0.0
+    ),
+    **{name: [] for name in ("flap_harmonics", "pitch_harmonics", "span_harmonics")},
+    "downstroke_fraction": 0.5,
+}
+
+
+def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
+    """Return the groups of numbers in an orbit record, by title; an empty group has no rows."""
+    place = place_in_words(record.get("species"), record.get("speed"), record.get("climb"))
+    limited = set_by_limit(record)
+    return {
+        "flight": [
+            ("species, mean speed", place),
+            *(model_rows(record["model"]) if "model" in record else []),
+            ("air loads", loads_in_words(record.get("aero", {}))),
+            *flight_rows(record, limited),
+        ],
+        "unbalanced at the closest wingbeat": deficit_rows(record.get("failed_balance") or []),
+        "smallest single changes that give an orbit": change_rows(record.get("relaxations") or []),
+        "wingbeat": wingbeat_rows(record.get("wingbeat", {}), limited),
+        "plausible ranges": plausible_rows(record.get("plausibility") or [], limited),
+        "state at the top of the stroke": state_rows(record.get("initial_state", {})),
+        "power, both wings": power_rows(record, limited),
+        "certificate": certificate_rows(record, limited),
+        "stability": stability_rows(record),
+    }
+
+
+def limits_in_words(record: dict[str, Any]) -> str:
+    """Return the numbers of an orbit that limits have set, each with its value, and what follows from them.
+
+    Of what follows, only parameters of the wingbeat and the minimised quantity are named. The text is empty if the
+    orbit is at no limit.
+    """
+    limited, beat = set_by_limit(record), record.get("wingbeat") or {}
+    own, follows = [], []
+    for name, what in limited.items():
+        term = find(name)
+        factor, unit = for_people(term.unit) if term is not None else (1.0, "")
+        if name in what.by:
+            shown = "" if what.limit is None else f" {_number(what.limit, unit, factor)}"
+            own.append(f"{called(name)}{shown}")
+        elif name in beat or name == record.get("objective"):
+            follows.append(f"{called(name)} {_number(beat.get(name, record.get('objective_value')), unit, factor)}")
+    then = f", and with {'it' if len(own) == 1 else 'them'} {' and '.join(follows)}" if follows else ""
+    return f"{', '.join(own)}{then}"
+
+
+def flight_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
+    """Return the numbers of the flight as a whole."""
+    names = ("strouhal", "reduced_frequency", "reynolds")
+    rows = [(_label(name), _of(record, name, limited)) for name in names if name in record]
+    for name in ("alpha_quarter_span", "alpha_three_quarter_span"):
+        if name in record:
+            factor, unit = for_people(NOMENCLATURE[name].unit)
+            low, high = (_number(v, unit, factor) for v in record[name])
+            rows.append((_label(name), f"{low.removesuffix(f' {unit}')} to {high}"))
+    if "body_pitch_range" in record:
+        rows.append((_label("body_pitch_range"), _of(record, "body_pitch_range", limited)))
+    return rows
+
+
+def plausible_rows(judged: list[dict[str, Any]], limited: Limited = _NONE) -> Rows:
+    """Return each judged number with its plausible range, whether it is outside, and whether a limit has set it."""
+    rows = []
+    for one in judged:
+        factor, unit = for_people(cf(str(one["unit"])))
+        low, high = (None if end is None else _number(end, unit, factor) for end in (one["low"], one["high"]))
+        known = "no range is known"
+        if low and high:
+            known = f"{low.removesuffix(f' {unit}')} to {high}"
+        elif low or high:
+            known = f"at least {low}" if low else f"at most {high}"
+        outside = ", outside" if one["within"] is False else ""
+        by = limited[one["name"]].by if one["name"] in limited else ()
+        why = ", set by the limit" if one["name"] in by else ", follows from a limit" if by else ""
+        rows.append((called(one["name"]), f"{_number(one['value'], unit, factor)} ({known}{outside}{why})"))
+    return rows
+
+
+def deficit_rows(deficits: list[dict[str, Any]]) -> Rows:
+    """Return which balances fail, and by how much."""
+    share = {"N m": "of weight times chord"}
+    rows = []
+    for short in deficits:
+        amount, of = _number(short["amount"], short["unit"], 1.0), share.get(short["unit"], "of the weight")
+        rows.append((short["law"], f"{amount}, {100 * short['share']:.2g} % {of}"))
+    return rows
+
+
+def change_rows(changes: list[dict[str, Any]]) -> Rows:
+    """Return the single changes that lead to an orbit."""
+    return [("or" if i else "either", change["text"]) for i, change in enumerate(changes)]
+
+
+def wingbeat_rows(beat: dict[str, Any], limited: Limited = _NONE) -> Rows:
+    """Return the numbers of a wingbeat, except those of motions that are off."""
+    shown = [name for name in beat if name not in _OFF or beat[name] != _OFF[name]]
+    rows = [(name.replace("_", " "), _of(beat, name, limited)) for name in shown]
+    return [(f"wing {label}" if label.startswith("pitch") else label, value) for label, value in rows]
+
+
+def state_rows(state: dict[str, Any]) -> Rows:
+    """Return the numbers of a state."""
+    return [(_label(name), _of(state, name)) for name in state if name in STATE_NAMES]
+
+
+def mass_of(vehicle: dict[str, Any]) -> float:
+    """Return the mass of a record's vehicle [kg]: body and both wings."""
+    return vehicle["body"]["mass"] + 2 * vehicle["wing"]["mass"]
+
+
+def power_label(name: str) -> str:
+    """Return a power's label without the word power: "hinges, mean" for "hinge power, mean"."""
+    return _label(name).replace(" power,", "s,")
+
+
+def power_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
+    """Return means and peaks of power, also per mass if the record holds the mass."""
+    hinges = ("mean_power", "mean_positive_power", "peak_power")
+    vehicle = record.get("vehicle")
+    mass = mass_of(vehicle) if vehicle else None
+    rows = []
+    for name in (*hinges, "mean_actuator_power", "peak_actuator_power"):
+        if name in record:
+            unit = plain_unit("positive_power_per_mass")
+            each = f" ({_number(record[name], unit, 1 / mass)})" if mass and record[name] is not None else ""
+            rows.append((power_label(name), f"{_of(record, name)}{each}{_why(name, limited)}"))
+    others = [name for name in ("cost_of_transport", *OF_MUSCLE, *OF_MOTOR) if name in record]
+    rows += [(_label(name), _of(record, name, limited)) for name in others]
+    return [(label, value + _LEFT_OUT if label == _label("metabolic_power") else value) for label, value in rows]
+
+
+def certificate_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
+    """Return the numbers of certificate and solver, which show how far to trust the orbit."""
+    closure = record.get("closure") or {}
+    rows = []
+    if record.get("objective_value") is not None:
+        least = f"{in_words(record['objective'])}, {record['objective_value']:.5g}"
+        rows.append(("minimised", least + _why(record["objective"], limited)))
+    for constraint, value in (record.get("constraints") or {}).items():
+        name = re.split("[<>]=", constraint)[0]
+        factor, unit = for_people(cf(plain_unit(name)))
+        rows.append((f"limit {readable_limit(constraint)}", _number(value, unit, factor)))
+    if record.get("price_of_stability") is not None:
+        price = f"{100 * record['price_of_stability']:.2g} % more {in_words(record['objective'])}"
+        rows.append(("price of stability", f"{price} than {record['free_objective']:.5g} without the limit"))
+    if closure:
+        worst = max(closure, key=lambda name: math.inf if closure[name] is None else abs(closure[name]))
+        residual = "lost" if closure[worst] is None else f"{abs(closure[worst]):.1e} {plain_unit(worst)}"
+        rows.append(("largest residual when re-flown", f"{residual}, in {worst.replace('_', ' ')}"))
+    if record.get("optimality") is not None:
+        rows.append(("optimality residual (0 is exact)", f"{record['optimality']:.1e}"))
+    if "starts" in record:
+        rows.append(("starts, of which at this optimum", f"{record['starts']}, {record.get('starts_at_best')}"))
+        rows.append(("distinct optima found", str(record.get("distinct_optima"))))
+    rows.append(("at the bound of", ", ".join(record.get("active_bounds") or []) or "nothing"))
+    return rows
+
+
+def stability_rows(record: dict[str, Any]) -> Rows:
+    """Return what the Floquet multipliers say about stability."""
+    pairs = record.get("floquet_multipliers") or []
+    if not pairs or any(part is None for pair in pairs for part in pair):
+        return []
+    sizes = [math.hypot(*pair) for pair in pairs]
+    rows = [("growth per beat (multipliers)", ", ".join(f"{size:.3g}" for size in sizes))]
+    if record.get("stable") is None:
+        return [*rows, ("stable", "unknown: the orbit is not certified")]
+    rows.append(("stable", "yes" if record["stable"] else "no"))
+    growth = math.log(max(sizes)) if max(sizes) > 0 else -math.inf
+    if growth:
+        time = math.log(2.0) / abs(growth)
+        what = "doubles" if growth > 0 else "halves"
+        rows.append((f"a disturbance {what} in", f"{time:.3g} beats"))
+    return rows
+
+
+def _label(name: str) -> str:
+    return NOMENCLATURE[name].short_label
+
+
+def _of(numbers: dict[str, Any], name: str, limited: Limited = _NONE) -> str:
+    """Return one number of a record in a readable unit, and whether a limit has set it."""
+    factor, unit = for_people(NOMENCLATURE[name].unit)
+    return f"{_number(numbers.get(name), unit, factor)}{_why(name, limited)}"
+
+
+def _why(name: str, limited: Limited) -> str:
+    return f" ({limited[name].words})" if name in limited else ""
+
+
+def _number(value: Any, unit: str, factor: float) -> str:
+    if isinstance(value, list | tuple):
+        # Harmonics below a ten-thousandth of a degree are zero for a reader.
+        shown = [f"{each * factor:.3g}" if abs(each * factor) >= 1e-4 else "0" for each in value]
+        return f"{', '.join(shown)} {unit}".rstrip()
+    if value is None:
+        return "-"  # undefined, as a cost of transport in hover
+    shown = value * factor
+    # Rounding of an angle that is at 0, or whose limit is.
+    shown = 0.0 if unit == "deg" and abs(shown) < 1e-6 else shown
+    return f"{shown:{'.0f' if 1e4 <= abs(shown) < 1e7 else '.4g'}} {unit}".rstrip()
+
+
+def orbit_report(record: dict[str, Any]) -> Report:
+    """Return certificate, plausibility, what limits have set, every group of numbers, and warnings of an orbit.
+
+    Parameters
+    ----------
+    record : of `Orbit.record`; with a ``power_account``, its parts are reported too.
+    """
+    lines: list[Block]
+    if record.get("status") == "converged":
+        said = statements(record)
+        # The words are green only if both statements hold; each statement is a line of its own.
+        lines = [
+            status_line("certified", said.closes, "good" if said.good else "title"),
+            status_line("plausible", said.plausible, "good" if said.good else "doubtful"),
+        ]
+        if limits := limits_in_words(record):
+            lines.append(status_line("set by limits, not predicted", limits, "doubtful"))
+    else:
+        status = f"not certified, {record.get('status')}"
+        lines = [status_line(status, str(record.get("message", "")), "bad")]
+    groups = orbit_groups(record)
+    certificate = {title: groups.pop(title) for title in ("certificate", "stability")}
+    lines.append(grouped({**groups, **power_groups(record.get("power_account")), **certificate}))
+    return [*lines, *warning_blocks(record.get("warnings") or [])]
+
+
+def status_line(status: str, message: str, tone: Tone) -> Line:
+    """Return a line of a status and what it means, which may begin with the status."""
+    message = message.removeprefix(f"{status}: ")
+    return Line(f": {message}" if message else "", status, tone)
+
+
+def warning_blocks(warnings: list[str]) -> list[Block]:
+    """Return warnings under their title; nothing if there are none."""
+    return [Line(""), Line("warnings", tone="title"), Notes(tuple(warnings))] if warnings else []
+
+
+def power_groups(account: dict[str, Any] | None) -> dict[str, list[tuple[str, str]]]:
+    """Return a power account as groups of rows; no groups if there is no account."""
+    if account is None:
+        return {}
+    costs = [(_fate(share), _watts(cost)) for share, cost in account["cost_by_returned"]]
+    spring = account["best_spring"]
+    if spring["rest_angle"] is None:
+        springs = [("best stiffness", "none: no spring helps")]
+    else:
+        saved = 1.0 - spring["mean_positive_power"] / account["mean_positive_power"]
+        springs = [
+            ("best stiffness, both hinges together", f"{spring['stiffness']:.4g} N m/rad"),
+            ("flap angle at rest", f"{math.degrees(spring['rest_angle']):.4g} deg"),
+            ("remaining mean positive power", f"{_watts(spring['mean_positive_power'])} ({saved:.1%} less)"),
+        ]
+    return {
+        "mean power, by what happens to negative work": [("negative work", _watts(account["braking"])), *costs],
+        "parts of the hinge power: mean, minimum, maximum": _spreads(account["shares"]),
+        "what the power of all actuators is spent on: mean, minimum, maximum": _spreads(account["spent"]),
+        "springs at the flap hinges": springs,
+    }
+
+
+def _spreads(parts: dict[str, dict[str, float]]) -> list[tuple[str, str]]:
+    return [
+        (name, ", ".join(_watts(part[key]) for key in ("mean", "least", "most"))) for name, part in parts.items()
+    ]
+
+
+def _fate(returned: float) -> str:
+    named = {-1.0: "if it costs as much as positive work", 0.0: "if it is lost"}
+    return named.get(returned, f"if {returned:.0%} of it is returned")
+
+
+def _watts(value: float | None) -> str:
+    return "-" if value is None else f"{value:.4g} W"

@@ -9,6 +9,7 @@ from animal_wings_data import Glides, HalfWing, reduced
 from animal_wings_fit import ASPECT_RATIO, HalfWingFit, Terms, curves
 from measured_data import Array
 
+from wingbeat._base import in_words
 from wingbeat._base.style import (
     BLUE,
     GREEN,
@@ -16,7 +17,6 @@ from wingbeat._base.style import (
     PAGE,
     VERMILION,
     drawing,
-    in_words,
     legend_below,
     letter_panels,
     new_figure,

@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat._base import __version__
 from wingbeat._jax.arrays import jax, jnp
-from wingbeat._version import __version__
 from wingbeat.aero import Dickinson, SuFan
 from wingbeat.animal.species.making import load_species
 from wingbeat.mechanics.flight_model import body_rates, motion_table

@@ -19,8 +19,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from wingbeat._base import FaultList
-from wingbeat._base.style import in_words
+from wingbeat._base import FaultList, in_words
 from wingbeat.aero import BladeElement, Feathered
 from wingbeat.animal.species.record import Species
 from wingbeat.animal.species.scaling import BODY_DRAG_AREA

@@ -12,8 +12,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any
 
-from wingbeat._base import FaultList, FileError, write_atomically
-from wingbeat._version import __version__
+from wingbeat._base import FaultList, FileError, __version__, write_atomically
 from wingbeat.viewer import bundle_path
 from wingbeat_explorer.models import EXPLORER_MODELS
 

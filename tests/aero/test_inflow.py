@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import wingbeat as wb
 from wingbeat._base import FaultList
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.aero.closed_forms import check_descent, disc_area, induced_flow
 from wingbeat.mechanics.flight_model import at_velocity, flow_at
 

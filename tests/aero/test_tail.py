@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from tests.helpers.tail_oracle import coefficients
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.aero.closed_forms import BROADSIDE, slender_slope, tail_force
 
 SLOPE, DRAG, AREA, DENSITY, SPEED = 3.2, 0.03, 0.005, 1.2, 9.0

@@ -11,8 +11,7 @@ from typing import Any
 import pytest
 from cyclopts import App
 
-from wingbeat._base import FileError
-from wingbeat._version import __version__
+from wingbeat._base import FileError, __version__
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.reading import species_names, template
 from wingbeat.cli import main

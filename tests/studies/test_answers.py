@@ -11,8 +11,7 @@ import xarray as xr
 
 import wingbeat as wb
 from tests.helpers.engines import Here
-from wingbeat._base import find, label_of
-from wingbeat._version import NUMERICAL_VERSION
+from wingbeat._base import NUMERICAL_VERSION, find, label_of
 from wingbeat.cli import main
 from wingbeat.orbits.solve import find_orbit
 from wingbeat.orbits.starts import usual_starts

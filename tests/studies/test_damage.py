@@ -13,7 +13,7 @@ from flipped_bits import HARMLESS, REFUSED, STUDY, Sample, campaign
 
 import wingbeat as wb
 from tests.helpers.study_standin import RAISES
-from wingbeat._version import NUMERICAL_VERSION
+from wingbeat._base import NUMERICAL_VERSION
 from wingbeat.studies import store, store_checks, store_file
 from wingbeat.studies.store_checks import only_one
 from wingbeat.studies.store_file import PAGE, about_digest, log_fault, whole_answers

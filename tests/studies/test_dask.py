@@ -17,7 +17,7 @@ import pytest
 import wingbeat as wb
 from tests.helpers.places import ROOT
 from tests.helpers.study_standin import CRASHES, HANGS, KILLS_PARENT, RAISES
-from wingbeat._version import NUMERICAL_VERSION
+from wingbeat._base import NUMERICAL_VERSION
 from wingbeat.studies import dask_engine
 from wingbeat.studies.dask_engine import Order, solve_batch
 

@@ -1,4 +1,4 @@
-"""Names in wingbeat's data sets, and functions that the readers of data sets share."""
+"""Functions that the readers of data sets share."""
 
 from __future__ import annotations
 
@@ -8,18 +8,6 @@ import numpy as np
 
 if TYPE_CHECKING:
     import xarray as xr
-
-# The attribute of a data set that says what it is: an orbit, a flight, a curve, a study.
-KIND = "wingbeat_kind"
-# The attribute of an orbit or a flight that says how the animal looks: its kind, and its shape if that is known.
-SHAPE = "shape"
-# The body's state in the world, as data sets and records name it.
-STATE_NAMES = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
-
-
-def climb_text(climb: float) -> str:
-    """Return the words for a climb rate [m/s] in a title, after the speed; an empty text for level flight."""
-    return f", climbing {climb:.4g} m/s" if climb else ""
 
 
 def flown(dataset: xr.Dataset) -> np.ndarray:

@@ -84,6 +84,12 @@ NOMENCLATURE: dict[str, Term] = {term.name: term for terms in _GROUPS.values() f
 SERIES, SERIES_WHERE_ON = tuple(_GROUPS["series"]), tuple(_GROUPS["series_where_on"])
 # Columns of a glide polar, and what is measured of a plate in a tunnel.
 GLIDE, RUN = tuple(_GROUPS["glide"]), tuple(_GROUPS["run"])
+# The attribute of a data set that says what it is: an orbit, a flight, a curve, a study.
+KIND = "wingbeat_kind"
+# The attribute of an orbit or a flight that says how the animal looks: its kind, and its shape if that is known.
+SHAPE = "shape"
+# The body's state in the world, as data sets and records name it.
+STATE_NAMES = ("x", "z", "body_pitch", "u", "w", "pitch_rate")
 _AXES = ("x", "y", "z")
 # A part before or after a name that says which of its numbers is meant.
 _ABOUT = {
@@ -190,6 +196,44 @@ def _named_parts(path: str) -> list[str]:
     if parts[0] == "bounds" and parts[-1] in ("lower", "upper"):
         return parts[1:-1]
     return parts[:-1] if parts[-1] in _AXES and "shoulder" in parts else parts
+
+
+# --- what readers call things ---
+
+# What readers call quantities whose names in the program are too short.
+_QUANTITIES = {
+    "metabolic_power": "metabolic power of the flight muscle",
+    "strouhal": "Strouhal number",
+    "reynolds": "Reynolds number",
+}
+# What readers call the coefficient models that carry the names of people.
+_PEOPLE = {"su-fan": "Su-Fan", "dickinson": "Dickinson", "wang": "Wang", "whitney-wood": "Whitney and Wood"}
+_PEOPLE |= {"parslew-crowther": "Parslew and Crowther", "byl": "Byl"}
+
+
+def in_words(name: str) -> str:
+    """Return a program's name of an animal, a model or a quantity as a reader would write it.
+
+    >>> in_words("common-murre"), in_words("su-fan"), in_words("power_cost(-1)")
+    ('common murre', 'Su-Fan', 'power cost(-1)')
+    """
+    known = _PEOPLE | _QUANTITIES
+    return known[name] if name in known else re.sub("(?<=[a-z])-(?=[a-z])|_", " ", name)  # a minus sign stays
+
+
+def heading(name: str) -> str:
+    """Return the name of an animal as the first words of a title.
+
+    >>> heading("common-swift")
+    'Common swift'
+    """
+    words = in_words(name)
+    return words[:1].upper() + words[1:]
+
+
+def climb_text(climb: float) -> str:
+    """Return the words for a climb rate [m/s] in a title, after the speed; an empty text for level flight."""
+    return f", climbing {climb:.4g} m/s" if climb else ""
 
 
 # --- units in three spellings: for data sets, for plain text, and for readers ---

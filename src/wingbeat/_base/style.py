@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
@@ -46,37 +45,6 @@ _STYLE: dict[str, Any] = {
     "grid.linewidth": 0.6,
     "legend.frameon": False,
 }
-
-
-# What readers call quantities whose names in the program are too short.
-_QUANTITIES = {
-    "metabolic_power": "metabolic power of the flight muscle",
-    "strouhal": "Strouhal number",
-    "reynolds": "Reynolds number",
-}
-# What readers call the coefficient models that carry the names of people.
-_PEOPLE = {"su-fan": "Su-Fan", "dickinson": "Dickinson", "wang": "Wang", "whitney-wood": "Whitney and Wood"}
-_PEOPLE |= {"parslew-crowther": "Parslew and Crowther", "byl": "Byl"}
-
-
-def in_words(name: str) -> str:
-    """Return a program's name of an animal, a model or a quantity as a reader would write it.
-
-    >>> in_words("common-murre"), in_words("su-fan"), in_words("power_cost(-1)")
-    ('common murre', 'Su-Fan', 'power cost(-1)')
-    """
-    known = _PEOPLE | _QUANTITIES
-    return known[name] if name in known else re.sub("(?<=[a-z])-(?=[a-z])|_", " ", name)  # a minus sign stays
-
-
-def heading(name: str) -> str:
-    """Return the name of an animal as the first words of a title.
-
-    >>> heading("common-swift")
-    'Common swift'
-    """
-    words = in_words(name)
-    return words[:1].upper() + words[1:]
 
 
 @contextmanager

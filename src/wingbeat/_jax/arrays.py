@@ -10,8 +10,10 @@ from typing import Any, TypeVar
 
 from jax.custom_derivatives import SymbolicZero
 
+from wingbeat._jax.config import in_own_settings as in_own_settings
 from wingbeat._jax.config import jax as jax
 from wingbeat._jax.config import jnp as jnp
+from wingbeat._jax.config import own_settings as own_settings
 
 T = TypeVar("T")
 
@@ -212,11 +214,7 @@ def elementwise_jvp(function: Callable[..., T]) -> Callable[..., T]:
                     slope = fusion_barrier(along(*ones))
                     change = jax.tree_util.tree_map(lambda c, s, t=tangent: c + s * t, change, slope)
         if not _all_zero(tangents[0]):
-            along = jax.tree_util.tree_map(
-                lambda leaf: jnp.zeros(leaf.shape, leaf.dtype) if isinstance(leaf, SymbolicZero) else leaf,
-                tangents[0],
-                is_leaf=lambda leaf: isinstance(leaf, SymbolicZero),
-            )
+            along = jax.tree_util.tree_map(_filled, tangents[0], is_leaf=_is_zero)
             more = fusion_barrier(jax.jvp(lambda p: function(p, *arrays), (parameters,), (along,))[1])
             change = jax.tree_util.tree_map(jnp.add, change, more)
         return value, change
@@ -225,6 +223,13 @@ def elementwise_jvp(function: Callable[..., T]) -> Callable[..., T]:
     return sloped
 
 
+def _is_zero(leaf: Any) -> bool:
+    return isinstance(leaf, SymbolicZero)
+
+
 def _all_zero(tangent: Any) -> bool:
-    leaves = jax.tree_util.tree_leaves(tangent, is_leaf=lambda leaf: isinstance(leaf, SymbolicZero))
-    return all(isinstance(leaf, SymbolicZero) for leaf in leaves)
+    return all(_is_zero(leaf) for leaf in jax.tree_util.tree_leaves(tangent, is_leaf=_is_zero))
+
+
+def _filled(leaf: Any) -> Any:
+    return jnp.zeros(leaf.shape, leaf.dtype) if _is_zero(leaf) else leaf

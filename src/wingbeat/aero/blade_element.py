@@ -20,8 +20,7 @@ import numpy as np
 
 from wingbeat._base import Fault, FaultList, InvalidInputError, read_text, suggest
 from wingbeat._base.sheets import seems_to_be
-from wingbeat._jax.arrays import atan2, elementwise_jvp
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import atan2, elementwise_jvp, jnp
 from wingbeat.aero.cambered import CamberedCoefficients
 from wingbeat.aero.closed_forms import INFLOWS, UNSTEADY, damping_couple, rotation_force
 from wingbeat.aero.coefficient_model import CoefficientModel, check_curve

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from wingbeat._base import Fault, FaultList, InvalidInputError
-from wingbeat._jax.config import in_own_settings, jax
+from wingbeat._jax.arrays import in_own_settings, jax
 
 if TYPE_CHECKING:
     from wingbeat._jax.shapes import Angles

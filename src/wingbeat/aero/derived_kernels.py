@@ -15,8 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from wingbeat._base import Fault, InvalidInputError
-from wingbeat._jax.arrays import horner, register_record, sin
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import horner, jnp, register_record, sin
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
 
 if TYPE_CHECKING:

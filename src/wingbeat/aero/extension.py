@@ -29,8 +29,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 import numpy as np
 
 from wingbeat._base import FaultList
-from wingbeat._jax.arrays import horner
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import horner, jax, jnp
 from wingbeat._jax.exported import exported
 
 if TYPE_CHECKING:

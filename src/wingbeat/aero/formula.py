@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._base import FaultList
-from wingbeat._jax.arrays import register_record, sin
-from wingbeat._jax.config import jnp
+from wingbeat._jax.arrays import jnp, register_record, sin
 from wingbeat.aero.coefficient_model import CoefficientModel, check_aspect_ratio, check_range
 from wingbeat.aero.extension import ExtendedKernel, check_extension, extend
 

@@ -13,8 +13,7 @@ import numpy as np
 from jax.extend.core import jaxpr_as_fun
 
 from wingbeat._base import Fault, FaultList, InvalidInputError
-from wingbeat._jax.arrays import jax, jnp, unchecked
-from wingbeat._jax.config import in_own_settings
+from wingbeat._jax.arrays import in_own_settings, jax, jnp, unchecked
 from wingbeat.aero.coefficient_model import CoefficientModel, check_curve
 
 if TYPE_CHECKING:

@@ -12,8 +12,7 @@ import numpy as np
 
 from wingbeat._base import FaultList
 from wingbeat._base.sheets import Sheet, same_name
-from wingbeat._jax.arrays import horner
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import horner, jax, jnp
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspect_ratio, check_possible
 from wingbeat.aero.extension import Jet, check_drag_of_joins, check_extension, extend
 from wingbeat.aero.polar_sheet import REQUIRED, PolarSheet, doubtful_drag, fitting, read_polar, refuse_several

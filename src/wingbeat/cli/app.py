@@ -8,8 +8,7 @@ from collections.abc import Sequence
 
 from cyclopts import App, CycloptsError, UnknownCommandError
 
-from wingbeat._base import WingbeatError, suggest
-from wingbeat._version import __version__
+from wingbeat._base import WingbeatError, __version__, suggest
 from wingbeat.cli.endings import EXIT_INTERRUPTED
 from wingbeat.cli.memory import memory_shortage
 from wingbeat.cli.streams import StdoutError, drop_stdout

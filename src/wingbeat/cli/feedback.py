@@ -10,8 +10,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from wingbeat._base import FaultList, Line
-from wingbeat._base.style import heading
+from wingbeat._base import FaultList, Line, heading
 from wingbeat.aero.winds import Wind
 from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED

@@ -8,8 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from wingbeat._base import FaultList
-from wingbeat._base.datasets import KIND
+from wingbeat._base import KIND, FaultList
 from wingbeat.cli.curve_report import drawn
 from wingbeat.cli.options import check_outputs
 from wingbeat.plots import check_figure_name, power_page, save_figure, wingbeat_page

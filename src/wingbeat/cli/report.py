@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import grouped
-from wingbeat._base.datasets import STATE_NAMES
+from wingbeat._base import STATE_NAMES, grouped
 from wingbeat.cli.printing import print_report
 from wingbeat.words.orbit_words import orbit_report, power_rows, state_rows, status_line, wingbeat_rows
 

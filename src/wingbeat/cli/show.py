@@ -8,7 +8,7 @@ from typing import Annotated
 
 from cyclopts import Parameter
 
-from wingbeat._base.datasets import KIND
+from wingbeat._base import KIND
 from wingbeat.cli.curve_report import print_curve
 from wingbeat.cli.report import flight_summary, print_flight, print_orbit
 from wingbeat.cli.streams import plain_console

@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base import FaultList, write_atomically
-from wingbeat._version import __version__
+from wingbeat._base import FaultList, __version__, write_atomically
 from wingbeat.aero.polar_sheet import QUANTITIES, read_polar, reynolds_groups
 
 # NaN says that the quantity is undefined or not known there: no centre of pressure without a force.

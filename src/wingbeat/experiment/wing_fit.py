@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base import FaultList, InvalidInputError, write_atomically
-from wingbeat._version import __version__
+from wingbeat._base import FaultList, InvalidInputError, __version__, write_atomically
 from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.aero.model_file import KIND, Fitted, FittedCurve, FittedModel, FittedWing, read_model

@@ -12,8 +12,7 @@ import functools
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._jax.arrays import jax, jnp
-from wingbeat._jax.config import in_own_settings
+from wingbeat._jax.arrays import in_own_settings, jax, jnp
 from wingbeat._jax.exported import jit_soon
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.air_forces import AirForces, air_forces_on

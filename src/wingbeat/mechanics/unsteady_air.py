@@ -12,8 +12,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._jax.arrays import computed_once
-from wingbeat._jax.config import jax, jnp
+from wingbeat._jax.arrays import computed_once, jax, jnp
 from wingbeat.aero.closed_forms import added_inertia, added_mass, damping_couple, rotation_lift
 from wingbeat.mechanics.frames import dot
 from wingbeat.mechanics.strip_sums import mass_moments, sum_over_strips

@@ -10,20 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, axis_label, plain, readable_limit
-from wingbeat._base.datasets import climb_text
-from wingbeat._base.style import (
-    ALARM,
-    BLUE,
-    GREEN,
-    PAGE,
-    VERMILION,
-    drawing,
-    heading,
-    in_words,
-    letter_panels,
-    new_figure,
-)
+from wingbeat._base import FaultList, axis_label, climb_text, heading, in_words, plain, readable_limit
+from wingbeat._base.style import ALARM, BLUE, GREEN, PAGE, VERMILION, drawing, letter_panels, new_figure
 from wingbeat.plots.published import Published
 from wingbeat.records.characteristic import best_line, characteristic_speeds
 from wingbeat.words.curve_words import speed_in_words, speed_label

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList
+from wingbeat._base import FaultList, heading, in_words
 from wingbeat._base.style import (
     FIRST,
     GREEN,
@@ -15,8 +15,6 @@ from wingbeat._base.style import (
     SECOND,
     VERMILION,
     drawing,
-    heading,
-    in_words,
     legend_above,
     letter_panels,
     new_figure,

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from wingbeat._base import cf, for_people, label_of, written
-from wingbeat._base.datasets import climb_text
+from wingbeat._base import cf, climb_text, for_people, heading, in_words, label_of, written
 from wingbeat._base.style import (
     BLUE,
     FIRST,
@@ -22,8 +21,6 @@ from wingbeat._base.style import (
     VERMILION,
     drawing,
     dress,
-    heading,
-    in_words,
     legend_above,
     legend_below,
     letter_panels,

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base import heading
 from wingbeat._base.datasets import downstrokes
 from wingbeat._base.style import (
     FIRST,
@@ -14,7 +15,6 @@ from wingbeat._base.style import (
     THIRD,
     VERMILION,
     drawing,
-    heading,
     legend_above,
     letter_panels,
     new_figure,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
+from wingbeat._base import heading, in_words
 from wingbeat._base.style import (
     BLUE,
     FIRST,
@@ -22,8 +23,6 @@ from wingbeat._base.style import (
     THIRD,
     drawing,
     dress,
-    heading,
-    in_words,
     legend_below,
     letter_panels,
     new_figure,

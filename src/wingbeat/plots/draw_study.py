@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, label_of, plain_unit
-from wingbeat._base.style import ALARM, FONT, MARKED, PAGE, drawing, in_words, letter_panels, new_figure
+from wingbeat._base import FaultList, in_words, label_of, plain_unit
+from wingbeat._base.style import ALARM, FONT, MARKED, PAGE, drawing, letter_panels, new_figure
 
 if TYPE_CHECKING:
     import pandas as pd

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList
-from wingbeat._base.datasets import climb_text, downstrokes, flown
+from wingbeat._base import FaultList, climb_text, heading, in_words
+from wingbeat._base.datasets import downstrokes, flown
 from wingbeat._base.style import (
     ALARM,
     FIRST,
@@ -22,8 +22,6 @@ from wingbeat._base.style import (
     THIRD,
     drawing,
     dress,
-    heading,
-    in_words,
     legend_above,
     letter_panels,
     new_figure,

@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import harmonic_place, is_number
-from wingbeat._base.datasets import SHAPE, STATE_NAMES
-from wingbeat._jax.config import own_settings
+from wingbeat._base import SHAPE, STATE_NAMES, harmonic_place, is_number
+from wingbeat._jax.arrays import own_settings
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.animal.kinematics import PARAMETER_NAMES, Wingbeat, parameter
 from wingbeat.orbits.flight.beat import Beat

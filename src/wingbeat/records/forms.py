@@ -7,8 +7,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._base import NOMENCLATURE, SERIES, SERIES_WHERE_ON, control_in, is_number
-from wingbeat._base.datasets import KIND, SHAPE, STATE_NAMES
+from wingbeat._base import KIND, NOMENCLATURE, SERIES, SERIES_WHERE_ON, SHAPE, STATE_NAMES, control_in, is_number
 from wingbeat.animal.species.file_schema import KINDS
 from wingbeat.records.inputs import inputs_hash
 from wingbeat.records.judgements import is_judgement, statements

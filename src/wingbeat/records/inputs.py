@@ -8,8 +8,7 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat._base import InvalidInputError
-from wingbeat._base.datasets import SHAPE
+from wingbeat._base import SHAPE, InvalidInputError
 from wingbeat._jax.arrays import at_default
 from wingbeat.aero import (
     LIBRARY,

@@ -6,7 +6,7 @@ import math
 import re
 from typing import Any, NamedTuple
 
-from wingbeat._base.style import in_words
+from wingbeat._base import in_words
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.problem.plausible import judged_names
 from wingbeat.orbits.problem.problem import PATH_NAMES, OrbitProblem

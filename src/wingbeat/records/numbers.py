@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList
-from wingbeat._base.datasets import KIND, at_station
+from wingbeat._base import KIND, FaultList
+from wingbeat._base.datasets import at_station
 from wingbeat.orbits.flight.beat import Beat, mean_positive
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.springs import best_spring

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base import NOMENCLATURE
-from wingbeat._version import __version__
+from wingbeat._base import NOMENCLATURE, __version__
 from wingbeat.aero import CamberedCoefficients, CoefficientModel
 from wingbeat.animal.kinematics import ANGLES, Wingbeat
 from wingbeat.animal.vehicle import Air, Vehicle

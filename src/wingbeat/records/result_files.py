@@ -9,8 +9,7 @@ from collections.abc import Callable
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base import FaultList, FileError, system_reason, write_atomically
-from wingbeat._base.datasets import KIND
+from wingbeat._base import KIND, FaultList, FileError, system_reason, write_atomically
 from wingbeat.records.agreement import check_curve, check_orbit
 from wingbeat.records.characteristic import with_characteristic_speeds
 from wingbeat.records.forms import FORMS, _statements, check_form, from_json, parse_attributes

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base.datasets import STATE_NAMES
-from wingbeat._jax.config import own_settings
+from wingbeat._base import STATE_NAMES
+from wingbeat._jax.arrays import own_settings
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
 from wingbeat.animal.vehicle import Air
 from wingbeat.records.forms import from_json

@@ -13,8 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base import InvalidInputError, cf, is_number, plain_unit
-from wingbeat._base.datasets import KIND, SHAPE
+from wingbeat._base import KIND, SHAPE, InvalidInputError, cf, is_number, plain_unit
 from wingbeat.orbits.problem.quantities import named_objective, named_quantity
 
 if TYPE_CHECKING:

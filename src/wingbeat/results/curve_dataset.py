@@ -10,9 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import NOMENCLATURE, attributes_of, cf, harmonic_place, label_of
-from wingbeat._base.datasets import KIND
-from wingbeat._version import __version__
+from wingbeat._base import KIND, NOMENCLATURE, __version__, attributes_of, cf, harmonic_place, label_of
 from wingbeat.animal.kinematics import NAMED_IF_ON, PARAMETER_NAMES, in_use
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.many.branches import Branches

@@ -11,9 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from wingbeat._base import NOMENCLATURE, FaultList, attributes_of
-from wingbeat._base.datasets import KIND
-from wingbeat._version import __version__
+from wingbeat._base import KIND, NOMENCLATURE, FaultList, __version__, attributes_of
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.species.record import Species

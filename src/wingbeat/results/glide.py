@@ -11,9 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import NOMENCLATURE, FaultList
-from wingbeat._base.datasets import KIND
-from wingbeat._version import __version__
+from wingbeat._base import KIND, NOMENCLATURE, FaultList, __version__
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.animal.species.record import Species

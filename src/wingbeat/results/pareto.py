@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, Report, Reported
-from wingbeat._version import __version__
+from wingbeat._base import FaultList, Report, Reported, __version__
 from wingbeat.orbits.many.series import find_series
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.limits import Constraint

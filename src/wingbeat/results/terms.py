@@ -8,8 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from wingbeat._base import FaultList
-from wingbeat._version import __version__
+from wingbeat._base import FaultList, __version__
 from wingbeat.orbits.many.along import SHARE, with_share
 from wingbeat.orbits.many.branches import Branches, trace_along
 from wingbeat.orbits.many.transitions import certified, families, marks_of

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, Report, Reported
-from wingbeat._version import __version__
+from wingbeat._base import FaultList, Report, Reported, __version__
 from wingbeat.animal.kinematics import Wingbeat, parameter
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.command_limits import command_limits

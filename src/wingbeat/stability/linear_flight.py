@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, Report, Reported, install_extra
-from wingbeat._version import __version__
+from wingbeat._base import FaultList, Report, Reported, __version__, install_extra
 from wingbeat.animal.kinematics import Wingbeat, flap_angle
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.stroke_map import StrokeMap, stroke_map

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base import FaultList
-from wingbeat._version import __version__
+from wingbeat._base import FaultList, __version__
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import parameter
 from wingbeat.orbits.problem.problem import SPEED_LIMITS

@@ -24,8 +24,15 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._base import ClusterError, FaultList, WorkerError, install_extra, system_reason
-from wingbeat._version import NUMERICAL_VERSION, __version__
+from wingbeat._base import (
+    NUMERICAL_VERSION,
+    ClusterError,
+    FaultList,
+    WorkerError,
+    __version__,
+    install_extra,
+    system_reason,
+)
 from wingbeat.studies.engine import Ended, LocalProcesses
 from wingbeat.studies.units import Unit
 

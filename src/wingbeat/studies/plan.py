@@ -16,8 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base import Fault, FaultList, InvalidInputError, WingbeatError
-from wingbeat._version import NUMERICAL_VERSION
+from wingbeat._base import NUMERICAL_VERSION, Fault, FaultList, InvalidInputError, WingbeatError
 from wingbeat.animal.species.building import NO_SUCH_PATH, settable
 from wingbeat.animal.species.file_schema import dotted
 from wingbeat.animal.species.numbers import shown

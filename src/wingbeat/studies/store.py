@@ -15,8 +15,7 @@ from itertools import groupby
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._base import FileError, system_reason
-from wingbeat._version import NUMERICAL_VERSION, __version__
+from wingbeat._base import NUMERICAL_VERSION, FileError, __version__, system_reason
 from wingbeat.studies.store_checks import (
     PLAN_TABLES,
     Lock,

@@ -15,8 +15,7 @@ from collections.abc import Iterator
 from contextlib import closing, contextmanager, suppress
 from pathlib import Path
 
-from wingbeat._base import FileError, system_reason
-from wingbeat._version import NUMERICAL_VERSION
+from wingbeat._base import NUMERICAL_VERSION, FileError, system_reason
 from wingbeat.studies.store_file import (
     APPLICATION,
     FORM,

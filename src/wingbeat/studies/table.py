@@ -12,6 +12,7 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from wingbeat._base import (
+    NUMERICAL_VERSION,
     FaultList,
     WingbeatError,
     cf,
@@ -21,7 +22,6 @@ from wingbeat._base import (
     plain_unit,
     write_atomically,
 )
-from wingbeat._version import NUMERICAL_VERSION
 from wingbeat.records.netcdf import netcdf_bytes
 from wingbeat.records.tables import flat
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base.datasets import SHAPE
+from wingbeat._base import SHAPE
 from wingbeat._base.style import SCHEMATIC
 from wingbeat.animal.species.numbers import COLOURS, EXTREMITIES, TRUNK
 from wingbeat.animal.vehicle import Body, Tail, Wing

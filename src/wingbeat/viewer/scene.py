@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import NOMENCLATURE, FaultList, FileError, for_people
-from wingbeat._base.datasets import KIND, climb_text, downstrokes, flown
+from wingbeat._base import KIND, NOMENCLATURE, FaultList, FileError, climb_text, for_people
+from wingbeat._base.datasets import downstrokes, flown
 from wingbeat.animal.vehicle import Tail
 from wingbeat.viewer.look import look_of
 from wingbeat.viewer.pushes import Push

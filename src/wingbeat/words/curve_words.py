@@ -6,9 +6,20 @@ import itertools
 import math
 from typing import Any
 
-from wingbeat._base import Block, Line, Notes, Report, Row, Table, find, for_people, written, written_range
-from wingbeat._base.datasets import climb_text
-from wingbeat._base.style import in_words
+from wingbeat._base import (
+    Block,
+    Line,
+    Notes,
+    Report,
+    Row,
+    Table,
+    climb_text,
+    find,
+    for_people,
+    in_words,
+    written,
+    written_range,
+)
 from wingbeat.records.judgements import SetBy, called, set_by_limit
 
 # Of characteristic speeds that do not say it by their name.

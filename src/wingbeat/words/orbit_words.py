@@ -9,6 +9,7 @@ from typing import Any
 
 from wingbeat._base import (
     NOMENCLATURE,
+    STATE_NAMES,
     Block,
     Line,
     Notes,
@@ -18,11 +19,10 @@ from wingbeat._base import (
     find,
     for_people,
     grouped,
+    in_words,
     plain_unit,
     readable_limit,
 )
-from wingbeat._base.datasets import STATE_NAMES
-from wingbeat._base.style import in_words
 from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
 from wingbeat.orbits.problem.report import loads_in_words, model_rows, place_in_words
 from wingbeat.records.judgements import SetBy, called, set_by_limit, statements

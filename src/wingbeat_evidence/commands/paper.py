@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from cyclopts import Parameter
 
-from wingbeat._base import FaultList, make_folder
-from wingbeat._version import NUMERICAL_VERSION
+from wingbeat._base import NUMERICAL_VERSION, FaultList, make_folder
 from wingbeat._workers.tuning import core_count
 from wingbeat.cli.app import EXIT_GOOD
 from wingbeat.cli.options import Whole

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base import heading, in_words
 from wingbeat._base.style import (
     BLUE,
     COLUMN,
@@ -20,8 +21,6 @@ from wingbeat._base.style import (
     THIRD,
     drawing,
     dress,
-    heading,
-    in_words,
     legend_above,
     letter_panels,
     new_figure,

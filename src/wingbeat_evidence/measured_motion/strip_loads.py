@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._jax.arrays import jax, jnp
-from wingbeat._jax.config import in_own_settings
+from wingbeat._jax.arrays import in_own_settings, jax, jnp
 from wingbeat.aero.blade_element import BladeElement, StripForces, strip_forces, with_turning
 from wingbeat.aero.closed_forms import added_inertia, added_mass, disc_area, induced_flow
 from wingbeat.aero.coefficient_model import Kernel

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from wingbeat._base.style import BLUE, GREEN, VERMILION, drawing, in_words, letter_panels, new_figure
+from wingbeat._base import in_words
+from wingbeat._base.style import BLUE, GREEN, VERMILION, drawing, letter_panels, new_figure
 from wingbeat_evidence.paper.assumption_study import Judged
 from wingbeat_evidence.paper.assumptions import ASSUMPTIONS
 from wingbeat_evidence.paper.importance import Importance

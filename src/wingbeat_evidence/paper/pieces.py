@@ -14,8 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from wingbeat._base import FileError, make_folder, read_text, write_atomically
-from wingbeat._version import NUMERICAL_VERSION
+from wingbeat._base import NUMERICAL_VERSION, FileError, make_folder, read_text, write_atomically
 from wingbeat.studies.engine import Engine
 from wingbeat.studies.stopping import Stop
 from wingbeat_evidence.paper.assumption_study import (

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base import heading
 from wingbeat._base.style import (
     FIRST,
     PAGE,
@@ -13,7 +14,6 @@ from wingbeat._base.style import (
     SKY,
     THIRD,
     drawing,
-    heading,
     legend_below,
     letter_panels,
     new_figure,

@@ -6,8 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._jax.arrays import jax, jnp
-from wingbeat._jax.config import in_own_settings
+from wingbeat._jax.arrays import in_own_settings, jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.aero.blade_element import BladeElement
 from wingbeat.aero.closed_forms import body_drag

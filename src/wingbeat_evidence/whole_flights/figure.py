@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import plain_unit
+from wingbeat._base import heading, in_words, plain_unit
 from wingbeat._base.style import (
     BLUE,
     GREEN,
@@ -17,8 +17,6 @@ from wingbeat._base.style import (
     VERMILION,
     drawing,
     dress,
-    heading,
-    in_words,
     letter_panels,
     new_figure,
 )

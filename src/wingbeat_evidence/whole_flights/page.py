@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from wingbeat._base.style import in_words
+from wingbeat._base import in_words
 from wingbeat_evidence.markdown import markdown_table
 from wingbeat_evidence.whole_flights.comparison import AGREES, Score, compared, ends_of, name_of, words_of
 from wingbeat_evidence.whole_flights.measured import COMPARED

@@ -5,8 +5,7 @@ from __future__ import annotations
 import textwrap
 from typing import TYPE_CHECKING
 
-from wingbeat._base import Line, Report, Row, Table
-from wingbeat._base.style import in_words
+from wingbeat._base import Line, Report, Row, Table, in_words
 from wingbeat_evidence.whole_flights.comparison import compared, ends_of, name_of, words_of
 
 if TYPE_CHECKING:

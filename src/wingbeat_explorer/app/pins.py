@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from wingbeat._base.style import in_words
+from wingbeat._base import in_words
 from wingbeat_explorer.app.formatting import number, tiles
 from wingbeat_explorer.app.widgets import box, button, tag
 

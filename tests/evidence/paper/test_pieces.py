@@ -11,7 +11,7 @@ import time
 import pytest
 
 from tests.helpers.places import ROOT
-from wingbeat._version import NUMERICAL_VERSION
+from wingbeat._base import NUMERICAL_VERSION
 from wingbeat.cli import main
 from wingbeat.studies.engine import LocalProcesses
 from wingbeat_evidence.paper.assumptions import ASSUMPTIONS

@@ -16,7 +16,7 @@ from wingbeat.cli.app import main
 from wingbeat.cli.filmed import plus_minus
 from wingbeat.experiment import Film, fit_film, read_film, synthetic_film
 from wingbeat.orbits.problem.filmed import trim_of
-from wingbeat.plots import experiment_pages as film_page
+from wingbeat.plots import film_page
 
 ALL = ("flap_deg", "pitch_deg", "span_fraction")
 RICH = wb.Wingbeat(

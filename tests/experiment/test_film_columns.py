@@ -12,7 +12,7 @@ from wingbeat.cli.filmed import film_lines
 from wingbeat.experiment import Film, fit_film, read_film, synthetic_film
 from wingbeat.experiment.film import FILMED
 from wingbeat.orbits.problem.filmed import filmed_species, trim_of
-from wingbeat.plots import experiment_pages as film_page
+from wingbeat.plots import film_page
 
 PHASES = np.linspace(0.0, 1.0, 50)
 RICH = wb.Wingbeat(

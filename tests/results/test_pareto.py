@@ -9,7 +9,7 @@ import pytest
 import wingbeat as wb
 from wingbeat._base import InvalidInputError
 from wingbeat.cli import main
-from wingbeat.plots import influence_pages as pareto_page
+from wingbeat.plots import pareto_page
 from wingbeat.results.pareto import ParetoFront
 
 LIMITS = (1.2, 1.0, 1.1)

@@ -8,7 +8,7 @@ import wingbeat as wb
 from wingbeat.cli import main
 from wingbeat.orbits.many.along import SHARE, with_share
 from wingbeat.orbits.many.branches import carry
-from wingbeat.plots import influence_pages as terms_page
+from wingbeat.plots import terms_page
 
 
 def pigeon(**terms):

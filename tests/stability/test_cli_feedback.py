@@ -8,7 +8,7 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.cli import main
-from wingbeat.plots import stability_pages as gust_page
+from wingbeat.plots import gust_page
 from wingbeat.stability.gust_flight import fly_gust
 
 

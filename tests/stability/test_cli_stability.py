@@ -8,7 +8,7 @@ import pytest
 import wingbeat as wb
 from wingbeat._jax.arrays import jnp
 from wingbeat.cli import main
-from wingbeat.plots import stability_pages as stability_page
+from wingbeat.plots import stability_page
 from wingbeat.stability.linear_report import headline
 
 

@@ -10,7 +10,7 @@ from tests.helpers.reflight import refly
 from wingbeat._base import InvalidInputError
 from wingbeat.cli import main
 from wingbeat.orbits.problem.problem import PITCH_STATE
-from wingbeat.plots import stability_pages as manoeuvre_page
+from wingbeat.plots import manoeuvre_page
 from wingbeat.stability.beat_map import BeatMap
 from wingbeat.stability.riccati import closed_loop
 from wingbeat.stability.smooth_commands import top_of

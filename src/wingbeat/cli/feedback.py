@@ -19,8 +19,7 @@ from wingbeat.cli.printing import print_report
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.streams import plain_console
 from wingbeat.cli.winds import Gust, Turbulence, WindSeed, wind_of
-from wingbeat.plots import save_figure
-from wingbeat.plots import stability_pages as gust_page
+from wingbeat.plots import gust_page, save_figure
 from wingbeat.results.orbit import load_orbit
 from wingbeat.stability.feedback import Feedback
 from wingbeat.stability.feedback import feedback as compute

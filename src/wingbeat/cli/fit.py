@@ -16,8 +16,7 @@ from wingbeat.cli.answer import answer
 from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.options import check_files, check_outputs
 from wingbeat.experiment import WingFit, fit_wing, load_measurements
-from wingbeat.plots import experiment_pages as fit_page
-from wingbeat.plots import save_figure
+from wingbeat.plots import fit_page, save_figure
 
 
 def fit(

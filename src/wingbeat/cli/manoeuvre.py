@@ -19,8 +19,7 @@ from wingbeat.cli.streams import plain_console
 from wingbeat.cli.winds import Gust, wind_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
-from wingbeat.plots import save_figure
-from wingbeat.plots import stability_pages as manoeuvre_page
+from wingbeat.plots import manoeuvre_page, save_figure
 from wingbeat.results.flight import Flight
 from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit
 from wingbeat.stability.manoeuvre import Manoeuvre, check_manoeuvre

@@ -223,8 +223,7 @@ def _draw(found: Orbit, path: Path) -> None:
 
 def _draw_influence(influence: Sensitivities, path: Path) -> None:
     """Draw the effects of an orbit's uncertain parameters."""
-    from wingbeat.plots import influence_pages as tornado_page
-    from wingbeat.plots import save_figure
+    from wingbeat.plots import save_figure, tornado_page
 
     save_figure(tornado_page(influence), path)
 

@@ -27,8 +27,7 @@ from wingbeat.cli.printing import print_report
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
 from wingbeat.cli.streams import plain_console
-from wingbeat.plots import influence_pages as pareto_page
-from wingbeat.plots import save_figure
+from wingbeat.plots import pareto_page, save_figure
 from wingbeat.results.pareto import pareto_front
 from wingbeat.words.curve_words import pareto_report
 

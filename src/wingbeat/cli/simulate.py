@@ -46,8 +46,7 @@ from wingbeat.experiment import FilmedBeat
 from wingbeat.mechanics.beat_by_beat import check_samples
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.orbits.problem.filmed import filmed_species
-from wingbeat.plots import experiment_pages as film_page
-from wingbeat.plots import save_figure
+from wingbeat.plots import film_page, save_figure
 from wingbeat.records.numbers import beat_mean
 from wingbeat.records.orbit_record import crossing
 from wingbeat.results.flight import Flight

@@ -33,8 +33,7 @@ from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
 from wingbeat.cli.streams import plain_console
 from wingbeat.orbits.status import Status
-from wingbeat.plots import save_figure
-from wingbeat.plots import stability_pages as stability_page
+from wingbeat.plots import save_figure, stability_page
 from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit, solve_orbits
 from wingbeat.stability.causes import StabilitySensitivities, stability_sensitivities
 from wingbeat.stability.causes_report import causes_report

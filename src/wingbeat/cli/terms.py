@@ -27,8 +27,7 @@ from wingbeat.cli.options import (
 from wingbeat.cli.progress import progress_bar
 from wingbeat.cli.ranges import parse_range
 from wingbeat.cli.streams import plain_console
-from wingbeat.plots import influence_pages as terms_page
-from wingbeat.plots import save_figure
+from wingbeat.plots import save_figure, terms_page
 from wingbeat.results.terms import found_any, trace_terms
 
 

@@ -14,7 +14,18 @@ from pathlib import Path
 MOST_BYTES = 3_000_000
 """Largest archive; the wheel of 0.1.0 has 1.6 MB. A third are wing motions that `wingbeat validate` reads."""
 
-NEEDED = ["py.typed", "viewer/viewer.js", "app/page.css", "data/pigeon.toml", "data/whole_flights/pigeon.toml"]
+PACKAGES = ("wingbeat", "wingbeat_evidence", "wingbeat_explorer")
+NEEDED = [
+    *(f"{package}/py.typed" for package in PACKAGES),
+    # What lists the public names.
+    "wingbeat/__init__.pyi",
+    "wingbeat_evidence/__init__.pyi",
+    "wingbeat/_base/nomenclature.csv",
+    "wingbeat/data/pigeon.toml",
+    "wingbeat/viewer/viewer.js",
+    "wingbeat_evidence/data/whole_flights/pigeon.toml",
+    "wingbeat_explorer/app/page.css",
+]
 CLASSIFIERS = [f"Programming Language :: Python :: {version}" for version in ("3.11", "3.12", "3.13")]
 
 
@@ -24,8 +35,8 @@ def wheel_faults(wheel: Path) -> list[str]:
         names = archive.namelist()
         info = next(name.split("/")[0] for name in names if name.endswith(".dist-info/METADATA"))
         metadata = email.message_from_bytes(archive.read(f"{info}/METADATA"))
-    faults = [f"the wheel holds {name}" for name in names if name.split("/")[0] not in ("wingbeat", info)]
-    faults += [f"the wheel lacks {name}" for name in NEEDED if f"wingbeat/{name}" not in names]
+    faults = [f"the wheel holds {name}" for name in names if name.split("/")[0] not in (*PACKAGES, info)]
+    faults += [f"the wheel lacks {name}" for name in NEEDED if name not in names]
     if f"{info}/licenses/LICENSE" not in names:
         faults.append("the wheel lacks its license")
     return faults + metadata_faults(metadata, version=wheel.name.split("-")[1])
@@ -53,7 +64,7 @@ def source_faults(source: Path) -> list[str]:
     with tarfile.open(source) as archive:
         names = [name.split("/", 1)[1] for name in archive.getnames() if "/" in name]
     allowed = (
-        "src/wingbeat/",
+        *(f"src/{package}/" for package in PACKAGES),
         ".gitignore",
         "CHANGELOG.md",
         "CITATION.cff",
@@ -65,7 +76,7 @@ def source_faults(source: Path) -> list[str]:
     faults = [f"the source archive holds {name}" for name in names if not name.startswith(allowed)]
     return faults + [
         f"the source archive lacks {name}"
-        for name in ("LICENSE", "CITATION.cff", "pyproject.toml", *(f"src/wingbeat/{file}" for file in NEEDED))
+        for name in ("LICENSE", "CITATION.cff", "pyproject.toml", *(f"src/{file}" for file in NEEDED))
         if name not in names
     ]
 

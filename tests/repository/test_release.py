@@ -110,6 +110,11 @@ def test_ci_tries_every_supported_python():
     assert [name.split()[-1] for name in ARCHIVES.CLASSIFIERS] == named
 
 
+def test_what_archives_need_is_there():
+    assert [name for name in ARCHIVES.NEEDED if not (ROOT / "src" / name).is_file()] == []
+    assert sorted(ARCHIVES.PACKAGES) == sorted(path.parent.name for path in (ROOT / "src").glob("*/__init__.py"))
+
+
 def test_the_script_of_releases_is_sound():
     assert subprocess.run(["bash", "-n", ROOT / ".ci" / "try_release"], check=False).returncode == 0
 

@@ -15,7 +15,7 @@ from tests.helpers.forks import ForkServer
 from tests.helpers.memory import MOST, forget_programs, resident
 from tests.helpers.reflight import Reflight, refly
 from wingbeat._workers.tuning import collect_seldom
-from wingbeat.cli import progress
+from wingbeat.cli import terminal
 from wingbeat.orbits.flight.certify import Certificate, certify
 
 # For the processes that pytest and the tests start. Those that share two cores wait for each other's threads: least
@@ -24,7 +24,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 # On a busy machine a command takes long enough to say so on stderr, which tests expect to be empty. Those of the
 # lines set a time of their own.
-progress.FIRST_LINE = 1e6
+terminal.FIRST_LINE = 1e6
 
 # As wingbeat's own processes do: through what JAX holds, looks for garbage took 53 of 1260 core-seconds.
 collect_seldom()

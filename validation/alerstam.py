@@ -35,7 +35,7 @@ from alerstam_spread import Moved, spreads
 from alerstam_words import page
 
 from wingbeat._base import WingbeatError, write_atomically
-from wingbeat.cli.progress import progress_bar
+from wingbeat.cli.terminal import progress_bar
 from wingbeat.models import MODELS
 from wingbeat.plots import save_figure
 

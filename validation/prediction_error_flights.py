@@ -13,7 +13,7 @@ import pandas as pd
 import wingbeat as wb
 from wingbeat._base import write_atomically
 from wingbeat._workers.pool import in_processes
-from wingbeat.cli.progress import progress_bar
+from wingbeat.cli.terminal import progress_bar
 from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.solve import search_near
 from wingbeat_evidence.whole_flights import read_measured_flights

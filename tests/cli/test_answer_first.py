@@ -9,8 +9,8 @@ import pytest
 
 from wingbeat._base import FileError
 from wingbeat.cli import main
-from wingbeat.cli.answer import Answer
-from wingbeat.cli.streams import StdoutError
+from wingbeat.cli.process import StdoutError
+from wingbeat.cli.terminal import Answer
 
 TABLE = "alpha_deg,C_L,C_D\n" + "".join(
     f"{a},{0.0004 * a * (90 - a):.3f},{0.1 + 0.01 * a:.3f}\n" for a in range(0, 90, 6)
@@ -21,7 +21,7 @@ LINES = {
         "wingbeat.results.glide.GlidePolar.save",
         "slowest sink",
     ),
-    "polar su-fan --csv -o first.png": ("wingbeat.cli.polar.save_figure", "alpha_deg,c_l"),
+    "polar su-fan --csv -o first.png": ("wingbeat.cli.terminal.save_figure", "alpha_deg,c_l"),
     "fit table.csv -o first.toml --plot second.png": ("wingbeat.experiment.wing_fit.WingFit.save", "su-fan"),
     "simulate pigeon --beats 1 --samples 8 -o first.nc": ("wingbeat.results.flight.Flight.save", "mean u [m/s]"),
 }

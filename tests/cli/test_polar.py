@@ -12,8 +12,8 @@ from matplotlib.image import imread
 from wingbeat._base import FileError, InvalidInputError
 from wingbeat.aero import LIBRARY, SuFan
 from wingbeat.cli import main
+from wingbeat.cli.arguments import parse_range
 from wingbeat.cli.polar import polar
-from wingbeat.cli.ranges import parse_range
 
 COLUMNS = ["alpha_deg", "c_l", "c_d", "c_n", "c_m", "x_cp"]
 

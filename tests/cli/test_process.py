@@ -172,7 +172,7 @@ def test_a_signal_in_odd_places(tmp_path: Path, place: str, code: int, word: str
 
 POOL = """
 import time
-from wingbeat.cli.endings import end_on_signals
+from wingbeat.cli.process import end_on_signals
 
 if __name__ == "__main__":
     end_on_signals()

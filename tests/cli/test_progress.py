@@ -4,8 +4,8 @@ import threading
 
 import pytest
 
-from wingbeat.cli import progress
-from wingbeat.cli.progress import progress_bar
+from wingbeat.cli import terminal
+from wingbeat.cli.terminal import progress_bar
 
 
 def test_short_work_says_nothing(capsys):
@@ -22,8 +22,8 @@ def test_long_work_says_how_far_it_is_each_time_its_duration_doubles(capsys, mon
         lines.append(words)
         said.set()
 
-    monkeypatch.setattr(progress, "FIRST_LINE", 0.05)
-    monkeypatch.setattr(progress, "say", hear)
+    monkeypatch.setattr(terminal, "FIRST_LINE", 0.05)
+    monkeypatch.setattr(terminal, "say", hear)
     with progress_bar("pigeon at 12 m/s") as update:
         assert said.wait(30)
         assert update is not None

@@ -11,8 +11,10 @@ from rich.console import Console
 
 import wingbeat as wb
 from wingbeat.cli import main
-from wingbeat.cli.report import flight_summary, print_flight, print_orbit
+from wingbeat.cli.show import flight_report, flight_summary
+from wingbeat.cli.terminal import print_report
 from wingbeat.records.result_files import save_result
+from wingbeat.words.orbit_words import orbit_report
 
 
 @pytest.fixture(scope="module")
@@ -140,7 +142,7 @@ def test_show_a_flight_that_was_lost(flight, tmp_path, capsys):
 
 def _printed(record, width=80, **options):
     console = Console(width=width, record=True, file=io.StringIO(), **options)
-    print_orbit(record, console)
+    print_report(orbit_report(record), console)
     return console
 
 
@@ -200,7 +202,7 @@ def test_time_to_double(orbit, size, words):
 
 def test_a_flight_can_be_printed_narrow(flight):
     console = Console(width=30, record=True, file=io.StringIO())
-    print_flight(flight_summary(flight.dataset), console)
+    print_report(flight_report(flight_summary(flight.dataset)), console)
     assert max(map(len, console.export_text().splitlines())) <= 30
 
 

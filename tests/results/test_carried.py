@@ -126,7 +126,7 @@ def test_what_no_path_can_be_is_refused():
 
 
 def test_the_command_says_how_much_of_the_weight_is_held(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr("wingbeat.cli.carried.DRAWS", 3)
+    monkeypatch.setattr("wingbeat.cli.filmed.DRAWS", 3)
     pigeon = wb.load_species("pigeon")
     path = BodyPath(float(pigeon.wingbeat.frequency), (10.0, 0.0), SERIES)
     film = body_film(pigeon.wingbeat, path)

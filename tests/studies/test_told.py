@@ -8,8 +8,8 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.study_standin import HANGS
-from wingbeat.cli import progress
-from wingbeat.cli.progress import study_bar
+from wingbeat.cli import terminal
+from wingbeat.cli.terminal import study_bar
 from wingbeat.studies.driver import Tally
 from wingbeat.studies.engine import LocalProcesses
 from wingbeat.studies.units import Outcome
@@ -46,8 +46,8 @@ def test_an_estimate_needs_more_than_first_points(cheap):
 
 def test_outside_a_terminal_a_study_says_how_far_it_is(monkeypatch):
     said = []
-    monkeypatch.setattr(progress, "FIRST_LINE", 0.02)
-    monkeypatch.setattr(progress, "say", said.append)
+    monkeypatch.setattr(terminal, "FIRST_LINE", 0.02)
+    monkeypatch.setattr(terminal, "say", said.append)
     tally = Tally(10, {"waiting": 10})
 
     def wait_for(words):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from wingbeat.cli.endings import end_on_signals
+from wingbeat.cli.process import end_on_signals
 
 TYPE_CHECKING = False  # `typing` takes longer to import than all that must be ready for Ctrl-C
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ def program() -> int:
 
     from wingbeat._workers.tuning import collect_seldom
     from wingbeat.cli.app import main
-    from wingbeat.cli.streams import prepare_streams
+    from wingbeat.cli.process import prepare_streams
 
     prepare_streams()
     collect_seldom()

@@ -9,15 +9,16 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError, UnknownCommandError
 
 from wingbeat._base import WingbeatError, __version__, suggest
-from wingbeat.cli.endings import EXIT_INTERRUPTED
-from wingbeat.cli.memory import memory_shortage
-from wingbeat.cli.streams import StdoutError, drop_stdout
-
-EXIT_GOOD = 0
-EXIT_BAD_INPUT = 2
-EXIT_NOT_CERTIFIED = 3
-EXIT_SYSTEM = 1  # no memory, or no room for the output
-EXIT_BROKEN_PIPE = 141  # 128 + SIGPIPE: the reader, say `head`, had seen enough
+from wingbeat.cli.process import (
+    EXIT_BAD_INPUT,
+    EXIT_BROKEN_PIPE,
+    EXIT_GOOD,
+    EXIT_INTERRUPTED,
+    EXIT_SYSTEM,
+    StdoutError,
+    drop_stdout,
+    memory_shortage,
+)
 
 HELP = """How an animal or a flapping robot must beat its wings to fly.
 

@@ -7,14 +7,14 @@ from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from wingbeat.cli.options import Whole
-from wingbeat.cli.progress import progress_bar
+from wingbeat.cli.arguments import Whole, flag
+from wingbeat.cli.terminal import progress_bar
 
 
 def bench(
     *,
     batch: Annotated[Whole, Parameter(help="Mixed problems in the batch.")] = 1024,
-    json: Annotated[bool, Parameter(negative="", help="Print JSON alone.")] = False,
+    json: Annotated[bool, flag("Print JSON alone.")] = False,
 ) -> None:
     """Measure how fast this machine solves orbits, on one core, in about a minute.
 

@@ -2,36 +2,38 @@
 
 from __future__ import annotations
 
-import json as json_format
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
 from wingbeat._base import FaultList
-from wingbeat.cli.answer import answer
-from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.curve_report import drawn, print_curve
-from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
-from wingbeat.cli.options import (
+from wingbeat.cli.arguments import (
+    Output,
+    Seed,
+    Whole,
+    check_outputs,
+    check_result,
+    figure,
+    flag,
+    parse_range,
+    several,
+)
+from wingbeat.cli.plot import page_of
+from wingbeat.cli.problem_options import (
+    DEFAULT_MODEL,
     SPECIES,
     Climb,
     Limits,
-    Output,
-    Seed,
+    ModelOptions,
     Settings,
     Stable,
-    Whole,
     WithinPlausible,
-    check_files,
-    check_outputs,
-    check_result,
-    with_stability,
+    limits_of,
 )
-from wingbeat.cli.progress import progress_bar
-from wingbeat.cli.ranges import parse_range
-from wingbeat.plots.figure_files import save_figure
+from wingbeat.cli.terminal import deliver, progress_bar
 from wingbeat.results.curve import REFINEMENTS, solve_curve
+from wingbeat.words.curve_words import curve_report
 
 
 def curve(
@@ -39,11 +41,7 @@ def curve(
     *,
     speeds: Annotated[
         list[str],
-        Parameter(
-            consume_multiple=True,
-            negative=(),
-            help="Speeds [m/s]: numbers, or start:stop:step. 0 3:20:1 is hover, and 3 to 20 m/s in steps of 1.",
-        ),
+        several("Speeds [m/s]: numbers, or start:stop:step. 0 3:20:1 is hover, and 3 to 20 m/s in steps of 1."),
     ],
     climb: Climb = 0.0,
     model: ModelOptions = DEFAULT_MODEL,
@@ -64,8 +62,7 @@ def curve(
         ),
     ] = None,
     starts: Annotated[
-        Whole,
-        Parameter(help="Number of starts at the first and last speed; other speeds get a third as many."),
+        Whole, Parameter(help="Number of starts at the first and last speed; other speeds get a third as many.")
     ] = 6,
     refinements: Annotated[
         Whole,
@@ -73,9 +70,9 @@ def curve(
     ] = REFINEMENTS,
     seed: Seed = 0,
     set_: Settings = None,
-    json: Annotated[bool, Parameter(negative="", help="Print the curve as JSON and nothing else.")] = False,
+    json: Annotated[bool, flag("Print the curve as JSON and nothing else.")] = False,
     output: Output = None,
-    plot: Annotated[Path | None, Parameter(help="Draw power and frequency: .png, .pdf or .svg.")] = None,
+    plot: Annotated[Path | None, figure("Draw power and frequency")] = None,
 ) -> int:
     """Find the curves of power and frequency against speed, their branches and their characteristic speeds.
 
@@ -88,27 +85,22 @@ def curve(
     wingbeat curve bat --speeds 0 3:20:1 --minimise positive-power --power-limit 4 -o bat.nc
     """
     faults = FaultList()
-    check_result(faults, output)
-    check_files(faults, output, plot=plot)
+    check_result(faults, output, plot=plot)
     faults.raise_if_any()
     row = sorted(float(speed) for text in speeds for speed in parse_range(text, "--speeds"))
-    problem = model.problem(
-        species,
-        row[-1] if row else 0.0,
-        set_,
-        climb=climb,
-        bounds="plausible" if within_plausible else {},
-        minimise=minimise,
-        subject_to=with_stability(subject_to, stable),
-    )
+    asked = {"climb": climb, "minimise": minimise, "subject_to": limits_of(subject_to, stable)}
+    problem = model.problem(species, row[-1] if row else 0.0, set_, within_plausible=within_plausible, **asked)
     check_outputs(output, plot)
     with progress_bar(f"{problem.species.name} along speed") as progress:
         found = solve_curve(problem, row, starts, seed, power_limit, progress, refinements=refinements)
-    with answer() as given:
-        if json:
-            given.show(lambda: print(json_format.dumps(found.record(), indent=2, allow_nan=False)))
-        else:
-            given.show(lambda: print_curve(found))
-        given.save(output, found.save)
-        given.save(plot, lambda path: save_figure(drawn(found), path))
-    return EXIT_NOT_CERTIFIED if len(found.gaps) == len(row) else EXIT_GOOD
+    record = found.record()
+    return deliver(
+        record,
+        curve_report(record),
+        len(found.gaps) != len(row),
+        json=json,
+        output=output,
+        save=found.save,
+        plot=plot,
+        page=lambda: page_of(found),
+    )

@@ -9,8 +9,9 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from wingbeat._base import FaultList
-from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.options import Whole, check_outputs, unpacking
+from wingbeat.cli.arguments import Whole, check_outputs, written_to
+from wingbeat.cli.problem_options import unpacking
+from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.exports.save import SAMPLES, check_export
 from wingbeat.exports.save import export as write_gait
 from wingbeat.orbits.status import Status
@@ -22,10 +23,9 @@ def export(
     *,
     output: Annotated[
         Path,
-        Parameter(
-            name=["--output", "-o"],
-            help="The file to write: .csv or .mat for the motion and torques of one wing, .c3d for motion capture, "
-            ".xml for MuJoCo.",
+        written_to(
+            "The file to write: .csv or .mat for the motion and torques of one wing, .c3d for motion capture, "
+            ".xml for MuJoCo."
         ),
     ],
     samples: Annotated[Whole, Parameter(help="Number of equal phases of the beat.")] = SAMPLES,

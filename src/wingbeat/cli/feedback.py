@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-import json as json_format
+import functools
 import math
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
 from wingbeat._base import FaultList, Line, heading
-from wingbeat.aero.winds import Wind
-from wingbeat.cli.answer import answer
-from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.options import Whole, check_files, check_outputs, named_numbers, unpacking
-from wingbeat.cli.printing import print_report
-from wingbeat.cli.progress import progress_bar
-from wingbeat.cli.streams import plain_console
-from wingbeat.cli.winds import Gust, Turbulence, WindSeed, wind_of
-from wingbeat.plots import gust_page, save_figure
-from wingbeat.results.orbit import load_orbit
+from wingbeat.cli.arguments import Whole, check_files, check_outputs, figure, flag, named_numbers, several
+from wingbeat.cli.problem_options import Gust, Turbulence, WindSeed, saved_orbit, wind_of
+from wingbeat.cli.terminal import deliver, plain_console, print_report, progress_bar
+from wingbeat.plots import gust_page
 from wingbeat.stability.feedback import Feedback
 from wingbeat.stability.feedback import feedback as compute
 from wingbeat.stability.feedback_checks import check_delay, check_late, check_noise
@@ -44,11 +37,9 @@ def feedback(
     *,
     inputs: Annotated[
         list[str] | None,
-        Parameter(
-            consume_multiple=True,
-            negative=(),
-            help="Parameters of the wingbeat that change from beat to beat: frequency pitch_mean ... Default: "
-            "the free parameters whose jumps harmonics can undo.",
+        several(
+            "Parameters of the wingbeat that change from beat to beat: frequency pitch_mean ... Default: "
+            "the free parameters whose jumps harmonics can undo."
         ),
     ] = None,
     delay: Annotated[Whole, Parameter(help="Beats between a measurement and the beat that it changes.")] = 0,
@@ -64,16 +55,12 @@ def feedback(
     beats: Annotated[Whole, Parameter(help="Number of wingbeats of each flight.")] = 30,
     noise: Annotated[
         list[str] | None,
-        Parameter(
-            consume_multiple=True,
-            negative=(),
-            help="Standard deviations of the sensors: z=0.02 body_pitch=0.01 u=0.1 ... [m, rad, m/s, rad/s].",
-        ),
+        several("Standard deviations of the sensors: z=0.02 body_pitch=0.01 u=0.1 ... [m, rad, m/s, rad/s]."),
     ] = None,
     survey: Annotated[Whole, Parameter(help="Number of random gusts of up to 5 m/s to survey; 0 for none.")] = 0,
     seed: Annotated[Whole, Parameter(help="Seed of the noise and of the surveyed gusts.")] = 0,
-    json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
-    plot: Annotated[Path | None, Parameter(help="Draw flights and survey: .png, .pdf or .svg.")] = None,
+    json: Annotated[bool, flag("Print the numbers as JSON and nothing else.")] = False,
+    plot: Annotated[Path | None, figure("Draw flights and survey")] = None,
 ) -> int:
     """Compute the feedback that holds a saved orbit from beat to beat, and fly it through a gust.
 
@@ -109,52 +96,32 @@ def feedback(
         check_inputs(faults, inputs)
     faults.raise_if_any()
     check_outputs(plot)
-    orbit = load_orbit(source)
-    with unpacking(source):
-        _ = orbit.problem  # set up here, where a file that lacks something is a fault of the file
-    given = gust if gust is not None or turbulence is not None else _GUST
+    orbit = saved_orbit(source)
     airspeed = math.hypot(float(orbit.inputs["speed"]), float(orbit.inputs["climb"]))
-    wind = wind_of(given, turbulence, wind_seed, airspeed)
+    blown = gust if gust is not None or turbulence is not None else _GUST
+    wind = wind_of(blown, turbulence, wind_seed, airspeed)
     assert wind is not None
     with progress_bar(f"{orbit.inputs['species']['name']}, feedback and flights"):
         held = compute(orbit, inputs, delay=delay)
-        flights = _fly(held, wind, beats, late, errors, seed)
-        surveyed = None
-        if survey:
-            surveyed = survey_gusts(
-                orbit, {FREE: None, HELD: held}, survey, beats=beats, late=late, noise=errors, seed=seed
-            )
+        asked: dict[str, Any] = {"beats": beats, "late": late, "noise": errors, "seed": seed}
+        flights = {FREE: fly_gust(orbit, wind, beats), HELD: fly_gust(orbit, wind, feedback=held, **asked)}
+        surveyed = survey_gusts(orbit, {FREE: None, HELD: held}, survey, **asked) if survey else None
     delayed = f", feedback {beats_of(delay + late)} late" if delay + late else ""
     title = f"{heading(str(orbit.inputs['species']['name']))} at {orbit.inputs['speed']:g} m/s{delayed}"
-    with answer() as told:
-        if json:
-            record = held.record() | {"late": late, "beats": beats}
-            record["flights"] = {name: one.record() for name, one in flights.items()}
-            record["survey"] = None if surveyed is None else surveyed.record()
-            told.show(lambda: print(json_format.dumps(record, indent=2, allow_nan=False)))
-        else:
-            told.show(lambda: _print(held, flights, late, surveyed))
-        told.save(plot, lambda path: save_figure(gust_page(flights, surveyed, title), path))
-    return EXIT_GOOD if flights[HELD].survived else EXIT_NOT_CERTIFIED
-
-
-def _fly(
-    held: Feedback, wind: Wind, beats: int, late: int, noise: Mapping[str, float], seed: int
-) -> dict[str, GustFlight]:
-    orbit = held.flight.orbit
-    return {
-        FREE: fly_gust(orbit, wind, beats),
-        HELD: fly_gust(orbit, wind, beats, feedback=held, late=late, noise=noise, seed=seed),
-    }
+    record = held.record() | {"late": late, "beats": beats}
+    record["flights"] = {name: one.record() for name, one in flights.items()}
+    record["survey"] = None if surveyed is None else surveyed.record()
+    page = functools.partial(gust_page, flights, surveyed, title)
+    report = functools.partial(_print, held, flights, late, surveyed)
+    return deliver(record, report, flights[HELD].survived, json=json, plot=plot, page=page)
 
 
 def _print(held: Feedback, flights: dict[str, GustFlight], late: int, survey: GustSurvey | None) -> None:
     console = plain_console()
     print_report([*feedback_report(held.record()), Line("")], console)
     for name, one in flights.items():
-        console.print(
-            _outcome(name if name == FREE or not late else f"{name}, {beats_of(late)} late", one), soft_wrap=True
-        )
+        called = name if name == FREE or not late else f"{name}, {beats_of(late)} late"
+        console.print(_outcome(called, one), soft_wrap=True)
     if not flights[HELD].survived:
         console.print(_ADVICE, markup=False, soft_wrap=True)
     if survey is not None:

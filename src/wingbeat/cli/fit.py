@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json as json_format
 import math
 import sys
 from pathlib import Path
@@ -12,11 +11,12 @@ from cyclopts import Parameter
 
 from wingbeat._base import FaultList, written_range
 from wingbeat.aero.coefficient_model import check_aspect_ratio
-from wingbeat.cli.answer import answer
-from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.options import check_files, check_outputs
-from wingbeat.experiment import WingFit, fit_wing, load_measurements
-from wingbeat.plots import fit_page, save_figure
+from wingbeat.cli.arguments import check_files, check_outputs, figure, flag, written_to
+from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.terminal import answer
+from wingbeat.experiment.table import load_measurements
+from wingbeat.experiment.wing_fit import WingFit, fit_wing
+from wingbeat.plots import fit_page
 
 
 def fit(
@@ -24,8 +24,8 @@ def fit(
     /,
     *,
     form: Annotated[str, Parameter(help="Curves to fit: su-fan, dickinson, sine-cosine or cambered.")] = "su-fan",
-    output: Annotated[Path | None, Parameter(name=["--output", "-o"], help="The model file: .toml.")] = None,
-    plot: Annotated[Path | None, Parameter(help="Draw data, fit and bands: .png, .pdf or .svg.")] = None,
+    output: Annotated[Path | None, written_to("The model file: .toml.")] = None,
+    plot: Annotated[Path | None, figure("Draw data, fit and bands")] = None,
     name: Annotated[str, Parameter(help="Name of the model; default: the name of the output file.")] = "",
     citation: Annotated[str, Parameter(help="Where the measurements come from, kept in the model file.")] = "",
     aspect_ratio: Annotated[
@@ -38,7 +38,7 @@ def fit(
         tuple[float, float] | None,
         Parameter(help="Use only rows from one Reynolds number to another: LOW HIGH; needs a column reynolds."),
     ] = None,
-    json: Annotated[bool, Parameter(negative="", help="Print one JSON object.")] = False,
+    json: Annotated[bool, flag("Print one JSON object.")] = False,
 ) -> int:
     """Fit lift, drag and centre of pressure, and print every parameter with its 95 % interval.
 
@@ -75,10 +75,7 @@ def fit(
     called = name or (output.stem if output is not None else coefficients.stem)
     found = fit_wing(table, form, called, citation or f"fitted to {coefficients.name}", aspect_ratio)
     with answer() as given:
-        if json:
-            given.show(lambda: print(json_format.dumps(_summary(found), indent=2, allow_nan=False)))
-        else:
-            given.show(lambda: _print_table(found))
+        given.tell(_summary(found), lambda: _print_table(found), json)
         for note in _only_notes(found):
             print(f"note: {note}", file=sys.stderr)
         for kind, said in (("warning", found.warnings), ("error: the fit failed", found.failures)):
@@ -88,7 +85,7 @@ def fit(
             given.save(output, found.save, named=True)
         elif output is not None:
             print(f"{output} was not written", file=sys.stderr)
-        given.save(plot, lambda path: save_figure(fit_page(found), path), named=True)
+        given.draw(plot, lambda: fit_page(found), named=True)
     return EXIT_NOT_CERTIFIED if found.failures else EXIT_GOOD
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json as json_format
 import math
 from pathlib import Path
 from typing import Annotated
@@ -11,22 +10,11 @@ import numpy as np
 from cyclopts import Parameter
 
 from wingbeat._base import NOMENCLATURE, FaultList, for_people
-from wingbeat.cli.answer import answer
-from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
-from wingbeat.cli.options import (
-    SPECIES,
-    Output,
-    Payload,
-    Settings,
-    check_files,
-    check_outputs,
-    check_result,
-)
-from wingbeat.cli.ranges import parse_range
-from wingbeat.cli.streams import plain_console
+from wingbeat.cli.arguments import Output, check_outputs, check_result, figure, flag, parse_range
+from wingbeat.cli.problem_options import DEFAULT_MODEL, SPECIES, ModelOptions, Payload, Settings
+from wingbeat.cli.terminal import deliver, plain_console
 from wingbeat.mechanics.glide import Glide
-from wingbeat.plots import glide_page, save_figure
+from wingbeat.plots import glide_page
 from wingbeat.results.glide import GlidePolar, glide_polar
 
 # The head of each column, and what of a glide stands in it.
@@ -46,15 +34,14 @@ def glide(
     alpha: Annotated[str, Parameter(help="Angles of attack at the wing's root [deg], start:stop:step.")] = "1:30:1",
     flap_deg: Annotated[float, Parameter(help="Flap angle at which the wings are held, up positive [deg].")] = 0.0,
     trim: Annotated[
-        str,
-        Parameter(help="What turns to trim the pitching moment: body-pitch, flap or (if there is one) tail."),
+        str, Parameter(help="What turns to trim the pitching moment: body-pitch, flap or (if there is one) tail.")
     ] = "body-pitch",
     model: ModelOptions = DEFAULT_MODEL,
     set_: Settings = None,
     payload: Payload = 0.0,
-    json: Annotated[bool, Parameter(negative="", help="Print the polar as JSON and nothing else.")] = False,
+    json: Annotated[bool, flag("Print the polar as JSON and nothing else.")] = False,
     output: Output = None,
-    plot: Annotated[Path | None, Parameter(help="Draw the polar: .png, .pdf or .svg.")] = None,
+    plot: Annotated[Path | None, figure("Draw the polar")] = None,
 ) -> int:
     """Find the steady glides of an animal with its wings held still, and the slowest sink and flattest path.
 
@@ -64,8 +51,7 @@ def glide(
     Examples: wingbeat glide pigeon --plot glide.png; wingbeat glide pigeon --trim flap --payload 0.03
     """
     faults = FaultList()
-    check_result(faults, output)
-    check_files(faults, output, plot=plot)
+    check_result(faults, output, plot=plot)
     faults.raise_if_any()
     angles = parse_range(alpha, "--alpha")
     if not 0 < angles[0] <= angles[-1] <= 90 or (np.diff(angles) < 0).any():
@@ -77,14 +63,16 @@ def glide(
     loads = whole.gliding if model.aero is None else whole.aero
     check_outputs(output, plot)
     polar = glide_polar(animal, loads, np.radians(angles), math.radians(flap_deg), trim)
-    with answer() as given:
-        if json:
-            given.show(lambda: print(json_format.dumps(polar.record(), indent=2, allow_nan=False)))
-        else:
-            given.show(lambda: _print(polar))
-        given.save(output, polar.save)
-        given.save(plot, lambda path: save_figure(glide_page(polar.dataset), path))
-    return EXIT_GOOD if any(math.isfinite(one.speed) for one in polar.glides) else EXIT_NOT_CERTIFIED
+    return deliver(
+        polar.record(),
+        lambda: _print(polar),
+        any(math.isfinite(one.speed) for one in polar.glides),
+        json=json,
+        output=output,
+        save=polar.save,
+        plot=plot,
+        page=lambda: glide_page(polar.dataset),
+    )
 
 
 def _print(polar: GlidePolar) -> None:

@@ -2,26 +2,18 @@
 
 from __future__ import annotations
 
-import json as json_format
 from pathlib import Path
 from typing import Annotated
 
 from cyclopts import Parameter
 
-from wingbeat._base import Fault, FaultList, InvalidInputError
-from wingbeat.cli.answer import answer
-from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
-from wingbeat.cli.options import Climb, Seed, Settings, Whole, check_files, check_outputs, unpacking
-from wingbeat.cli.printing import print_report
-from wingbeat.cli.progress import progress_bar
-from wingbeat.cli.streams import plain_console
-from wingbeat.cli.winds import Gust, wind_of
-from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat._base import FaultList
+from wingbeat.cli.arguments import Seed, Whole, check_files, check_outputs, figure, flag, several
+from wingbeat.cli.problem_options import DEFAULT_MODEL, Climb, Gust, ModelOptions, Settings, saved_orbit, wind_of
+from wingbeat.cli.terminal import deliver, plain_console, print_report, progress_bar
 from wingbeat.orbits.status import Status
-from wingbeat.plots import manoeuvre_page, save_figure
 from wingbeat.results.flight import Flight
-from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit
+from wingbeat.results.orbit import solve_orbit
 from wingbeat.stability.manoeuvre import Manoeuvre, check_manoeuvre
 from wingbeat.stability.manoeuvre import manoeuvre as find
 from wingbeat.stability.manoeuvre_report import manoeuvre_report
@@ -33,10 +25,7 @@ def manoeuvre(
     speed: Annotated[
         float | None, Parameter(help="Mean forward speed at the start [m/s]; 0 is hover. Not with a saved orbit.")
     ] = None,
-    to: Annotated[
-        list[float],
-        Parameter(consume_multiple=True, negative=(), help="Speeds to reach, one after the other [m/s]: 16 6 ..."),
-    ],
+    to: Annotated[list[float], several("Speeds to reach, one after the other [m/s]: 16 6 ...")],
     beats: Annotated[
         Whole | None,
         Parameter(help="Number of beats to each speed. Default: for a mean acceleration of 1 m/s2, or more."),
@@ -48,8 +37,8 @@ def manoeuvre(
     seed: Seed = 0,
     set_: Settings = None,
     gust: Gust = None,
-    json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
-    plot: Annotated[Path | None, Parameter(help="Draw the flight: .png, .pdf or .svg.")] = None,
+    json: Annotated[bool, flag("Print the numbers as JSON and nothing else.")] = False,
+    plot: Annotated[Path | None, figure("Draw the flight")] = None,
 ) -> int:
     """Find the beats that lead from an orbit to steady flights at other speeds, and fly them.
 
@@ -72,15 +61,18 @@ def manoeuvre(
             fix = "give only --to, --beats, --delay, --gust, --json and --plot with it"
             faults.add("SPECIES", species, "is a saved orbit, which has its speed, model and settings", fix)
             faults.raise_if_any()
-        orbit = load_orbit(Path(species))
-        with unpacking(Path(species)):
-            _ = orbit.problem  # set up here, where a file that lacks something is a fault of the file
+        orbit = saved_orbit(Path(species))
     else:
         if speed is None:
             faults.add("--speed", speed, "is missing", "give the speed at the start in m/s, or a saved orbit")
             faults.raise_if_any()
         problem = model.problem(species, float(speed or 0.0), set_, climb=climb)
-        orbit = _solved(problem, starts, seed)
+        with progress_bar(f"{problem.species.name}, first orbit") as progress:
+            orbit = solve_orbit(problem, starts, seed, progress)
+        if orbit.status is not Status.CONVERGED:
+            rule = f"has no certified orbit: {orbit.message}"
+            faults.add("--speed", problem.speed, rule, "start at another speed")
+            faults.raise_if_any()
     with progress_bar(f"{orbit.inputs['species']['name']}, beats") as progress:
         plan = find(orbit, to, beats=beats, delay=delay, progress=progress)
     flights: dict[str, Flight] = {}
@@ -88,26 +80,9 @@ def manoeuvre(
         flights["with feedback"] = plan.fly(wind)
         if gust is not None:
             flights["without feedback"] = plan.fly(wind, feedback=False)
-    with answer() as given:
-        if json:
-            given.show(lambda: print(json_format.dumps(plan.record(), indent=2, allow_nan=False)))
-        else:
-            given.show(lambda: _print(plan, flights))
-        if flights:
-            given.save(plot, lambda path: save_figure(manoeuvre_page(plan, flights), path))
-    return EXIT_GOOD if plan.status is Status.CONVERGED else EXIT_NOT_CERTIFIED
-
-
-def _solved(problem: OrbitProblem, starts: int | None, seed: int) -> Orbit:
-    """Return the certified orbit at the start."""
-    with progress_bar(f"{problem.species.name}, first orbit") as progress:
-        orbit = solve_orbit(problem, starts, seed, progress)
-    if orbit.status is not Status.CONVERGED:
-        fault = Fault(
-            "--speed", problem.speed, f"has no certified orbit: {orbit.message}", "start at another speed"
-        )
-        raise InvalidInputError([fault])
-    return orbit
+    page = (lambda: plan.plot(flights)) if flights else None
+    certified = plan.status is Status.CONVERGED
+    return deliver(plan.record(), lambda: _print(plan, flights), certified, json=json, plot=plot, page=page)
 
 
 def _print(plan: Manoeuvre, flights: dict[str, Flight]) -> None:

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-import json as json_format
 import math
 from pathlib import Path
 from typing import Annotated, Any
 
 from cyclopts import Parameter
-from rich.console import Console
 
 from wingbeat._base import FaultList, Line
 from wingbeat.animal.species.record import Species
-from wingbeat.cli.answer import answer
-from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.arguments import (
+    Output,
+    Seed,
+    Whole,
+    check_outputs,
+    check_result,
+    figure,
+    flag,
+    given_beside,
+    several,
+)
 from wingbeat.cli.filmed import (
     DRAWS,
     Kinematics,
@@ -25,37 +32,31 @@ from wingbeat.cli.filmed import (
     spread_lines,
     spread_record,
 )
-from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
-from wingbeat.cli.options import (
+from wingbeat.cli.problem_options import (
+    DEFAULT_MODEL,
     SPECIES,
+    SPEED,
     Climb,
-    Output,
+    ModelOptions,
     Payload,
-    Seed,
     Settings,
     Stable,
-    Whole,
     WingsMayCross,
     WithinPlausible,
-    check_files,
-    check_outputs,
-    check_result,
-    given_beside,
+    limits_of,
     unpacking,
-    with_stability,
 )
-from wingbeat.cli.printing import print_report
-from wingbeat.cli.progress import progress_bar
-from wingbeat.cli.report import print_orbit
-from wingbeat.experiment import FilmedBeat
+from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.terminal import answer, print_json, print_report, progress_bar
 from wingbeat.orbits.problem.filmed import filmed_problem
-from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.limits import WingbeatLimit
 from wingbeat.orbits.status import Status
 from wingbeat.records.numbers import power_account
-from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit
-from wingbeat.results.sensitivities import Sensitivities, influence_report
+from wingbeat.results.orbit import load_orbit, solve_orbit
+from wingbeat.results.sensitivities import influence_report
 from wingbeat.results.sensitivities import sensitivities as differentiate
-from wingbeat.results.spread import Spread, orbit_spread
+from wingbeat.results.spread import orbit_spread
+from wingbeat.words.orbit_words import orbit_report
 
 _BESIDE_FROM = ("from_", "power", "json", "output", "plot", "sensitivities", "tornado")
 
@@ -63,7 +64,7 @@ _BESIDE_FROM = ("from_", "power", "json", "output", "plot", "sensitivities", "to
 def orbit(
     species: Annotated[str | None, SPECIES] = None,
     *,
-    speed: Annotated[float | None, Parameter(help="Mean forward speed [m/s]; 0 is hover.")] = None,
+    speed: Annotated[float | None, SPEED] = None,
     climb: Climb = 0.0,
     model: ModelOptions = DEFAULT_MODEL,
     flap_amplitude_max: Annotated[
@@ -79,12 +80,7 @@ def orbit(
         ),
     ] = None,
     subject_to: Annotated[
-        list[str] | None,
-        Parameter(
-            consume_multiple=True,
-            negative=(),
-            help="Limits: 'peak_power<=30' 'body_pitch_range<=10 deg' ...",
-        ),
+        list[str] | None, several("Limits: 'peak_power<=30' 'body_pitch_range<=10 deg' ...")
     ] = None,
     stable: Stable = False,
     starts: Annotated[
@@ -104,20 +100,15 @@ def orbit(
         Path | None, Parameter(name="--from", help="Solve the problem in this file again, from its inputs alone.")
     ] = None,
     power: Annotated[
-        bool,
-        Parameter(
-            negative="", help="Print the parts of the power, the cost of negative work, and what a spring saves."
-        ),
+        bool, flag("Print the parts of the power, the cost of negative work, and what a spring saves.")
     ] = False,
-    json: Annotated[bool, Parameter(negative="", help="Print the record as JSON and nothing else.")] = False,
+    json: Annotated[bool, flag("Print the record as JSON and nothing else.")] = False,
     output: Output = None,
-    plot: Annotated[Path | None, Parameter(help="Draw one page: .png, .pdf or .svg.")] = None,
+    plot: Annotated[Path | None, figure("Draw one page")] = None,
     sensitivities: Annotated[
-        bool, Parameter(negative="", help="Print what the result depends on most, and the prices of bounds.")
+        bool, flag("Print what the result depends on most, and the prices of bounds.")
     ] = False,
-    tornado: Annotated[
-        Path | None, Parameter(help="Draw how far each plausible range moves the result: .png, .pdf or .svg.")
-    ] = None,
+    tornado: Annotated[Path | None, figure("Draw how far each plausible range moves the result")] = None,
 ) -> int:
     """Find and certify the wingbeat of minimum frequency, or power, that flies at a speed.
 
@@ -132,8 +123,7 @@ def orbit(
     """
     beside = given_beside(orbit, locals(), *_BESIDE_FROM)
     faults = FaultList()
-    check_result(faults, output)
-    check_files(faults, output, plot=plot, tornado=tornado)
+    check_result(faults, output, plot=plot, tornado=tornado)
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
     check_side(faults, side, kinematics)
@@ -158,9 +148,9 @@ def orbit(
         assert species is not None
         assert speed is not None
         animal, whole = model.flown(species, set_, payload)
-        bounds, limits = _amplitude_bounds(animal, flap_amplitude_max), with_stability(subject_to, stable)
-        if within_plausible and bounds:
-            limits.append(f"flap_amplitude<={flap_amplitude_max!r} deg")
+        bounds, limits = _amplitude_bounds(animal, flap_amplitude_max), limits_of(subject_to, stable)
+        if within_plausible:  # which takes the place of other bounds
+            limits += [WingbeatLimit(name, "<=", most) for name, (_, most) in bounds.items()]
         asked: dict[str, Any] = {"climb": climb, "subject_to": limits}
         asked["bounds"] = "plausible" if within_plausible else bounds
         if wings_may_cross:
@@ -173,31 +163,37 @@ def orbit(
             beat = filmed_beat(kinematics, side)
             problem = filmed_problem(beat, animal, speed, aero=whole.aero, **asked)
     fit = model.fit()
-    found = _solve(problem, starts, seed)
+    with progress_bar(f"{problem.species.name} at {problem.speed:g} m/s") as progress:
+        found = solve_orbit(problem, starts, seed, progress)
     record, certified = found.record(), found.status is Status.CONVERGED
     if power:
         record["power_account"] = power_account(found.dataset)
     with answer() as given:
         if not json:  # before sensitivities and error bars, which may take minutes
-            given.show(lambda: print_orbit(record, Console()))
-        influence = differentiate(found) if certified and (sensitivities or tornado) else None
-        bars = [] if influence is None else [influence.error_bar(name, fit) for name in influence.values]
-        spread = _spread(found, beat) if beat is not None and certified else None
-        if not json:
-            if influence and sensitivities:
-                given.show(lambda: print_report([Line(""), *influence_report(influence, bars)], Console()))
-            for line in [*(film_lines(beat) if beat else []), *(spread_lines(spread, found) if spread else [])]:
-                given.show(lambda line=line: print(line))
-        else:
-            if influence and sensitivities:
+            given.show(lambda: print_report(orbit_report(record)))
+        if certified and (sensitivities or tornado):
+            influence = differentiate(found)
+            bars = [influence.error_bar(name, fit) for name in influence.values]
+            if sensitivities:
                 record |= {"sensitivities": influence.table(), "rankings": [bar.ranked() for bar in bars]}
-            if beat is not None:
-                record["kinematics"] = film_record(beat) | (spread_record(spread) if spread else {})
-            given.show(lambda: print(json_format.dumps(record, indent=2, allow_nan=False)))
+                if not json:
+                    given.show(lambda: print_report([Line(""), *influence_report(influence, bars)]))
+        else:
+            influence = None
+        if beat is not None:
+            record["kinematics"], lines = film_record(beat), film_lines(beat)
+            if certified:
+                with progress_bar("error bars") as progress:
+                    spread = orbit_spread(found, beat.draws(found.problem.species.wingbeat, DRAWS), progress)
+                record["kinematics"] |= spread_record(spread)
+                lines += spread_lines(spread, found)
+            for line in [] if json else lines:
+                given.show(lambda line=line: print(line))
+        if json:
+            given.show(lambda: print_json(record))
         given.save(output, found.save)
-        given.save(plot, lambda path: _draw(found, path))
-        if influence:
-            given.save(tornado, lambda path: _draw_influence(influence, path))
+        given.draw(plot, found.plot)
+        given.draw(tornado, None if influence is None else influence.plot)
     return EXIT_GOOD if certified else EXIT_NOT_CERTIFIED
 
 
@@ -212,28 +208,3 @@ def _amplitude_bounds(animal: Species, most_deg: float | None) -> dict[str, tupl
     faults.number("--flap-amplitude-max", most_deg, above=lowest, below=180, unit="degrees", fix=fix)
     faults.raise_if_any()
     return {"flap_amplitude": (least, math.radians(most_deg))}
-
-
-def _draw(found: Orbit, path: Path) -> None:
-    """Draw the page of an orbit."""
-    from wingbeat.plots import save_figure, wingbeat_page
-
-    save_figure(wingbeat_page(found.dataset), path)
-
-
-def _draw_influence(influence: Sensitivities, path: Path) -> None:
-    """Draw the effects of an orbit's uncertain parameters."""
-    from wingbeat.plots import save_figure, tornado_page
-
-    save_figure(tornado_page(influence), path)
-
-
-def _spread(found: Orbit, beat: FilmedBeat) -> Spread:
-    """Return the spread of orbits whose wingbeats are random draws of the film, for error bars."""
-    with progress_bar("error bars") as progress:
-        return orbit_spread(found, beat.draws(found.problem.species.wingbeat, DRAWS), progress)
-
-
-def _solve(problem: OrbitProblem, starts: int | None, seed: int) -> Orbit:
-    with progress_bar(f"{problem.species.name} at {problem.speed:g} m/s") as progress:
-        return solve_orbit(problem, starts, seed, progress)

@@ -4,23 +4,28 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
 from wingbeat._base import KIND, FaultList
-from wingbeat.cli.curve_report import drawn
-from wingbeat.cli.options import check_outputs
+from wingbeat.animal.vehicle import Air
+from wingbeat.cli.arguments import check_outputs, flag, written_to
 from wingbeat.plots import check_figure_name, power_page, save_figure, wingbeat_page
+from wingbeat.plots.published import published_for
+from wingbeat.records.inputs import vehicle_from
 from wingbeat.records.result_files import load_dataset
 from wingbeat.results.curve import Curve
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def plot(
     file: Annotated[Path, Parameter(help="A file written by `orbit -o`, `simulate -o` or `curve -o`.")],
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The page: .png, .pdf or .svg.")],
-    power: Annotated[bool, Parameter(negative="", help="Draw the parts of an orbit's power.")] = False,
+    output: Annotated[Path, written_to("The page: .png, .pdf or .svg.")],
+    power: Annotated[bool, flag("Draw the parts of an orbit's power.")] = False,
 ) -> None:
     """Draw one page: wing motion, body pitch, power, phase portraits, angles of attack and forces.
 
@@ -36,6 +41,14 @@ def plot(
     if power:
         page = power_page(dataset)
     else:
-        page = drawn(Curve(dataset)) if dataset.attrs[KIND] == "curve" else wingbeat_page(dataset)
+        page = page_of(Curve(dataset)) if dataset.attrs[KIND] == "curve" else wingbeat_page(dataset)
     save_figure(page, output)
     print(f"wrote {output}", file=sys.stderr)
+
+
+def page_of(curve: Curve) -> Figure:
+    """Return the page of a curve, with published measurements of the animal, if there are any."""
+    record, speed = curve.record(), curve.dataset["speed"].values
+    vehicle = vehicle_from(record["vehicle"])
+    beside = published_for(record["species"], vehicle, Air(**record["air"]), float(speed[0]), float(speed[-1]))
+    return curve.plot(beside)

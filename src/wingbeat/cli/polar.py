@@ -16,11 +16,10 @@ from numpy.typing import NDArray
 from wingbeat._base import FaultList, InvalidInputError
 from wingbeat._base.style import BLUE, ORANGE, PAGE, drawing, legend_below, new_figure
 from wingbeat.aero import CoefficientModel, load_coefficients, thin_aerofoil_lift, thin_aerofoil_moment
-from wingbeat.cli.answer import answer
-from wingbeat.cli.model_options import say_notes
-from wingbeat.cli.options import check_outputs
-from wingbeat.cli.ranges import parse_range
-from wingbeat.plots import check_figure_name, save_figure
+from wingbeat.cli.arguments import check_outputs, flag, parse_range, written_to
+from wingbeat.cli.problem_options import say_notes
+from wingbeat.cli.terminal import answer
+from wingbeat.plots import check_figure_name
 
 Columns = dict[str, list[float] | list[None]]
 
@@ -31,17 +30,14 @@ def polar(
     alpha: Annotated[str, Parameter(help="Angles of attack [deg], start:stop:step, or one angle.")] = "-30:110:2",
     about: Annotated[float, Parameter(help="Axis of C_M, in chords from the leading edge.")] = 0.5,
     extension: Annotated[
-        str,
-        Parameter(help="Extension to angles outside the fit: mirrored, signed-drag, signed, clipped-drag."),
+        str, Parameter(help="Extension to angles outside the fit: mirrored, signed-drag, signed, clipped-drag.")
     ] = "mirrored",
     blend_width_deg: Annotated[
         float, Parameter(help="Half width [deg] of the blends at 0, 90 and 180 degrees: above 0, at most 3.")
     ] = 1.0,
-    csv: Annotated[bool, Parameter(negative="", help="Print CSV.")] = False,
-    json: Annotated[bool, Parameter(negative="", help="Print one JSON object of lists.")] = False,
-    output: Annotated[
-        Path | None, Parameter(name=["--output", "-o"], help="Draw a figure: .png, .pdf or .svg.")
-    ] = None,
+    csv: Annotated[bool, flag("Print CSV.")] = False,
+    json: Annotated[bool, flag("Print one JSON object of lists.")] = False,
+    output: Annotated[Path | None, written_to("Draw a figure: .png, .pdf or .svg.")] = None,
 ) -> None:
     """Print or draw lift, drag, moment and centre of pressure of a coefficient model.
 
@@ -73,7 +69,7 @@ def polar(
             given.show(lambda: _print_csv(columns))
         elif output is None:
             given.show(lambda: _print_table(coefficients, columns, about))
-        given.save(output, lambda path: save_figure(_figure(coefficients, angles, about), path), named=True)
+        given.draw(output, lambda: _figure(coefficients, angles, about), named=True)
 
 
 def _print_csv(columns: Columns) -> None:
@@ -143,9 +139,9 @@ def _figure(model: CoefficientModel, angles_deg: NDArray[np.float64], about: flo
         theory_label += r", $C_M = \frac{\pi}{2}\alpha$"
     low, high = model.alpha_range_deg
     rows = len(labels) // 2
-    figure = new_figure(PAGE, 20.0 + 65.0 * rows)
-    figure.suptitle(_title(model), fontsize=8)
-    for axes, (name, label) in zip(figure.subplots(rows, 2, sharex=True).flat, labels.items(), strict=True):
+    page = new_figure(PAGE, 20.0 + 65.0 * rows)
+    page.suptitle(_title(model), fontsize=8)
+    for axes, (name, label) in zip(page.subplots(rows, 2, sharex=True).flat, labels.items(), strict=True):
         axes.plot(fine, columns[name], color=BLUE, marker="o" if len(fine) == 1 else None, label=model.name)
         # Set the limits before the lines of theory are drawn, because these lines would leave the page.
         axes.set(ylabel=label, ylim=axes.get_ylim(), xlim=axes.get_xlim())
@@ -158,5 +154,5 @@ def _figure(model: CoefficientModel, angles_deg: NDArray[np.float64], about: flo
         axes.xaxis.set_major_locator(MaxNLocator(nbins=9, steps=[1, 2, 3, 4.5, 5, 6, 9, 10]))
         if axes.get_subplotspec().is_last_row():
             axes.set_xlabel(r"angle of attack $\alpha$ [deg]")
-    legend_below(figure, figure.axes, columns=3)
-    return figure
+    legend_below(page, page.axes, columns=3)
+    return page

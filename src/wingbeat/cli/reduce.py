@@ -9,8 +9,9 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from wingbeat._base import FaultList, FileError, InvalidInputError
-from wingbeat.cli.options import check_outputs
-from wingbeat.experiment import LoadCellRun, read_run, reduce_runs
+from wingbeat.cli.arguments import check_outputs, written_to
+from wingbeat.experiment.load_cell_run import LoadCellRun, read_run
+from wingbeat.experiment.reduction import reduce_runs
 
 MAX_NOTES = 10
 
@@ -19,7 +20,7 @@ def reduce(
     runs: Annotated[list[Path], Parameter(help="CSV files, one per run; each run is at one angle.", negative=())],
     /,
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"], help="The table of coefficients: .csv.")],
+    output: Annotated[Path, written_to("The table of coefficients: .csv.")],
     last: Annotated[
         float,
         Parameter(help="Length of the steady part at the end of each record [s]; only this part is averaged."),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json as json_format
+import functools
 import math
 import sys
 from pathlib import Path
@@ -10,43 +10,41 @@ from typing import Annotated, Any
 
 import numpy as np
 from cyclopts import Parameter
-from rich.console import Console
 from rich.table import Table
 
 from wingbeat._base import FaultList
 from wingbeat.aero.winds import Wind
-from wingbeat.animal.kinematics import Wingbeat
-from wingbeat.cli.answer import answer
-from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.carried import carried, report_carried
+from wingbeat.cli.arguments import Output, Whole, check_outputs, check_result, figure, flag, given_beside
 from wingbeat.cli.filmed import (
     DRAWS,
     Kinematics,
     Side,
+    carried,
     check_side,
     film_lines,
     film_record,
     filmed_beat,
     plus_minus,
+    print_carried,
 )
-from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
-from wingbeat.cli.options import (
+from wingbeat.cli.problem_options import (
+    DEFAULT_MODEL,
     SPECIES,
-    Output,
+    Gust,
+    ModelOptions,
     Settings,
-    Whole,
-    check_files,
-    check_outputs,
-    check_result,
-    given_beside,
+    Turbulence,
+    WindSeed,
     unpacking,
+    wind_of,
 )
-from wingbeat.cli.winds import Gust, Turbulence, WindSeed, wind_of
-from wingbeat.experiment import FilmedBeat
+from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.terminal import answer, plain_console
+from wingbeat.experiment.film_fit import FilmedBeat
 from wingbeat.mechanics.beat_by_beat import check_samples
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.orbits.problem.filmed import filmed_species
-from wingbeat.plots import film_page, save_figure
+from wingbeat.plots import film_page
 from wingbeat.records.numbers import beat_mean
 from wingbeat.records.orbit_record import crossing
 from wingbeat.results.flight import Flight
@@ -72,9 +70,7 @@ def simulate(
     set_: Settings = None,
     kinematics: Kinematics = None,
     side: Side = None,
-    plot_kinematics: Annotated[
-        Path | None, Parameter(help="Draw the film, the fitted spline and its 95 % band: .png, .pdf or .svg.")
-    ] = None,
+    plot_kinematics: Annotated[Path | None, figure("Draw the film, the fitted spline and its 95 % band")] = None,
     from_: Annotated[
         Path | None,
         Parameter(name="--from", help="Take wingbeat, vehicle, air loads and initial state from this orbit."),
@@ -82,7 +78,7 @@ def simulate(
     gust: Gust = None,
     turbulence: Turbulence = None,
     wind_seed: WindSeed = 0,
-    json: Annotated[bool, Parameter(negative="", help="Print the beats as JSON and nothing else.")] = False,
+    json: Annotated[bool, flag("Print the beats as JSON and nothing else.")] = False,
     output: Output = None,
 ) -> int:
     """Fly from an initial state for some wingbeats, with prescribed wing motion.
@@ -102,8 +98,7 @@ def simulate(
         faults.add("SPECIES", None, "is missing", fix)
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
-    check_result(faults, output)
-    check_files(faults, output, plot_kinematics=plot_kinematics)
+    check_result(faults, output, plot_kinematics=plot_kinematics)
     check_side(faults, side, kinematics)
     if plot_kinematics is not None and kinematics is None:
         faults.add("--plot-kinematics", str(plot_kinematics), "has no film to draw", "give --kinematics")
@@ -114,7 +109,8 @@ def simulate(
     given = {"u": u, "w": w, "pitch_rate": pitch_rate}
     given["body_pitch"] = None if body_pitch_deg is None else math.radians(body_pitch_deg)
     disturbed = {name: value for name, value in given.items() if value is not None}
-    beat = None
+    beat = prescribed = flown_by = None
+    start = State(u=10.0)
     if from_ is not None:
         orbit = load_orbit(from_)
         with unpacking(from_):
@@ -131,52 +127,43 @@ def simulate(
         wingbeat, reach = animal.wingbeat, animal.path_bounds["flap"]
         if beat is not None and beat.film.shows_body:
             if gust is not None or turbulence is not None:
-                faults.add(
-                    "--gust", gust or turbulence, "has no effect on a body that moves as filmed", "leave it out"
-                )
+                rule = "has no effect on a body that moves as filmed"
+                faults.add("--gust", gust or turbulence, rule, "leave it out")
                 faults.raise_if_any()
-            flown, errors = carried(beat, animal, whole.aero, given, beats, samples)
-            with answer() as told:
-                notes = _notes(flown.model, wingbeat, reach, beat)
-                told.show(lambda: report_carried(flown, errors, beat, notes, json))
-                _warn(notes)
-                told.save(output, flown.save)
-                told.save(plot_kinematics, lambda path: save_figure(film_page(beat), path))
-            return EXIT_GOOD
-        start = State(u=10.0)._replace(**disturbed)
-        velocity = float(start.u), float(start.w)
-        flown_by = FlightModel(animal.vehicle, whole.aero, animal.air, velocity=velocity)
-    wind = wind_of(gust, turbulence, wind_seed, math.hypot(start.u, start.w))
-    flight = fly(flown_by, wingbeat, start, beats, samples, wind=wind, species=animal)
-    rows = beat_rows(flight, samples)
-    if beat is not None:
-        for row, error in zip(rows, _errors(flight, beat, beats, samples, wind), strict=True):
-            row["mean_power_se"] = error
-    notes = _notes(flown_by, wingbeat, reach, beat)
-    with answer() as told:
-        if json:
-            record = {"completed": flight.completed, "beats": rows, "warnings": notes}
-            record |= {} if beat is None else {"kinematics": film_record(beat)}
-            told.show(lambda: print(json_format.dumps(record, indent=2, allow_nan=False)))
+            prescribed = carried(beat, animal, whole.aero, given, beats, samples)
         else:
-            told.show(lambda: _print(rows, flight.completed))
-            for line in film_lines(beat) if beat else []:
-                told.show(lambda line=line: print(line))
-        _warn(notes)
-        told.save(output, flight.save)
+            start = start._replace(**disturbed)
+            velocity = float(start.u), float(start.w)
+            flown_by = FlightModel(animal.vehicle, whole.aero, animal.air, velocity=velocity)
+    if prescribed is not None:
+        flight, errors = prescribed
+        record: dict[str, Any] = {"body": "prescribed", "summary": flight.summary, "standard_errors": errors}
+        report = functools.partial(print_carried, flight.summary, errors)
+        completed = True
+    else:
+        assert flown_by is not None
+        wind = wind_of(gust, turbulence, wind_seed, math.hypot(start.u, start.w))
+        flight = fly(flown_by, wingbeat, start, beats, samples, wind=wind, species=animal)
+        rows, completed = beat_rows(flight, samples), flight.completed
         if beat is not None:
-            told.save(plot_kinematics, lambda path: save_figure(film_page(beat), path))
-    return EXIT_GOOD if flight.completed else EXIT_NOT_CERTIFIED
-
-
-def _notes(model: FlightModel, wingbeat: Wingbeat, flap: tuple[float, float], beat: FilmedBeat | None) -> list[str]:
-    """Return warnings of wings that cross or flap beyond the range of the shoulder, and those of the film."""
-    return [*crossing(model.vehicle, model.strips, wingbeat, flap), *(beat.warnings if beat else ())]
-
-
-def _warn(notes: list[str]) -> None:
-    for note in notes:
-        print(f"warning: {note}", file=sys.stderr)
+            for row, error in zip(rows, _errors(flight, beat, beats, samples, wind), strict=True):
+                row["mean_power_se"] = error
+        record = {"completed": completed, "beats": rows}
+        report = functools.partial(_print, rows, completed)
+    notes = [
+        *crossing(flight.model.vehicle, flight.model.strips, wingbeat, reach),
+        *(beat.warnings if beat else ()),
+    ]
+    record |= {"warnings": notes} | ({} if beat is None else {"kinematics": film_record(beat)})
+    with answer() as told:
+        told.tell(record, report, json)
+        for line in film_lines(beat) if beat and not json else []:
+            told.show(lambda line=line: print(line))
+        for note in notes:
+            print(f"warning: {note}", file=sys.stderr)
+        told.save(output, flight.save)
+        told.draw(plot_kinematics, None if beat is None else lambda: film_page(beat))
+    return EXIT_GOOD if completed else EXIT_NOT_CERTIFIED
 
 
 def _errors(flight: Flight, beat: FilmedBeat, beats: int, samples: int, wind: Wind | None) -> list[float | None]:
@@ -219,7 +206,7 @@ def _print(rows: list[dict[str, Any]], completed: bool) -> None:
         if "mean_power_se" in row and row["mean_power"] is not None:
             shown[-1] = plus_minus(row["mean_power"], row["mean_power_se"])
         table.add_row(str(row["beat"]), *shown)
-    console = Console(markup=False, highlight=False)  # as markup, [m/s] would vanish
+    console = plain_console()  # as markup, [m/s] would vanish
     console.print(table)
     if not completed:
         console.print("the vehicle tumbled: the flight could not be finished", style="red")

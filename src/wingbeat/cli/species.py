@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from cyclopts import App, Parameter
 
 from wingbeat._base import FileError
-from wingbeat.cli.streams import plain_console
+from wingbeat.cli.arguments import flag
+from wingbeat.cli.terminal import plain_console, print_json, print_report
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -40,8 +41,8 @@ def show(
             help="Numbers to change, PATH=VALUE: wing.mass=0.02 air.density=1.0 ...",
         ),
     ] = None,
-    json: Annotated[bool, Parameter(negative="", help="Print JSON: SI units and radians.")] = False,
-    schema: Annotated[bool, Parameter(negative="", help="Print the JSON schema of species files.")] = False,
+    json: Annotated[bool, flag("Print JSON: SI units and radians.")] = False,
+    schema: Annotated[bool, flag("Print the JSON schema of species files.")] = False,
 ) -> None:
     """List the built-in species; for a name or a file, show every number with its source."""
     if schema:
@@ -57,19 +58,18 @@ def show(
         if alternative is not None or set_:
             raise _no_name("--alternative" if alternative is not None else "--set")
         everyone = [load_species(each) for each in species_names()]
-        _print_json([_summary(each) for each in everyone]) if json else _print_list(everyone)
+        print_json([_summary(each) for each in everyone]) if json else _print_list(everyone)
         return
     chosen = load_species(name)
     if alternative is not None:
         chosen = chosen.with_alternative(alternative)
     chosen = chosen.with_values(_settings(set_ or [], parse_setting))
     if json:
-        _print_json(chosen.as_dict())
+        print_json(chosen.as_dict())
     else:
         from wingbeat.animal.species.record import species_report
-        from wingbeat.cli.printing import print_report
 
-        print_report(species_report(chosen), plain_console())
+        print_report(species_report(chosen))
 
 
 @species.command
@@ -83,7 +83,7 @@ def new(
     mass: Annotated[float | None, Parameter(help="Mass of the whole animal [kg].")] = None,
     wing_span: Annotated[float | None, Parameter(help="Wing span, tip to tip [m].")] = None,
     wing_area: Annotated[float | None, Parameter(help="Area of both wings and the body between them [m2].")] = None,
-    force: Annotated[bool, Parameter(negative="", help="Overwrite an existing file.")] = False,
+    force: Annotated[bool, flag("Overwrite an existing file.")] = False,
 ) -> None:
     """Write a species file: a commented template, or a bird, bat or robot derived by scaling laws."""
     from wingbeat._base import write_atomically
@@ -141,10 +141,6 @@ def _no_name(option: str) -> Exception:
 
     fault = Fault(option, "no species", "needs a species to change", f"wingbeat species pigeon {option} ...")
     return InvalidInputError([fault])
-
-
-def _print_json(content: Any) -> None:
-    print(json_format.dumps(content, indent=2, allow_nan=False))
 
 
 def _summary(animal: Species) -> dict[str, Any]:

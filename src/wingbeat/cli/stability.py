@@ -2,40 +2,39 @@
 
 from __future__ import annotations
 
-import json as json_format
 import sys
-from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 from cyclopts import Parameter
 
 from wingbeat._base import FaultList, Line
-from wingbeat.cli.answer import answer
-from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
-from wingbeat.cli.options import (
-    Climb,
-    Limits,
+from wingbeat.cli.arguments import (
     Output,
     Seed,
-    Settings,
     Whole,
-    WithinPlausible,
-    check_files,
     check_outputs,
     check_result,
+    figure,
+    flag,
     given_beside,
-    unpacking,
+    parse_range,
+    several,
 )
-from wingbeat.cli.printing import print_report
-from wingbeat.cli.progress import progress_bar
-from wingbeat.cli.ranges import parse_range
-from wingbeat.cli.streams import plain_console
+from wingbeat.cli.problem_options import (
+    DEFAULT_MODEL,
+    Climb,
+    Limits,
+    ModelOptions,
+    Settings,
+    WithinPlausible,
+    saved_orbit,
+)
+from wingbeat.cli.terminal import deliver, print_report, progress_bar
 from wingbeat.orbits.status import Status
-from wingbeat.plots import save_figure, stability_page
-from wingbeat.results.orbit import Orbit, load_orbit, solve_orbit, solve_orbits
-from wingbeat.stability.causes import StabilitySensitivities, stability_sensitivities
+from wingbeat.plots import stability_page
+from wingbeat.results.orbit import solve_orbit, solve_orbits
+from wingbeat.stability.causes import stability_sensitivities
 from wingbeat.stability.causes_report import causes_report
 from wingbeat.stability.inputs import check_inputs, compensation
 from wingbeat.stability.linear_flight import linearise
@@ -52,8 +51,7 @@ def stability(
     ],
     *,
     speed: Annotated[
-        str | None,
-        Parameter(help="Mean forward speed [m/s], or speeds as start:stop:step; 0 is hover."),
+        str | None, Parameter(help="Mean forward speed [m/s], or speeds as start:stop:step; 0 is hover.")
     ] = None,
     climb: Climb = 0.0,
     model: ModelOptions = DEFAULT_MODEL,
@@ -65,32 +63,25 @@ def stability(
     set_: Settings = None,
     inputs: Annotated[
         list[str] | None,
-        Parameter(
-            consume_multiple=True,
-            negative=(),
-            help="Parameters of the wingbeat that may change from beat to beat: frequency flap_mean ... Default: "
-            "the free parameters whose jumps harmonics can undo.",
+        several(
+            "Parameters of the wingbeat that may change from beat to beat: frequency flap_mean ... Default: "
+            "the free parameters whose jumps harmonics can undo."
         ),
     ] = None,
-    height: Annotated[bool, Parameter(negative="", help="Make the height z part of the state.")] = False,
+    height: Annotated[bool, flag("Make the height z part of the state.")] = False,
     jumps: Annotated[
-        bool,
-        Parameter(
-            negative="",
-            help="Change the inputs alone, without the harmonics that keep the wing from jumping between beats.",
-        ),
+        bool, flag("Change the inputs alone, without the harmonics that keep the wing from jumping between beats.")
     ] = False,
     sensitivities: Annotated[
-        bool,
-        Parameter(negative="", help="Print which numbers of the animal move the spectral radius most."),
+        bool, flag("Print which numbers of the animal move the spectral radius most.")
     ] = False,
     mode: Annotated[
         Whole | None,
         Parameter(help="Fly the orbit with this mode, 0 for the fastest growing; write the flight to --output."),
     ] = None,
     output: Output = None,
-    json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
-    plot: Annotated[Path | None, Parameter(help="Draw the multipliers and modes: .png, .pdf or .svg.")] = None,
+    json: Annotated[bool, flag("Print the numbers as JSON and nothing else.")] = False,
+    plot: Annotated[Path | None, figure("Draw the multipliers and modes")] = None,
 ) -> int:
     """Find what grows and what decays when an orbit is disturbed, from beat to beat.
 
@@ -105,8 +96,7 @@ def stability(
     """
     beside = given_beside(stability, locals(), *_OF_A_FILE)
     faults = FaultList()
-    check_result(faults, output)
-    check_files(faults, output, plot=plot)
+    check_result(faults, output, plot=plot)
     if (mode is None) != (output is None):
         faults.add("--mode", mode, "needs --output, and --output needs --mode", "give both: --mode 0 -o mode.nc")
     saved = source.endswith(".nc")
@@ -121,67 +111,48 @@ def stability(
     faults.raise_if_any()
     check_outputs(plot, output)
     if saved:
-        orbit = load_orbit(source)
-        with unpacking(Path(source)):
-            _ = orbit.problem  # set up here, where a file that lacks something is a fault of the file
-        orbits = [orbit]
+        orbits = [saved_orbit(Path(source))]
     else:
         assert speed is not None
-        asked: dict[str, Any] = {
-            "climb": climb,
-            "bounds": "plausible" if within_plausible else {},
-            "minimise": minimise,
-            "subject_to": subject_to or (),
-        }
+        asked = {"climb": climb, "minimise": minimise, "subject_to": subject_to}
         speeds = parse_range(speed, "--speed").tolist()
-        first = model.problem(source, speeds[0], set_, **asked)
+        first = model.problem(source, speeds[0], set_, within_plausible=within_plausible, **asked)
         if inputs is not None:
             check_inputs(faults, inputs, first.vehicle)
             faults.raise_if_any()
             if not jumps:  # refused here, as `linearise` would do after the solve
                 compensation(first.species.wingbeat, inputs)
-        orbits = _solve([first, *(first.at_speed(one) for one in speeds[1:])], starts, seed)
-    answers = [_answer(orbit, inputs, height, jumps) for orbit in orbits]
-    found = [one for one in answers if "modes" in one]
-    certified = [orbit for orbit in orbits if orbit.status is Status.CONVERGED]
-    causes = [stability_sensitivities(orbit) if sensitivities else None for orbit in certified]
-    for record, cause in zip(found, causes, strict=True):
-        if cause is not None:
-            record["sensitivities"] = cause.record()
+        problems = [first, *(first.at_speed(one) for one in speeds[1:])]
+        with progress_bar(first.species.name) as progress:
+            if len(problems) == 1:
+                orbits = [solve_orbit(first, starts, seed, progress)]
+            else:
+                orbits = solve_orbits(problems, starts, seed, progress=progress, in_order=True)
+    answers, found, reports = [], [], []
+    for orbit in orbits:
+        if orbit.status is not Status.CONVERGED:
+            message = orbit.message
+            answers.append({"speed": orbit.inputs["speed"], "status": orbit.status.value, "message": message})
+            continue
+        record = linearise(orbit, inputs, height=height, smooth=not jumps).record()
+        reports.append([*linear_report(record), Line("")])
+        if sensitivities:
+            record["sensitivities"] = stability_sensitivities(orbit).record()
+            reports.append([*causes_report(record["sensitivities"]), Line("")])
+        found.append(record)
+        answers.append(record)
     for one in answers:
         if "modes" not in one:
             print(f"{one['speed']:g} m/s: {one['status']}: {one['message']}", file=sys.stderr)
-    with answer() as given:
-        if json:
-            told = answers if len(answers) > 1 else answers[0]
-            given.show(lambda: print(json_format.dumps(told, indent=2, allow_nan=False)))
-        else:
-            given.show(lambda: _print(found, causes))
-        if mode is not None and certified:
-            flown = linearise(certified[0], inputs, smooth=not jumps)
-            given.save(output, lambda path: flown.mode_flight(mode).save(path))
-        if found:
-            given.save(plot, lambda path: save_figure(stability_page(found), path))
-    return EXIT_GOOD if found else EXIT_NOT_CERTIFIED
-
-
-def _answer(orbit: Orbit, inputs: list[str] | None, height: bool, jumps: bool) -> dict[str, Any]:
-    """Return the record of a linear flight; of an orbit that is not certified, speed, status and message."""
-    if orbit.status is not Status.CONVERGED:
-        return {"speed": orbit.inputs["speed"], "status": orbit.status.value, "message": orbit.message}
-    return linearise(orbit, inputs, height=height, smooth=not jumps).record()
-
-
-def _solve(problems: Sequence[Any], starts: int | None, seed: int) -> list[Orbit]:
-    with progress_bar(problems[0].species.name) as progress:
-        if len(problems) == 1:
-            return [solve_orbit(problems[0], starts, seed, progress)]
-        return solve_orbits(problems, starts, seed, progress=progress, in_order=True)
-
-
-def _print(found: Sequence[dict[str, Any]], causes: Sequence[StabilitySensitivities | None]) -> None:
-    console = plain_console()
-    for record, cause in zip(found, causes, strict=True):
-        print_report([*linear_report(record), Line("")], console)
-        if cause is not None:
-            print_report([*causes_report(cause.record()), Line("")], console)
+    certified = [orbit for orbit in orbits if orbit.status is Status.CONVERGED]
+    flown = linearise(certified[0], inputs, smooth=not jumps) if mode is not None and certified else None
+    return deliver(
+        answers if len(answers) > 1 else answers[0],
+        lambda: [print_report(report) for report in reports],
+        bool(found),
+        json=json,
+        output=output,
+        save=None if flown is None else lambda path: flown.mode_flight(mode).save(path),
+        plot=plot,
+        page=(lambda: stability_page(found)) if found else None,
+    )

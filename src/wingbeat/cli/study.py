@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import App, Parameter, Token
 
 from wingbeat._base import FaultList, suggest
-from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.options import Whole, check_outputs
-from wingbeat.cli.progress import FIRST_POINT, duration, exit_of, pace, say, say_stopping, study_bar
+from wingbeat.cli.arguments import Whole, check_outputs, flag, written_to
+from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.terminal import FIRST_POINT, duration, exit_of, pace, say, say_stopping, study_bar
 
 if TYPE_CHECKING:
     from wingbeat.studies.driver import Tally
@@ -40,7 +40,7 @@ def _file(kind: Any, tokens: Sequence[Token]) -> Path:
 
 
 File = Annotated[Path, Parameter(help="The study file, .toml; its store is beside it.")]
-Output = Annotated[Path | None, Parameter(name=["--output", "-o"], help="The file to write.")]
+Written = Annotated[Path | None, written_to("The file to write.")]
 
 
 @study.default
@@ -56,12 +56,8 @@ def run(
         str | None,
         Parameter(help="A Dask cluster instead of processes: tcp://HOST:PORT, or local:N.", show_default=False),
     ] = None,
-    retry_failed: Annotated[
-        bool, Parameter(negative="", help="Retry failed points: errors, crashes, time-outs.")
-    ] = False,
-    allow_failures: Annotated[
-        bool, Parameter(negative="", help="Exit with 0 even if points are not certified.")
-    ] = False,
+    retry_failed: Annotated[bool, flag("Retry failed points: errors, crashes, time-outs.")] = False,
+    allow_failures: Annotated[bool, flag("Exit with 0 even if points are not certified.")] = False,
 ) -> int:
     """Solve all points that have no result yet, and keep every result in the store beside the file.
 
@@ -102,7 +98,7 @@ def status(file: File) -> None:
 
 
 @study.command
-def export(file: File, *, output: Output = None) -> None:
+def export(file: File, *, output: Written = None) -> None:
     """Write a table with a row for each point: .nc, .csv or .parquet; columns are the record's dotted names."""
     from wingbeat.studies.table import check_table_name
 
@@ -114,7 +110,7 @@ def export(file: File, *, output: Output = None) -> None:
 def plot(
     file: File,
     *,
-    output: Output = None,
+    output: Written = None,
     quantity: Annotated[
         str | None,
         Parameter(help="Column of the table to draw, such as mean_power; default: the minimised quantity."),

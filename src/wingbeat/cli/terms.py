@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import json as json_format
+import functools
 import math
 from pathlib import Path
 from typing import Annotated, Any
@@ -10,31 +10,26 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from wingbeat._base import FaultList
-from wingbeat.cli.answer import answer
-from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
-from wingbeat.cli.options import (
+from wingbeat.cli.arguments import Seed, Whole, check_files, check_outputs, figure, flag, parse_range
+from wingbeat.cli.problem_options import (
+    DEFAULT_MODEL,
     SPECIES,
+    SPEED,
     Climb,
     Limits,
-    Seed,
+    ModelOptions,
     Settings,
-    Whole,
     WithinPlausible,
-    check_files,
-    check_outputs,
 )
-from wingbeat.cli.progress import progress_bar
-from wingbeat.cli.ranges import parse_range
-from wingbeat.cli.streams import plain_console
-from wingbeat.plots import save_figure, terms_page
+from wingbeat.cli.terminal import deliver, plain_console, progress_bar
+from wingbeat.plots import terms_page
 from wingbeat.results.terms import found_any, trace_terms
 
 
 def terms(
     species: Annotated[str, SPECIES],
     *,
-    speed: Annotated[float, Parameter(help="Mean forward speed [m/s]; 0 is hover.")],
+    speed: Annotated[float, SPEED],
     climb: Climb = 0.0,
     model: ModelOptions = DEFAULT_MODEL,
     shares: Annotated[str, Parameter(help="Shares of the terms, start:stop:step: 0 is none, 1 is all of them.")] = (
@@ -42,18 +37,16 @@ def terms(
     ),
     within_plausible: WithinPlausible = False,
     minimise: Annotated[
-        str | None,
-        Parameter(help="Quantity to minimise: frequency, ...; default that of the model."),
+        str | None, Parameter(help="Quantity to minimise: frequency, ...; default that of the model.")
     ] = None,
     subject_to: Limits = None,
     starts: Annotated[
-        Whole,
-        Parameter(help="Number of starts at the first and last share; other shares get a third as many."),
+        Whole, Parameter(help="Number of starts at the first and last share; other shares get a third as many.")
     ] = 6,
     seed: Seed = 0,
     set_: Settings = None,
-    json: Annotated[bool, Parameter(negative="", help="Print the trace as JSON and nothing else.")] = False,
-    plot: Annotated[Path | None, Parameter(help="Draw the trace: .png, .pdf or .svg.")] = None,
+    json: Annotated[bool, flag("Print the trace as JSON and nothing else.")] = False,
+    plot: Annotated[Path | None, figure("Draw the trace")] = None,
 ) -> int:
     """Find the best wingbeats, and changes of family, while the share of a term of the air loads rises from 0 to 1.
 
@@ -67,26 +60,14 @@ def terms(
     check_files(faults, None, plot=plot)
     faults.raise_if_any()
     row = [float(share) for share in parse_range(shares, "--shares")]
-    problem = model.problem(
-        species,
-        speed,
-        set_,
-        climb=climb,
-        bounds="plausible" if within_plausible else {},
-        minimise=minimise,
-        subject_to=subject_to or (),
-    )
-    check_outputs(None, plot)
+    asked = {"climb": climb, "minimise": minimise, "subject_to": subject_to}
+    problem = model.problem(species, speed, set_, within_plausible=within_plausible, **asked)
+    check_outputs(plot)
     with progress_bar(f"{problem.species.name} at each share of the terms") as progress:
         found = trace_terms(problem, row, starts, seed, progress)
     record = found.record()
-    with answer() as given:
-        if json:
-            given.show(lambda: print(json_format.dumps(record, indent=2, allow_nan=False)))
-        else:
-            given.show(lambda: _print(record))
-        given.save(plot, lambda path: save_figure(terms_page(record), path))
-    return EXIT_GOOD if found_any(found) else EXIT_NOT_CERTIFIED
+    page = functools.partial(terms_page, record)
+    return deliver(record, lambda: _print(record), found_any(found), json=json, plot=plot, page=page)
 
 
 _HEADS = ("share", "family", "frequency\n[Hz]", "amplitude\n[deg]", "power\n[W]")

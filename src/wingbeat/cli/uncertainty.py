@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json as json_format
 from collections.abc import Sequence
 from typing import Annotated, Any
 
@@ -11,10 +10,18 @@ from rich.console import Console
 
 from wingbeat._base import FaultList, InvalidInputError, written
 from wingbeat._workers.tuning import core_count
-from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.model_options import DEFAULT_MODEL, ModelOptions
-from wingbeat.cli.options import SPECIES, Climb, Settings, Whole, WithinPlausible
-from wingbeat.cli.progress import progress_bar
+from wingbeat.cli.arguments import Whole, flag, several
+from wingbeat.cli.problem_options import (
+    DEFAULT_MODEL,
+    SPECIES,
+    SPEED,
+    Climb,
+    ModelOptions,
+    Settings,
+    WithinPlausible,
+)
+from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.terminal import print_json, progress_bar
 from wingbeat.orbits.many.uncertainty import ErrorBar
 from wingbeat.orbits.problem.path_functions import check_quantities
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -37,17 +44,13 @@ _DEFAULT = (*QUANTITIES, "spectral_radius")
 def uncertainty(
     species: Annotated[str, SPECIES],
     *,
-    speed: Annotated[float, Parameter(help="Mean forward speed [m/s]; 0 is hover.")],
+    speed: Annotated[float, SPEED],
     climb: Climb = 0.0,
     model: ModelOptions = DEFAULT_MODEL,
     minimise: Annotated[str | None, Parameter(help="Quantity to minimise, as in `wingbeat orbit`.")] = None,
     quantities: Annotated[
         list[str] | None,
-        Parameter(
-            consume_multiple=True,
-            negative=(),
-            help=f"Quantities whose uncertainty to compute, as in `wingbeat orbit`; default {' '.join(_DEFAULT)}.",
-        ),
+        several(f"Quantities whose uncertainty to compute, as in `wingbeat orbit`; default {' '.join(_DEFAULT)}."),
     ] = None,
     within_plausible: WithinPlausible = False,
     samples: Annotated[Whole, Parameter(help="Number of random samples to solve.")] = 2000,
@@ -56,7 +59,7 @@ def uncertainty(
     ] = 1.0,
     seed: Annotated[Whole, Parameter(help="Seed of the samples.")] = 0,
     set_: Settings = None,
-    json: Annotated[bool, Parameter(negative="", help="Print the numbers as JSON and nothing else.")] = False,
+    json: Annotated[bool, flag("Print the numbers as JSON and nothing else.")] = False,
 ) -> int:
     """Compute the uncertainty of an orbit's frequency, power and stability, and check its first-order estimate.
 
@@ -68,8 +71,8 @@ def uncertainty(
 
     Example: wingbeat uncertainty pigeon --speed 10 --samples 500 --share 0.3
     """
-    bounds = "plausible" if within_plausible else {}
-    problem = model.problem(species, speed, set_, climb=climb, minimise=minimise, bounds=bounds)
+    asked = {"climb": climb, "minimise": minimise}
+    problem = model.problem(species, speed, set_, within_plausible=within_plausible, **asked)
     faults, fit = FaultList(), model.fit()
     check_draws(faults, problem, samples, share, fit)
     faults.raise_if_any()
@@ -95,8 +98,7 @@ def uncertainty(
             progress=progress,
         )
     if json:
-        plain = {name: _plain(one) for name, one in found.items()}
-        print(json_format.dumps(plain, indent=2, allow_nan=False))
+        print_json({name: _plain(one) for name, one in found.items()})
     else:
         for one in found.values():
             _print(one, Console())

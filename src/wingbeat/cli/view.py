@@ -9,10 +9,10 @@ from typing import Annotated
 from cyclopts import Parameter
 
 from wingbeat._base import FaultList, InvalidInputError
-from wingbeat.cli.options import Whole, check_outputs, unpacking
-from wingbeat.cli.progress import progress_bar
+from wingbeat.cli.arguments import Whole, check_outputs, flag, written_to
+from wingbeat.cli.problem_options import saved_orbit
+from wingbeat.cli.terminal import progress_bar
 from wingbeat.records.result_files import load_dataset
-from wingbeat.results.orbit import load_orbit
 from wingbeat.stability.feedback_checks import MOST_DELAY
 from wingbeat.viewer import Push, animate, write_page
 
@@ -23,22 +23,12 @@ def view(
     file: Annotated[Path, Parameter(help="A file written by `orbit -o` or `simulate -o`.")],
     other: Annotated[Path | None, Parameter(help="A second file to compare with.")] = None,
     *,
-    output: Annotated[
-        Path,
-        Parameter(
-            name=["--output", "-o"], help="The file to write: .html for a page, .gif for an animated picture."
-        ),
-    ],
+    output: Annotated[Path, written_to("The file to write: .html for a page, .gif for an animated picture.")],
     push: Annotated[
-        bool,
-        Parameter(
-            negative="",
-            help="Let the reader push the animal: add flights through gusts, without and with feedback.",
-        ),
+        bool, flag("Let the reader push the animal: add flights through gusts, without and with feedback.")
     ] = False,
     delay: Annotated[
-        Whole | None,
-        Parameter(help="With --push: beats by which feedback acts later; default 0."),
+        Whole | None, Parameter(help="With --push: beats by which feedback acts later; default 0.")
     ] = None,
 ) -> None:
     """Show a saved flight in motion: wings, air loads and time series at every phase of the beat.
@@ -51,12 +41,8 @@ def view(
     faults = FaultList()
     suffix = output.suffix.lower()
     if suffix not in _SUFFIXES:
-        faults.add(
-            "--output",
-            str(output),
-            "is neither a page nor an animated picture",
-            f"end it in {' or '.join(_SUFFIXES)}",
-        )
+        rule = "is neither a page nor an animated picture"
+        faults.add("--output", str(output), rule, f"end it in {' or '.join(_SUFFIXES)}")
     if push and (other is not None or suffix != ".html"):
         rule = "flies one orbit, in a page"
         faults.add("--push", True, rule, "give one orbit, and an output that ends in .html")
@@ -78,9 +64,7 @@ def _pushes(file: Path, delay: int) -> tuple[Push, ...]:
     """Return the disturbed flights of a saved orbit; without feedback if no feedback holds the orbit."""
     from wingbeat.stability.pushes import fly_pushes
 
-    orbit = load_orbit(file)
-    with unpacking(file):
-        _ = orbit.problem
+    orbit = saved_orbit(file)
     try:
         return fly_pushes(orbit, delay)
     except InvalidInputError as error:

@@ -134,11 +134,7 @@ class _Queue:
 
 
 def drive(
-    store: Store,
-    engine: Engine,
-    stop: Stop,
-    progress: Progress | None = None,
-    retry_failed: bool = False,
+    store: Store, engine: Engine, stop: Stop, progress: Progress | None = None, retry_failed: bool = False
 ) -> Tally:
     """Solve all points of a store that have no result yet, and save the results of each batch as soon as it ends.
 

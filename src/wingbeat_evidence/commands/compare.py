@@ -9,11 +9,10 @@ from typing import Annotated, Any
 from cyclopts import Parameter
 
 from wingbeat._base import FaultList
-from wingbeat.cli.answer import answer
-from wingbeat.cli.options import Whole, check_files, check_outputs, unpacking
-from wingbeat.cli.progress import progress_bar
-from wingbeat.cli.streams import plain_console
-from wingbeat.plots import save_figure
+from wingbeat.cli.arguments import Whole, check_files, check_outputs, figure, flag
+from wingbeat.cli.problem_options import unpacking
+from wingbeat.cli.terminal import answer, plain_console, progress_bar
+from wingbeat.plots.figure_files import save_figure
 from wingbeat.results.orbit import load_orbit
 from wingbeat_evidence.second_opinion import LatticeOptions, compare_with_lattice
 from wingbeat_evidence.second_opinion.figure import second_opinion_page
@@ -34,8 +33,8 @@ def compare(
     beats: Annotated[
         Whole, Parameter(help="Beats flown from rest. All beats leave a wake; only the last beat is compared.")
     ] = _DEFAULT.beats,
-    json: Annotated[bool, Parameter(negative="", help="Print the comparison as JSON and nothing else.")] = False,
-    plot: Annotated[Path | None, Parameter(help="Draw lift and thrust over the beat: .png, .pdf or .svg.")] = None,
+    json: Annotated[bool, flag("Print the comparison as JSON and nothing else.")] = False,
+    plot: Annotated[Path | None, figure("Draw lift and thrust over the beat")] = None,
 ) -> None:
     """Compute the air loads of a saved orbit with another code, and compare lift, thrust and power of the wings.
 

@@ -11,9 +11,9 @@ from cyclopts import Parameter
 
 from wingbeat._base import NUMERICAL_VERSION, FaultList, make_folder
 from wingbeat._workers.tuning import core_count
-from wingbeat.cli.app import EXIT_GOOD
-from wingbeat.cli.options import Whole
-from wingbeat.cli.progress import exit_of, progress_bar, say, say_stopping
+from wingbeat.cli.arguments import Whole, flag, written_to
+from wingbeat.cli.process import EXIT_GOOD
+from wingbeat.cli.terminal import exit_of, progress_bar, say, say_stopping
 
 if TYPE_CHECKING:
     from wingbeat_evidence.paper.pieces import Sample
@@ -29,15 +29,11 @@ def paper(
         Parameter(help="Figures and claims, or the claims under many sets of assumptions."),
     ] = "claims",
     *,
-    output: Annotated[Path, Parameter(name=["--output", "-o"], help="Folder to write to.")] = Path("paper"),
+    output: Annotated[Path, written_to("Folder to write to.")] = Path("paper"),
     figures: Annotated[str | None, Parameter(help="Figures to draw, such as 1-8 or 3,5.")] = None,
-    quick: Annotated[
-        bool,
-        Parameter(negative="", help="Fewer speeds and starts for the figures; no claims about flights."),
-    ] = False,
+    quick: Annotated[bool, flag("Fewer speeds and starts for the figures; no claims about flights.")] = False,
     before: Annotated[
-        Path | None,
-        Parameter(help="claims.json of an earlier run: the page says what changed and why."),
+        Path | None, Parameter(help="claims.json of an earlier run: the page says what changed and why.")
     ] = None,
     sets: Annotated[
         Whole | None, Parameter(help=f"How many sets of assumptions to sample; default {_SETS}.")

@@ -10,12 +10,10 @@ from cyclopts import Parameter
 
 from wingbeat._base import FaultList, write_atomically
 from wingbeat.aero import EXTENSIONS
-from wingbeat.cli.answer import answer
-from wingbeat.cli.app import EXIT_GOOD
-from wingbeat.cli.options import Whole, check_files, check_outputs
-from wingbeat.cli.printing import print_report
-from wingbeat.cli.streams import plain_console
-from wingbeat.plots import save_figure
+from wingbeat.cli.arguments import Whole, check_files, check_outputs, figure, flag, written_to
+from wingbeat.cli.process import EXIT_GOOD
+from wingbeat.cli.terminal import answer, plain_console, print_report
+from wingbeat.plots.figure_files import save_figure
 from wingbeat_evidence.commands.whole_flights import is_whole_flights, validate_flights
 from wingbeat_evidence.measured_motion import Validation, read_strip_case, shipped_cases
 from wingbeat_evidence.measured_motion import validate as validated
@@ -44,8 +42,7 @@ def validate(
         ),
     ] = None,
     extension: Annotated[
-        str | None,
-        Parameter(help=f"Extension to angles outside the fit, for all models: {', '.join(EXTENSIONS)}."),
+        str | None, Parameter(help=f"Extension to angles outside the fit, for all models: {', '.join(EXTENSIONS)}.")
     ] = None,
     unsteady: Annotated[
         str | None,
@@ -71,11 +68,9 @@ def validate(
         ),
     ] = None,
     seed: Annotated[Whole | None, Parameter(help="Whole flights: seed of starts and draws; default 0.")] = None,
-    json: Annotated[bool, Parameter(negative="", help="Print one JSON object and nothing else.")] = False,
-    plot: Annotated[Path | None, Parameter(help="Draw the comparison: .png, .pdf or .svg.")] = None,
-    output: Annotated[
-        Path | None, Parameter(name=["--output", "-o"], help="Write the page (.md), with a figure of each case.")
-    ] = None,
+    json: Annotated[bool, flag("Print one JSON object and nothing else.")] = False,
+    plot: Annotated[Path | None, figure("Draw the comparison")] = None,
+    output: Annotated[Path | None, written_to("Write the page (.md), with a figure of each case.")] = None,
 ) -> int:
     """Compute air loads on a measured motion, or an animal's whole flights, and compare them with measurements.
 
@@ -135,7 +130,7 @@ def _print(found: list[Validation], every: bool, json: bool) -> None:
         print(json_format.dumps(listed, indent=2, allow_nan=False))
         return
     for one in found:
-        print_report(validation_report(one), plain_console())
+        print_report(validation_report(one))
     if every:
         animals = ", ".join(measured_animals())
         plain_console().print(f"For `wingbeat validate ANIMAL`, animals with measured whole flights: {animals}")

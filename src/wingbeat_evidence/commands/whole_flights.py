@@ -9,13 +9,10 @@ from typing import Any
 from wingbeat._base import FaultList, FileError, read_text, toml_tables, write_atomically
 from wingbeat._workers.tuning import core_count
 from wingbeat.animal.species.making import load_species
-from wingbeat.cli.answer import answer
-from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.options import check_outputs
-from wingbeat.cli.printing import print_report
-from wingbeat.cli.progress import progress_bar
-from wingbeat.cli.streams import plain_console
-from wingbeat.plots import save_figure
+from wingbeat.cli.arguments import check_outputs
+from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.terminal import answer, print_report, progress_bar
+from wingbeat.plots.figure_files import save_figure
 from wingbeat_evidence.whole_flights import (
     Prediction,
     compared,
@@ -58,7 +55,7 @@ def validate_flights(
         if json:
             given.show(lambda: print(json_format.dumps(plain_flights(found), indent=2, allow_nan=False)))
         else:
-            given.show(lambda: print_report(prediction_report(found), plain_console()))
+            given.show(lambda: print_report(prediction_report(found)))
         given.save(plot, lambda path: save_figure(flights_page(found), path), named=True)
         if output is not None and picture is not None:
             name = load_species(flights.species).common_name

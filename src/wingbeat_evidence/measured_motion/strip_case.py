@@ -11,12 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import FaultList
-from wingbeat_evidence.measured_motion.strip_checks import (
-    check_arrays,
-    check_measured,
-    check_scalars,
-    check_window,
-)
+from wingbeat_evidence.measured_motion.strip_checks import check_arrays, check_measured, check_scalars, check_window
 
 Array = NDArray[np.float64]
 

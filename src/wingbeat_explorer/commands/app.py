@@ -9,8 +9,8 @@ from cyclopts import Parameter
 
 from wingbeat._base import Fault, FaultList, InvalidInputError, install_extra
 from wingbeat._workers.tuning import core_count
-from wingbeat.cli.app import EXIT_GOOD
-from wingbeat.cli.options import Whole
+from wingbeat.cli.arguments import Whole
+from wingbeat.cli.process import EXIT_GOOD
 
 _MOST_PROCESSES = 64
 _LONGEST_HOST = 253  # of a name in the domain name system

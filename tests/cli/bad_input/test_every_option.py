@@ -13,7 +13,7 @@ from cyclopts import Parameter
 
 from wingbeat.cli import main
 from wingbeat.cli.app import COMMANDS, module_of
-from wingbeat.cli.model_options import ModelOptions
+from wingbeat.cli.problem_options import ModelOptions
 
 # A good command line for each function of the commands, to which one bad option is added.
 LINES = {

@@ -1,23 +1,165 @@
-"""Progress of long work, as a bar or a few lines; the message and the exit code of a study that stops early."""
+"""What a command says: its answer on standard output and in files, and its progress on standard error.
+
+The answer is printed first, then the files are written, and neither can lose the other. Nothing heavy is imported.
+"""
 
 from __future__ import annotations
 
-import contextlib
+import json as json_format
 import os
 import signal
 import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
+from wingbeat._base import FileError, Report, Tone, WingbeatError, first_line, lines_of
 from wingbeat._leftovers import Leftover
-from wingbeat.cli.endings import EXIT_INTERRUPTED, EXIT_TERMINATED
+from wingbeat.cli.process import EXIT_GOOD, EXIT_INTERRUPTED, EXIT_NOT_CERTIFIED, EXIT_TERMINATED, StdoutError
+from wingbeat.plots import save_figure
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+    from rich.console import Console
+
     from wingbeat.studies.driver import Tally
     from wingbeat.studies.stopping import Stop
 
+# --- the answer ---
+
+
+class Answer:
+    """What a command has to give: parts to print, then files to write."""
+
+    def __init__(self) -> None:
+        self._unprinted: StdoutError | None = None
+        self._unwritten: list[str] = []
+
+    def show(self, printed: Callable[[], Any]) -> None:
+        """Print a part of the answer at once, even if the process is ended before the next part."""
+        if self._unprinted is not None:
+            return
+        try:
+            printed()
+            sys.stdout.flush()
+        except StdoutError as error:  # a reader such as `head`; the files are wanted still
+            self._unprinted = error
+
+    def tell(self, record: Any, report: Report | Callable[[], Any], json: bool) -> None:
+        """Print a record as JSON, or else a report, which may be a function that prints it."""
+        if json:
+            self.show(lambda: print_json(record))
+        else:
+            self.show(report if callable(report) else lambda: print_report(report))
+
+    def save(self, path: Path | None, write: Callable[[Path], Any] | None, *, named: bool = False) -> None:
+        """Write a file if there is a path and something to write; note what went wrong.
+
+        With `named`, a line on standard error says which file was written.
+        """
+        if path is None or write is None:
+            return
+        try:
+            write(path)
+        except WingbeatError as error:
+            self._unwritten += str(error).splitlines()
+        except MemoryError:
+            self._unwritten.append(f"cannot write {str(path)!r}: there is not enough memory")
+        except Exception as error:  # a fault of ours, which must cost neither the answer nor the other files
+            fix = "this is a fault of wingbeat; please report it, and choose another format"
+            self._unwritten.append(f"cannot write {str(path)!r}: {first_line(error)}; {fix}")
+        else:
+            if named:
+                print(f"wrote {path}", file=sys.stderr)
+
+    def draw(self, path: Path | None, page: Callable[[], Figure] | None, *, named: bool = False) -> None:
+        """Write the figure that `page` returns, as `save` writes a file."""
+        if page is not None:
+            self.save(path, lambda path: save_figure(page(), path), named=named)
+
+    def end(self) -> None:
+        """Raise what went wrong: a `FileError` with a line for each file, or a `StdoutError`."""
+        if self._unwritten:
+            raise FileError("\n".join(self._unwritten))
+        if self._unprinted is not None:
+            raise self._unprinted
+
+
+@contextmanager
+def answer() -> Iterator[Answer]:
+    """Yield an `Answer`; at the end of the block, what could not be printed or written is raised.
+
+    For a command that prints in several parts; `deliver` does for all others.
+
+    >>> with answer() as given:
+    ...     given.show(lambda: print("9.5 Hz"))
+    ...     given.save(None, lambda path: path.write_text("not asked for"))
+    9.5 Hz
+    """
+    given = Answer()
+    yield given
+    given.end()
+
+
+def deliver(
+    record: Any,
+    report: Report | Callable[[], Any],
+    certified: bool = True,
+    *,
+    json: bool,
+    output: Path | None = None,
+    save: Callable[[Path], Any] | None = None,
+    plot: Path | None = None,
+    page: Callable[[], Figure] | None = None,
+) -> int:
+    """End a command: print its record as JSON, or else its report; then write its result and its figure.
+
+    A `save` or a `page` that is None says that nothing was found that could be written. Return the exit code.
+    """
+    with answer() as given:
+        given.tell(record, report, json)
+        given.save(output, save)
+        given.draw(plot, page)
+    return EXIT_GOOD if certified else EXIT_NOT_CERTIFIED
+
+
+def print_json(record: Any) -> None:
+    """Print a record as JSON; a number that is not finite is a fault of ours."""
+    print(json_format.dumps(record, indent=2, allow_nan=False))
+
+
+_STYLES: dict[Tone, str] = {
+    "title": "bold",
+    "good": "bold green",
+    "doubtful": "bold yellow",
+    "bad": "bold red",
+    "warning": "yellow",
+}
+
+
+def print_report(report: Report, console: Console | None = None) -> None:
+    """Print a report; its text is that of `summary`, with colours on a terminal."""
+    from rich.text import Text
+
+    console = console or plain_console()
+    for line in lines_of(report, console.width):
+        styled = Text(line.text)  # as Text, for names come from files
+        if line.toned:
+            styled.stylize(_STYLES[line.tone], 0, line.toned)
+        console.print(styled, soft_wrap=True)
+
+
+def plain_console() -> Console:
+    """Return a console for tables that prints names and messages as text, even if they look like markup."""
+    from rich.console import Console
+
+    return Console(markup=False, highlight=False, emoji=False)
+
+
+# --- progress ---
 
 # Where stderr is no terminal, a line tells of work that lasts so long, and again each time its duration doubles.
 # Work of the usual few seconds prints nothing.
@@ -26,7 +168,7 @@ _COMPILES = "the first run also compiles programs, which takes up to two minutes
 FIRST_POINT = "the first point takes longest, because programs are compiled for it; then the time left is known"
 
 
-@contextlib.contextmanager
+@contextmanager
 def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
     """Yield a function that shows (done, in all) on stderr: in a bar, or in a few lines outside a terminal."""
     if not sys.stderr.isatty():
@@ -82,7 +224,7 @@ def _show_cursor() -> None:
     os.write(2, b"\r\x1b[2K\x1b[?25h")
 
 
-@contextlib.contextmanager
+@contextmanager
 def study_bar() -> Iterator[Callable[[Tally], None]]:
     """Yield a function that shows a study's tally on stderr: in a bar, or in a few lines outside a terminal."""
     if not sys.stderr.isatty():

@@ -1,22 +1,53 @@
-"""The options for the model of a flight, and for air loads that replace the model's own."""
+"""Options from which a problem is made: species, speed, model, limits and moving air; and saved orbits."""
 
 from __future__ import annotations
 
 import dataclasses
 import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, fields
+from pathlib import Path
 from typing import Annotated, Any
 
+import numpy as np
 from cyclopts import Parameter
 
+from wingbeat._base import FaultList, FileError, InvalidInputError, first_line
 from wingbeat.aero import EXTENSIONS, FORCE_POINTS, BladeElement, load_coefficients
 from wingbeat.aero.blade_element import load_hand
 from wingbeat.aero.model_file import Fitted, read_model
+from wingbeat.aero.winds import LEVELS, CosineGust, DrydenTurbulence, Wind
 from wingbeat.animal.species.making import load_species
+from wingbeat.animal.species.reading import parse_setting
 from wingbeat.animal.species.record import Species
-from wingbeat.cli.options import Whole, with_settings
+from wingbeat.cli.arguments import Whole, flag, named_numbers, several
 from wingbeat.models import Model, model_of
+from wingbeat.orbits.problem.limits import Constraint
+from wingbeat.orbits.problem.map_quantities import STABLE_RADIUS
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.records.inputs import NotInFileError
+from wingbeat.results.orbit import Orbit, load_orbit
+
+# --- the problem ---
+
+SPECIES = Parameter(help="Name of a species, or path of a species file.")
+SPEED = Parameter(help="Mean forward speed [m/s]; 0 is hover.")
+Climb = Annotated[float, Parameter(help="Mean climb rate [m/s].")]
+Limits = Annotated[list[str] | None, several("Limits: 'peak_power<=30' 'frequency=6' ...")]
+Stable = Annotated[bool, flag("Find an orbit on which disturbances decay: short for 'spectral_radius<=0.995'.")]
+Settings = Annotated[
+    list[str] | None,
+    Parameter(
+        name="--set",
+        consume_multiple=True,
+        negative=(),
+        help="Numbers to change, PATH=VALUE: wing.mass=0.02 ... `wingbeat species NAME` lists the paths.",
+    ),
+]
+Payload = Annotated[float, Parameter(help="Load carried at the body's centre of mass [kg].")]
+WithinPlausible = Annotated[bool, flag("Keep parameters, powers and forces within the species' plausible ranges.")]
+WingsMayCross = Annotated[bool, flag("Let the wings pass through the plane of symmetry and through each other.")]
 
 _OF_COEFFICIENTS = ("aero", "extension", "blend_width_deg", "hand")
 
@@ -99,7 +130,7 @@ class ModelOptions:
         return with_settings(model.species(species), settings, payload), model
 
     def problem(
-        self, name: str, speed: float, settings: list[str] | None, payload: float = 0.0, **asked: Any
+        self, name: str, speed: float, settings: list[str] | None, *, within_plausible: bool = False, **asked: Any
     ) -> OrbitProblem:
         """Return the problem for a species given by name or file; a None in `asked` means the model's own choice.
 
@@ -107,9 +138,9 @@ class ModelOptions:
         ------
         FileError, InvalidInputError : as `flown`; inputs that `OrbitProblem` refuses.
         """
-        species, model = self.flown(name, settings, payload)
+        species, model = self.flown(name, settings)
         given = {key: value for key, value in asked.items() if value is not None}
-        return model.problem(species, speed, **given)
+        return model.problem(species, speed, bounds="plausible" if within_plausible else {}, **given)
 
     def chosen(self, species: Species) -> Model:
         """Return the model for a species, with the air loads that were given in place of its own.
@@ -157,3 +188,96 @@ def say_notes(given: str | None, coefficients: object) -> None:
 
 
 DEFAULT_MODEL = ModelOptions()
+
+
+def limits_of(subject_to: list[str] | None, stable: bool) -> list[Any]:
+    """Return the limits of ``--subject-to``, with the limit of ``--stable``."""
+    return [*(subject_to or ()), *([Constraint("spectral_radius", STABLE_RADIUS)] if stable else [])]  # type: ignore[arg-type]
+
+
+def with_settings(species: Species, settings: list[str] | None, payload: float = 0.0) -> Species:
+    """Return a species with the numbers of ``--set`` and a payload; all faults are reported at once."""
+    values, faults = {}, FaultList()
+    if settings is not None and not settings:
+        faults.add("--set", "", "must be PATH=VALUE", "for example wing.mass=0.02")
+    for text in settings or []:
+        try:
+            path, value = parse_setting(text)
+        except InvalidInputError as error:
+            faults.faults.extend(error.faults)
+            continue
+        if path in values:
+            faults.add("--set", text, "is set twice", "keep one of them")
+        values[path] = value
+    faults.raise_if_any()
+    return (species.with_values(values) if values else species).with_payload(payload)
+
+
+# --- saved orbits ---
+
+
+def saved_orbit(path: Path) -> Orbit:
+    """Return a saved orbit whose problem is set up, so that what its file lacks is a fault of the file."""
+    orbit = load_orbit(path)
+    with unpacking(path):
+        _ = orbit.problem
+    return orbit
+
+
+@contextmanager
+def unpacking(path: Path) -> Iterator[None]:
+    """Raise a `FileError` in place of any error that occurs while the orbit of the file at `path` is set up."""
+    try:
+        yield
+    except NotInFileError as error:
+        raise FileError(f"cannot set up the orbit in {str(path)!r} again: {error} in Python") from None
+    except (LookupError, TypeError, ValueError, AttributeError) as error:
+        reason = first_line(error)
+        raise FileError(
+            f"cannot read {str(path)!r} as an orbit: its inputs are damaged ({reason}); solve the orbit again"
+        ) from None
+
+
+# --- moving air ---
+
+Gust = Annotated[
+    list[str] | None,
+    several("Gust that rises and falls once: u=1 w=3 start=0.2 duration=0.5 (forward and up [m/s], times [s])."),
+]
+Turbulence = Annotated[
+    str | None, Parameter(help=f"Dryden turbulence 30 m above the ground: {', '.join(LEVELS)}. See --wind-seed.")
+]
+WindSeed = Annotated[Whole, Parameter(help="Seed of the turbulence.")]
+
+_KEYS = tuple(field.name for field in fields(CosineGust))
+
+
+def wind_of(gust: list[str] | None, turbulence: str | None, seed: int, airspeed: float) -> Wind | None:
+    """Return the wind that the options ask for, the sum if they ask for several; None for still air.
+
+    Parameters
+    ----------
+    gust, turbulence, seed : as typed.
+    airspeed : of the flight [m/s].
+
+    Raises
+    ------
+    InvalidInputError : keys or numbers of a gust that cannot be read, and what the winds themselves refuse.
+    """
+    parts: list[Wind] = []
+    if gust is not None:
+        faults = FaultList()
+        found = named_numbers(faults, "--gust", gust, _KEYS, "w=3")
+        faults.raise_if_any()
+        parts.append(CosineGust(**found))
+    if turbulence is not None:
+        parts.append(DrydenTurbulence(airspeed, turbulence, seed=seed))
+    return _sum(parts) if parts else None
+
+
+def _sum(parts: list[Wind]) -> Callable[[np.ndarray], tuple[Any, Any]]:
+    def air(times: np.ndarray) -> tuple[Any, Any]:
+        found = [part(times) for part in parts]
+        return sum(u for u, _ in found), sum(w for _, w in found)
+
+    return air

@@ -1,0 +1,216 @@
+"""Arguments of several commands: options in few words, ranges of numbers, and checks of the files they name."""
+
+from __future__ import annotations
+
+import inspect
+import os
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from dataclasses import fields, is_dataclass
+from decimal import Decimal, InvalidOperation
+from fractions import Fraction
+from math import floor, lcm
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+from cyclopts import Parameter, Token
+from numpy.typing import NDArray
+
+from wingbeat._base import FaultList, writing
+from wingbeat.plots import check_figure_name
+from wingbeat.records.result_files import check_result_name
+
+# --- options ---
+
+
+def flag(text: str) -> Parameter:
+    """Return an option that is either given or not, with its help."""
+    return Parameter(negative="", help=text)
+
+
+def several(text: str) -> Parameter:
+    """Return an option that takes all values up to the next option, with its help."""
+    return Parameter(consume_multiple=True, negative=(), help=text)
+
+
+def figure(what: str) -> Parameter:
+    """Return the option of a figure's file."""
+    return Parameter(help=f"{what}: .png, .pdf or .svg.")
+
+
+def written_to(text: str) -> Parameter:
+    """Return the option ``--output``, with its help."""
+    return Parameter(name=["--output", "-o"], help=text)
+
+
+def _whole(type_: type, tokens: Sequence[Token]) -> int:
+    """Return a whole number, or refuse it; cyclopts alone would round 1.5."""
+    text = tokens[0].value
+    try:
+        return int(text)
+    except ValueError:
+        raise ValueError(f'"{text}" is not a whole number') from None
+
+
+Whole = Annotated[int, Parameter(converter=_whole)]
+Seed = Annotated[Whole, Parameter(help="Seed of the random starts.")]
+Output = Annotated[
+    Path | None, written_to("Write the result: .nc for `show`, `plot`, `view`; .csv; .mat for MATLAB.")
+]
+
+
+def named_numbers(
+    faults: FaultList, option: str, words: list[str] | None, names: Sequence[str], example: str
+) -> dict[str, float]:
+    """Return the numbers of words such as ``w=3`` by name, and note what cannot be read."""
+    found: dict[str, float] = {}
+    if words is not None and not words:
+        faults.add(option, "", "must be NAME=VALUE", f"for example {example}")
+    for word in words or []:
+        name, _, text = word.partition("=")
+        try:
+            value = float(text)
+        except ValueError:
+            faults.add(option, word, "must be NAME=VALUE with a number", f"for example {example}")
+            continue
+        if name in found:
+            faults.add(option, word, "is given twice", "keep one of them")
+        faults.choice(option, name, tuple(names))
+        found[name] = value
+    return found
+
+
+def given_beside(command: Callable[..., Any], values: dict[str, Any], *allowed: str) -> list[str]:
+    """Return the options, as typed, that differ from their defaults, except those in `allowed`."""
+    defaults = {name: parameter.default for name, parameter in inspect.signature(command).parameters.items()}
+    names = []
+    for name, value in values.items():
+        if is_dataclass(value):
+            names += [field.name for field in fields(value) if getattr(value, field.name) != field.default]
+        elif name not in allowed and value != defaults[name]:
+            names.append(name)
+    return ["SPECIES" if name == "species" else "--" + name.strip("_").replace("_", "-") for name in names]
+
+
+# --- ranges of numbers: ``start:stop:step``, the stop included ---
+
+MAX_VALUES = 10_000_000
+_MAX_DIGITS = 12
+_SYNTAX = "write start:stop:step, for example 0:110:2, or one number"
+
+
+def _exact(faults: FaultList, where: str, text: str) -> Fraction | None:
+    """Return the decimal number exactly, or None with a fault noted."""
+    try:
+        number = Decimal(text.strip())
+    except InvalidOperation:
+        faults.add(where, text, "is not a number", _SYNTAX)
+        return None
+    if not number.is_finite():
+        faults.add(where, text, "must be finite", _SYNTAX)
+        return None
+    exponent = number.as_tuple().exponent
+    # Read exactly, 1e999999 would fill the memory.
+    if number and (number.adjusted() > _MAX_DIGITS or int(exponent) < -_MAX_DIGITS):
+        faults.add(where, text, f"has more than {_MAX_DIGITS} digits before or after the point", "round it")
+        return None
+    return Fraction(number)
+
+
+def _check_steps(faults: FaultList, where: str, text: str, parts: list[Fraction]) -> None:
+    """Note a step that is zero, too small, leads away from the stop, or misses the stop."""
+    start, stop, step = parts
+    if step == 0:
+        faults.add(where, text, "the step must not be 0", _SYNTAX)
+        return
+    steps = (stop - start) / step
+    if steps < 0:
+        faults.add(where, text, "the step leads away from the stop", "reverse the sign of the step")
+    elif steps >= MAX_VALUES:
+        faults.add(where, text, f"gives more than {MAX_VALUES} values", "take a larger step")
+    elif steps.denominator != 1:
+        nearest = float(start + floor(steps) * step), float(start + (floor(steps) + 1) * step)
+        fix = f"stop at {nearest[0]:g} or {nearest[1]:g}, or change the step"
+        faults.add(where, text, "the stop is not a whole number of steps from the start", fix)
+
+
+def parse_range(text: str, where: str) -> NDArray[np.float64]:
+    """Return the numbers of ``start:stop:step``, both ends included exactly, or a single number, shape (n,).
+
+    Parameters
+    ----------
+    text : the user's text.
+    where : the option's name, for messages.
+
+    Raises
+    ------
+    InvalidInputError : not numbers, a step that is 0, leads away from the stop or misses it, too many values.
+
+    >>> parse_range("0:0.3:0.1", "--alpha").tolist()
+    [0.0, 0.1, 0.2, 0.3]
+    >>> parse_range("5", "--alpha").tolist()
+    [5.0]
+    """
+    faults = FaultList()
+    pieces = str(text).split(":")
+    if len(pieces) not in (1, 3):
+        faults.add(where, text, f"has {len(pieces)} numbers instead of 1 or 3", _SYNTAX)
+        faults.raise_if_any()
+    parts = [part for piece in pieces if (part := _exact(faults, where, piece)) is not None]
+    faults.raise_if_any()
+    if len(parts) == 1:
+        return np.array([float(parts[0])])
+    _check_steps(faults, where, text, parts)
+    faults.raise_if_any()
+    start, stop, step = parts
+    # In whole units of the common denominator every value is exact, and its quotient rounded only once.
+    unit = lcm(start.denominator, step.denominator)
+    count = int((stop - start) / step) + 1
+    return np.array([(int(start * unit) + i * int(step * unit)) / unit for i in range(count)])
+
+
+# --- files ---
+
+
+class _Enough(Exception):
+    """Raised to leave `writing` once it has shown that a path can be written; nothing is written yet."""
+
+
+def check_result(faults: FaultList, output: Path | None, **figures: Path | None) -> None:
+    """Note what `check_files` notes, and a result's name with an unknown ending.
+
+    `check_outputs` refuses folders and devices.
+    """
+    if output is not None and (os.path.isfile(output) or not os.path.exists(output)):
+        check_result_name(faults, "--output", output)
+    check_files(faults, output, **figures)
+
+
+def check_files(faults: FaultList, output: Path | None = None, **figures: Path | None) -> None:
+    """Note figure names without a figure's suffix, and files that two options name."""
+    taken = {} if output is None else {_real(output): "--output"}
+    for name, figure in figures.items():
+        if figure is None:
+            continue
+        option = f"--{name.replace('_', '-')}"
+        check_figure_name(faults, option, figure)
+        other = taken.setdefault(_real(figure), option)
+        if other != option:
+            faults.add(option, str(figure), f"is also the file of {other}", "give each option its own file")
+
+
+def _real(path: Path) -> str:
+    """Return the resolved path of a file; an impossible path is refused later, when it is written."""
+    try:
+        return os.path.realpath(path)
+    except ValueError:  # a NUL
+        return str(path)
+
+
+def check_outputs(*paths: Path | None) -> None:
+    """Refuse a path that cannot be written, before the work starts; an existing file is not changed."""
+    for path in paths:
+        if path is not None:
+            with suppress(_Enough), writing(path):
+                raise _Enough

@@ -13,26 +13,21 @@ from __future__ import annotations
 
 from wingbeat._version import __version__ as __version__
 
-# What most users need, in groups; each of the other names of the stub is in one of the packages at the end.
-__all__ = [  # pyright: ignore[reportUnsupportedDunderAll]
-    *("Species", "bat", "bird", "load_species", "robot", "species_names"),
-    *("Air", "Body", "Motor", "Muscle", "Springs", "Tail", "Vehicle", "Wing", "Wingbeat"),
-    *(
-        "Constraint",
-        "FlightModel",
-        "Orbit",
-        "OrbitProblem",
-        "State",
-        "Status",
-        "load_orbit",
-        "solve_orbit",
-        "solve_orbits",
-    ),
-    *("Curve", "Flight", "glide_polar", "load_curve", "pareto_front", "power_account", "simulate", "solve_curve"),
-    *("export", "linearise", "feedback", "plan_study", "sensitivities", "trace_terms", "uncertainty_by_samples"),
-    *("WingbeatError", "__version__"),
-    *("aero", "experiment", "models", "objectives", "options", "plots", "stability", "studies", "viewer", "winds"),
-]
+# What most users need, in groups. Each of the other names of the stub is in one of the packages at the end.
+_GROUPS = {
+    "an animal or a robot": "load_species species_names bird bat robot Species",
+    "its parts": "Vehicle Body Wing Tail Muscle Motor Springs Air Wingbeat",
+    "a wingbeat that carries it": "OrbitProblem Constraint solve_orbit solve_orbits Orbit Status load_orbit",
+    "many of these": "solve_curve Curve load_curve glide_polar pareto_front plan_study",
+    "what it depends on": "sensitivities uncertainty_by_samples power_account trace_terms",
+    "flight and control": "FlightModel State simulate Flight linearise feedback",
+    "results elsewhere": "export",
+    "errors": "WingbeatError",
+    "packages": "aero experiment models objectives options plots stability studies viewer winds",
+}
+__all__ = [name for names in _GROUPS.values() for name in names.split()]  # pyright: ignore
+_LISTED = "\n".join(f"* {title}: {names}" for title, names in _GROUPS.items())
+__doc__ = f"{__doc__ or ''}\nWhere to begin:\n\n{_LISTED}\n"
 
 
 def __getattr__(name: str) -> object:
@@ -46,4 +41,4 @@ def __getattr__(name: str) -> object:
 
 
 def __dir__() -> list[str]:
-    return sorted(__all__)
+    return sorted([*__all__, "__version__"])

@@ -264,10 +264,7 @@ class Pool:
 
 
 def in_processes(
-    work: Callable[[T], R],
-    items: Sequence[T],
-    processes: int,
-    progress: Callable[[int, int], None] | None = None,
+    work: Callable[[T], R], items: Sequence[T], processes: int, progress: Callable[[int, int], None] | None = None
 ) -> Iterator[R]:
     """Yield the result of `work` for each item, in the order of the items, as soon as it is ready.
 

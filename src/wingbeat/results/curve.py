@@ -5,27 +5,51 @@ from __future__ import annotations
 import functools
 import itertools
 import json
+import math
+import re
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base import FaultList, Report, Reported
+import numpy as np
+
+from wingbeat._base import (
+    KIND,
+    NOMENCLATURE,
+    FaultList,
+    Report,
+    Reported,
+    attributes_of,
+    cf,
+    harmonic_place,
+    label_of,
+)
+from wingbeat._version import __version__
 from wingbeat._workers.tuning import core_count
+from wingbeat.animal.kinematics import NAMED_IF_ON, PARAMETER_NAMES, in_use
+from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.many.branches import Branches, trace
-from wingbeat.orbits.many.transitions import marks_of
+from wingbeat.orbits.many.transitions import certified, families, marks_of
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
 from wingbeat.plots.draw_curve import curve_page
-from wingbeat.records.characteristic import best_line, characteristic_speeds, is_mean_power, next_speeds
-from wingbeat.records.inputs import inputs_of
+from wingbeat.records.characteristic import (
+    BestLine,
+    _line,
+    best_line,
+    characteristic_speeds,
+    is_mean_power,
+    next_speeds,
+    with_characteristic_speeds,
+)
+from wingbeat.records.inputs import aero_record, inputs_hash, inputs_of, vehicle_record
 from wingbeat.records.result_files import Saveable, load_dataset
 from wingbeat.records.tables import finite_or_none, frame_of
-from wingbeat.results.curve_dataset import POINTS, best_of, curve_dataset
 from wingbeat.results.orbit import Orbit
-from wingbeat.words.curve_words import curve_report
+from wingbeat.words.curve_words import curve_report, span_in_words
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -217,7 +241,7 @@ def solve_curve(
     solved = [optima[0].problem.speed for optima in branches.optima]
     inputs = inputs_of(problem, starts, seed, options) | {"speed": solved, "power_limit": power_limit}
     seconds = time.perf_counter() - begun
-    return Curve(curve_dataset(branches, records, marks_of(branches), inputs, speeds, seconds))
+    return Curve(curve_dataset(branches, records, inputs, speeds, seconds))
 
 
 def load_curve(path: str | PathLike[str]) -> Curve:
@@ -240,3 +264,158 @@ def load_curve(path: str | PathLike[str]) -> Curve:
     True
     """
     return Curve(load_dataset(path, "curve"))
+
+
+POINTS = ("speed", "optimum")
+# Numbers of the orbit record that the curve holds at each speed.
+_NUMBERS = (
+    "objective_value",
+    *("mean_power", "mean_positive_power", "peak_power", "mean_actuator_power", "peak_actuator_power"),
+    *("cost_of_transport", "body_pitch_range", "strouhal", "reduced_frequency", "reynolds", "optimality"),
+)
+
+_TEXTS: dict[str, Callable[[dict[str, Any]], str]] = {
+    "active_bounds": lambda record: ", ".join(record["active_bounds"]),
+    "outside_ranges": lambda record: ", ".join(j["name"] for j in record["plausibility"] if j["within"] is False),
+}
+
+
+def curve_dataset(
+    branches: Branches,
+    records: Sequence[Sequence[dict[str, Any]]],
+    inputs: dict[str, Any],
+    asked: Sequence[float],
+    seconds: float,
+) -> xr.Dataset:
+    """Assemble the records of all optima, shape (speed, optimum), the best first, padded with not-a-number.
+
+    Speeds that were not `asked` for are marked: they were added to find the characteristic speeds.
+    """
+    import xarray as xr
+
+    problem = branches.optima[0][0].problem
+    speeds = np.array([optima[0].problem.speed for optima in branches.optima])
+    first = [row[0] for row in records]
+    # The record of each certified optimum, None in place of another.
+    good = [
+        [record if certified(one) else None for record, one in zip(*row, strict=True)]
+        for row in zip(records, branches.optima, strict=True)
+    ]
+    widest = max(map(len, good))
+    places = [((i, k), record) for i, row in enumerate(good) for k, record in enumerate(row) if record is not None]
+    columns: dict[str, Any] = {}
+
+    def add(name: str, dims: tuple[str, ...], values: np.ndarray) -> None:
+        columns[name] = (dims, values, attributes_of(NOMENCLATURE[name]))
+
+    for name, unit, label, of in _numbers(problem):
+        values = np.full((len(good), widest), np.nan)
+        for place, record in places:
+            values[place] = of(record)  # None, such as a cost of transport in hover, becomes not-a-number
+        columns[name] = (POINTS, values, {"units": unit, "long_name": label})
+    for name, text_of in _TEXTS.items():
+        texts = np.full((len(good), widest), "", dtype=object)
+        for place, record in places:
+            texts[place] = text_of(record)
+        columns[name] = (POINTS, texts, {"long_name": label_of(name)})
+    family = np.full((len(good), widest), -1)
+    for i, row in enumerate(families(branches)):
+        family[i, : len(row)] = [n if r is not None else -1 for n, r in zip(row, good[i], strict=True)]
+    add("family", POINTS, family)
+    steps = np.zeros((len(speeds) - 1, widest, widest), dtype=int)
+    for join in branches.links:
+        steps[join.interval, join.lower, join.upper] = join.steps
+    add("continued", ("interval", "optimum", "optimum_above"), steps)
+    for name in ("status", "message"):
+        add(name, ("speed",), np.array([record[name] for record in first], dtype=object))
+    add("warnings", ("speed",), np.array(["\n".join(record["warnings"]) for record in first], dtype=object))
+    add("refined", ("speed",), np.array([int(u not in asked) for u in speeds]))
+    add("starts", ("speed",), np.array([record["starts"] for record in first]))
+    counts = [r["distinct_optima"] if row[0] is not None else 0 for r, row in zip(first, good, strict=True)]
+    add("distinct_optima", ("speed",), np.array(counts))
+    speed = {"units": NOMENCLATURE["speed"].unit, "long_name": label_of("speed")}
+    speed["standard_name"] = "platform_speed_wrt_air"
+    optimum = attributes_of(NOMENCLATURE["optimum"])
+    axes = {"speed": ("speed", speeds, speed), "optimum": ("optimum", np.arange(widest), optimum)}
+    marks = [
+        {"kind": mark.kind, "lower_speed": mark.lower, "upper_speed": mark.upper, "what": mark.what}
+        for mark in marks_of(branches)
+    ]
+    attributes = {
+        "Conventions": "CF-1.11",
+        KIND: "curve",
+        "species": problem.species.name,
+        "vehicle": json.dumps(vehicle_record(problem.vehicle)),
+        "aero": json.dumps(aero_record(problem.aero)),
+        "air": json.dumps(dict(vars(problem.air))),
+        "climb": float(problem.climb),
+        "objective": problem.minimise.name,
+        "constraints": json.dumps([str(c) for c in problem.subject_to]),
+        "marks": json.dumps(marks),
+        "warnings": json.dumps(_common_warnings(first)),
+        "solve_seconds": seconds,
+        "version": __version__,
+        "inputs": json.dumps(inputs),
+        "inputs_hash": inputs_hash(inputs),
+    }
+    return with_characteristic_speeds(xr.Dataset(columns, axes, attributes), inputs["power_limit"])
+
+
+def _numbers(problem: OrbitProblem) -> Iterator[tuple[str, str, str, Callable[[dict[str, Any]], float | None]]]:
+    """Yield name, unit and meaning of each number of an optimum, and the function that reads it from a record."""
+    for name in _NUMBERS:
+        unit = cf(problem.minimise.unit) if name == "objective_value" else NOMENCLATURE[name].unit
+        yield name, unit, label_of(name), lambda record, name=name: record[name]
+    for name in PARAMETER_NAMES:
+        always = name not in NAMED_IF_ON and harmonic_place(name) is None
+        if always or in_use(problem.species.wingbeat, name) or name in problem.free:
+            own = functools.partial(_parameter, name)
+            yield name, NOMENCLATURE[name].unit, label_of(name), own
+    for name in State._fields:
+        for column, part in (("initial", "initial_state"), ("closure", "closure")):
+            label = label_of(f"{part}.{name}")
+            of = lambda record, part=part, name=name: record[part][name]  # noqa: E731
+            yield f"{column}_{name}", NOMENCLATURE[name].unit, label, of
+    for i, constraint in enumerate(problem.subject_to):
+        label = f"{constraint.quantity.name}, kept to {constraint}"
+        of = lambda record, text=str(constraint): record["constraints"][text]  # noqa: E731
+        yield f"constraint_{i}", cf(constraint.quantity.unit), label, of
+    yield "largest_multiplier", "1", label_of("largest_multiplier"), _largest_multiplier
+
+
+def _parameter(name: str, record: dict[str, Any]) -> float:
+    """Return a parameter of the wingbeat, 0 for a law or a harmonic that is off."""
+    place = harmonic_place(name)
+    if place is None:
+        return record["wingbeat"].get(name, 0.0)
+    law, at = place
+    pairs = record["wingbeat"].get(law, [])
+    return pairs[at] if at < len(pairs) else 0.0
+
+
+def _largest_multiplier(record: dict[str, Any]) -> float | None:
+    pairs = record["floquet_multipliers"]
+    lost = any(part is None for pair in pairs for part in pair)
+    return None if lost else max(math.hypot(*pair) for pair in pairs)
+
+
+def best_of(branches: Branches) -> BestLine:
+    """Return the best orbits along speed, while the curve is being solved."""
+    best = [optima[0] for optima in branches.optima]
+    problem, speed = best[0].problem, np.array([one.problem.speed for one in best])
+    value = np.array([one.objective if certified(one) else math.nan for one in best])
+    marks = [(mark.kind, mark.lower, mark.upper) for mark in marks_of(branches)]
+    limits = [one.limited for one in best]
+    return _line(problem.minimise.name, problem.minimise.unit, speed, value, marks, limits)
+
+
+def _common_warnings(records: Sequence[dict[str, Any]]) -> list[str]:
+    """Return the best orbits' warnings with their speeds; warnings that differ only in numbers are merged."""
+    speeds: dict[str, list[float]] = {}
+    texts: dict[str, str] = {}
+    for record in records:
+        for text in record["warnings"]:
+            key = re.sub(r"[\d.]+", "#", text)
+            texts.setdefault(key, text)
+            speeds.setdefault(key, []).append(record["speed"])
+    return [f"at {span_in_words(speeds[key])} m/s: {text}" for key, text in texts.items()]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import functools
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from os import PathLike
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -16,7 +16,7 @@ from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import Steps
 from wingbeat.orbits.flight.beat import flown_beat
-from wingbeat.orbits.flight.certify import SAMPLES, Certificate, certify
+from wingbeat.orbits.flight.certify import SAMPLES, certify
 from wingbeat.orbits.flight.floquet import floquet_multipliers
 from wingbeat.orbits.infeasible.relaxation import Relaxation
 from wingbeat.orbits.many.batch import find_orbits
@@ -52,26 +52,6 @@ class Summary(NamedTuple):
     wingbeat: Wingbeat
     initial_state: State
     relaxations: tuple[Relaxation, ...] = ()
-
-
-# What time series are computed from: problem, wingbeat, and the flight of the certifier.
-_Flown = tuple[OrbitProblem, Wingbeat, Certificate]
-
-
-def _series(flown: Callable[[], _Flown], inputs: dict[str, Any], record: dict[str, Any]) -> xr.Dataset:
-    """Return the time series of a simulated wingbeat, with record and inputs as attributes."""
-    problem, wingbeat, certificate = flown()
-    flight = problem.model, wingbeat, certificate.phase, certificate.states
-    attributes = orbit_attributes(record, inputs) | shape_attribute(problem.species)
-    return flight_dataset(*flight, evaluate(*flight), attributes)
-
-
-def _flown_by(solution: Solution) -> _Flown:
-    return solution.problem, solution.wingbeat, solution.certificate
-
-
-def _flown_again(problem: OrbitProblem, wingbeat: Wingbeat, pitch_state: np.ndarray) -> _Flown:
-    return problem, wingbeat, certify(problem.model, wingbeat, pitch_state)
 
 
 def _summary(record: dict[str, Any]) -> Summary:
@@ -129,15 +109,19 @@ class Orbit(Saveable, Reported):
         self,
         summary: Summary,
         inputs: dict[str, Any],
-        record: dict[str, Any] | Callable[[], dict[str, Any]],
-        series: xr.Dataset | Callable[[dict[str, Any]], xr.Dataset],
         problem: OrbitProblem | None = None,
+        solution: Solution | None = None,
+        record: dict[str, Any] | None = None,
+        series: xr.Dataset | None = None,
     ) -> None:
+        # Record and series that are not given are computed on demand: the record from the solution, the series from
+        # it or from another flight.
         self._summary = summary
         self._inputs = inputs
+        self._problem = problem
+        self._solution = solution
         self._given_record = record
         self._given_series = series
-        self._problem = problem
 
     @classmethod
     def of(cls, solution: Solution, starts: int, seed: int = 0) -> Orbit:
@@ -151,9 +135,7 @@ class Orbit(Saveable, Reported):
         inputs = inputs_of(solution.problem, starts, seed, solution.options)
         start = State(*solution.certificate.states[0].tolist())
         summary = Summary(solution.status, solution.message, solution.wingbeat, start, solution.relaxations)
-        # Partial functions, and no lambdas: an orbit can be pickled.
-        series = functools.partial(_series, functools.partial(_flown_by, solution), inputs)
-        return cls(summary, inputs, functools.partial(orbit_record, solution), series, solution.problem)
+        return cls(summary, inputs, solution.problem, solution)
 
     @classmethod
     def of_record(cls, record: dict[str, Any], problem: OrbitProblem, starts: int, seed: int = 0) -> Orbit:
@@ -165,10 +147,7 @@ class Orbit(Saveable, Reported):
         problem : the problem that it solves.
         starts, seed : settings of the solver.
         """
-        inputs, summary = inputs_of(problem, starts, seed), _summary(record)
-        pitch_state = np.array(summary.initial_state)[2:]
-        flown = functools.partial(_flown_again, problem, summary.wingbeat, pitch_state)
-        return cls(summary, inputs, record, functools.partial(_series, flown, inputs), problem)
+        return cls(_summary(record), inputs_of(problem, starts, seed), problem, record=record)
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state to pickle: the record, and the time series if they have been computed."""
@@ -176,7 +155,10 @@ class Orbit(Saveable, Reported):
 
     @functools.cached_property
     def _record(self) -> dict[str, Any]:
-        return self._given_record() if callable(self._given_record) else self._given_record
+        if self._given_record is not None:
+            return self._given_record
+        assert self._solution is not None
+        return orbit_record(self._solution)
 
     def __repr__(self) -> str:
         what, beat = self._inputs, f"{self.wingbeat.frequency:.3f} Hz"
@@ -234,7 +216,16 @@ class Orbit(Saveable, Reported):
     @functools.cached_property
     def dataset(self) -> xr.Dataset:
         """The time series of one beat, labelled, with the record as attributes."""
-        return self._given_series(self._record) if callable(self._given_series) else self._given_series
+        if self._given_series is not None:
+            return self._given_series
+        problem, wingbeat = self._problem or self.problem, self.wingbeat
+        if self._solution is not None:
+            certificate = self._solution.certificate
+        else:
+            certificate = certify(problem.model, wingbeat, np.array(self.initial_state)[2:])
+        flight = problem.model, wingbeat, certificate.phase, certificate.states
+        attributes = orbit_attributes(self._record, self._inputs) | shape_attribute(problem.species)
+        return flight_dataset(*flight, evaluate(*flight), attributes)
 
     def _report(self) -> Report:
         return orbit_report(self._record)
@@ -309,7 +300,7 @@ def orbit_from(dataset: xr.Dataset) -> Orbit:
     dataset : that `load_dataset` read and checked.
     """
     record, inputs = parse_attributes(dataset.attrs)
-    return Orbit(_summary(record), inputs, record, dataset)
+    return Orbit(_summary(record), inputs, record=record, series=dataset)
 
 
 def solve_orbit(

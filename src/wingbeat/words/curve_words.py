@@ -79,7 +79,7 @@ def _implausible(points: list[dict[str, Any]]) -> list[Block]:
     for names, group in itertools.groupby(judged, key=lambda one: one[1]):
         speeds = [speed for speed, _ in group]
         if names:
-            lines.append(Line(f"  at {_span(speeds)} m/s: {str(names).replace('_', ' ')}", tone="warning"))
+            lines.append(Line(f"  at {span_in_words(speeds)} m/s: {str(names).replace('_', ' ')}", tone="warning"))
     return lines if len(lines) > 2 else [*lines, Line("  at no speed")]
 
 
@@ -96,7 +96,8 @@ def _limited(record: dict[str, Any]) -> list[Block]:
     if not spans:
         return []
     told = [
-        Line(f"  {name} {words} at {' and '.join(map(_span, runs))} m/s") for (name, words), runs in spans.items()
+        Line(f"  {name} {words} at {' and '.join(map(span_in_words, runs))} m/s")
+        for (name, words), runs in spans.items()
     ]
     return [Line(""), Line("set by limits, so not predicted", tone="title"), *told]
 
@@ -109,7 +110,8 @@ def _set_by_limit(point: dict[str, Any], objective: str) -> dict[str, SetBy]:
     return set_by_limit({"active_bounds": names, "objective": objective, "wingbeat": best})
 
 
-def _span(speeds: list[float]) -> str:
+def span_in_words(speeds: list[float]) -> str:
+    """Return the first and the last of some speeds."""
     return f"{speeds[0]:g}" if len(speeds) == 1 else f"{speeds[0]:g} to {speeds[-1]:g}"
 
 

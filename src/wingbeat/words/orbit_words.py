@@ -92,8 +92,7 @@ def flight_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
     for name in ("alpha_quarter_span", "alpha_three_quarter_span"):
         if name in record:
             factor, unit = for_people(NOMENCLATURE[name].unit)
-            low, high = (_number(v, unit, factor) for v in record[name])
-            rows.append((_label(name), f"{low.removesuffix(f' {unit}')} to {high}"))
+            rows.append((_label(name), _range(*record[name], unit, factor)))
     if "body_pitch_range" in record:
         rows.append((_label("body_pitch_range"), _of(record, "body_pitch_range", limited)))
     return rows
@@ -104,12 +103,17 @@ def plausible_rows(judged: list[dict[str, Any]], limited: Limited = _NONE) -> Ro
     rows = []
     for one in judged:
         factor, unit = for_people(cf(str(one["unit"])))
-        low, high = (None if end is None else _number(end, unit, factor) for end in (one["low"], one["high"]))
-        known = "no range is known"
-        if low and high:
-            known = f"{low.removesuffix(f' {unit}')} to {high}"
-        elif low or high:
-            known = f"at least {low}" if low else f"at most {high}"
+        low, high = one["low"], one["high"]
+        if low is None and high is None:
+            known = "no range is known"
+        elif low is None or high is None:
+            known = (
+                f"at least {_number(low, unit, factor)}"
+                if high is None
+                else f"at most {_number(high, unit, factor)}"
+            )
+        else:
+            known = _range(low, high, unit, factor)
         outside = ", outside" if one["within"] is False else ""
         by = limited[one["name"]].by if one["name"] in limited else ()
         why = ", set by the limit" if one["name"] in by else ", follows from a limit" if by else ""
@@ -230,16 +234,24 @@ def _why(name: str, limited: Limited) -> str:
 
 
 def _number(value: Any, unit: str, factor: float) -> str:
-    if isinstance(value, list | tuple):
-        # Harmonics below a ten-thousandth of a degree are zero for a reader.
-        shown = [f"{each * factor:.3g}" if abs(each * factor) >= 1e-4 else "0" for each in value]
-        return f"{', '.join(shown)} {unit}".rstrip()
     if value is None:
         return "-"  # undefined, as a cost of transport in hover
+    return f"{_digits(value, unit, factor)} {unit}".rstrip()
+
+
+def _range(low: float | None, high: float | None, unit: str, factor: float) -> str:
+    """Return two ends with one unit behind both."""
+    return f"{'-' if low is None else _digits(low, unit, factor)} to {_number(high, unit, factor)}"
+
+
+def _digits(value: Any, unit: str, factor: float) -> str:
+    if isinstance(value, list | tuple):
+        # Harmonics below a ten-thousandth of a degree are zero for a reader.
+        return ", ".join(f"{each * factor:.3g}" if abs(each * factor) >= 1e-4 else "0" for each in value)
     shown = value * factor
     # Rounding of an angle that is at 0, or whose limit is.
     shown = 0.0 if unit == "deg" and abs(shown) < 1e-6 else shown
-    return f"{shown:{'.0f' if 1e4 <= abs(shown) < 1e7 else '.4g'}} {unit}".rstrip()
+    return f"{shown:{'.0f' if 1e4 <= abs(shown) < 1e7 else '.4g'}}"
 
 
 def orbit_report(record: dict[str, Any]) -> Report:

@@ -1,4 +1,4 @@
-"""The page that shows a filmed wingbeat: frames, the periodic spline through them, and its band."""
+"""Pages of measurements: a filmed wingbeat with its spline and band, and fitted coefficients with their data."""
 
 from __future__ import annotations
 

@@ -216,11 +216,7 @@ def draw_portraits(dataset: xr.Dataset, panels: Any) -> None:
 
 
 def _portrait(
-    axes: Axes,
-    phase: np.ndarray,
-    place: np.ndarray,
-    speed: np.ndarray,
-    strokes: Sequence[tuple[float, float]],
+    axes: Axes, phase: np.ndarray, place: np.ndarray, speed: np.ndarray, strokes: Sequence[tuple[float, float]]
 ) -> tuple[list, list]:
     """Draw one portrait; return the lines of both strokes and the marks of their starts."""
     axes.locator_params(axis="x", nbins=5)

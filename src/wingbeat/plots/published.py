@@ -1,9 +1,10 @@
-"""Wingbeat frequencies measured on animals, each with its source, its spread and a grade.
+"""Frequencies, flight powers and speeds of live animals to draw beside ours, each with source, spread and grade.
 
 Grade A: we read the number in the source's own text. Grade D: we computed it from such a text for our vehicle. We
 leave out numbers that we know only second-hand. Among these are the frequencies of Tobalske and Dial 1996 that the
 paper draws: we could not obtain their table, and their abstract says only that the frequency does not change
-appreciably from 6 to 20 m/s.
+appreciably from 6 to 20 m/s. No source measures the mean positive hinge power, which we compute: each label says
+what was measured.
 """
 
 from __future__ import annotations
@@ -53,22 +54,10 @@ class Measured:
     unit: str = "Hz"
 
 
-def _birds_by_mass(vehicle: Vehicle, air: Air, speed: float) -> float:
-    return scaling.FREQUENCY_BY_MASS(vehicle.mass)
-
-
-def _birds_by_wing(vehicle: Vehicle, air: Air, speed: float) -> float:
-    return scaling.FREQUENCY_BY_WING(vehicle.wing.semi_span)
-
-
 def _birds_by_theory(vehicle: Vehicle, air: Air, speed: float) -> float:
     wing = vehicle.wing
     span, area = 2 * wing.semi_span, 2 * wing.semi_span * wing.mean_chord
     return scaling.BIRD_FREQUENCY(vehicle.mass, span, area, air.density, air.gravity)
-
-
-def _bats(vehicle: Vehicle, air: Air, speed: float) -> float:
-    return scaling.BAT_FREQUENCY(vehicle.mass, speed)
 
 
 _RAYNER = "van den Berg and Rayner 1995, J Exp Biol 198:1655, table 3"
@@ -97,13 +86,19 @@ MEASURED_FREQUENCIES = (
         "pigeon",
         "birds by mass, van den Berg & Rayner 1995",
         (6, 20),
-        _birds_by_mass,
+        lambda vehicle, air, speed: scaling.FREQUENCY_BY_MASS(vehicle.mass),
         0.0,
         f"{_RAYNER}; {_FLAT}",
         "D",
     ),
     Measured(
-        "pigeon", "birds by wing length, same source", (6, 20), _birds_by_wing, 0.0, f"{_RAYNER}; {_FLAT}", "D"
+        "pigeon",
+        "birds by wing length, same source",
+        (6, 20),
+        lambda vehicle, air, speed: scaling.FREQUENCY_BY_WING(vehicle.wing.semi_span),
+        0.0,
+        f"{_RAYNER}; {_FLAT}",
+        "D",
     ),
     _BIRDS_BY_SIZE,
     _LOADED_PIGEONS,
@@ -111,7 +106,7 @@ MEASURED_FREQUENCIES = (
         "bat",
         "bats by mass, Bullen & McKenzie 2002",
         (1, 10),
-        _bats,
+        lambda vehicle, air, speed: scaling.BAT_FREQUENCY(vehicle.mass, speed),
         1.0,
         "Bullen and McKenzie 2002, J Exp Biol 205:2615, abstract: 23 Australian species, 21 of them within 1 Hz; "
         "at high speeds the measured frequency hardly depends on speed, but the law keeps falling, so we do not "
@@ -169,9 +164,7 @@ MEASURED_POWERS = (
     ),
 )
 # Speeds of minimum power [m/s].
-MEASURED_MINIMUM_POWER_SPEEDS = {
-    "pigeon": ("speed of minimum power, Pennycuick 1968", (8.0, 9.0), _PENNYCUICK),
-}
+MEASURED_MINIMUM_POWER_SPEEDS = {"pigeon": ("speed of minimum power, Pennycuick 1968", (8.0, 9.0), _PENNYCUICK)}
 _POINTS = 33
 
 

@@ -28,23 +28,10 @@ from wingbeat.orbits.problem.problem import PATH_NAMES
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.status import Status
 from wingbeat.records.forms import from_json
-from wingbeat.records.inputs import (
-    OWN,
-    aero_inputs,
-    inputs_of,
-    problem_from,
-    shape_attribute,
-)
+from wingbeat.records.inputs import OWN, aero_inputs, inputs_of, problem_from, shape_attribute
 from wingbeat.records.judgements import OF_BEAT, judged
 from wingbeat.records.numbers import alpha_range, flight_numbers, power_summary
-from wingbeat.records.series_agreement import (
-    ABSOLUTE,
-    check_newton,
-    check_series,
-    check_wings,
-    demand,
-    same,
-)
+from wingbeat.records.series_agreement import ABSOLUTE, check_newton, check_series, check_wings, demand, same
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -62,18 +49,7 @@ REPEATED_BY_A_CURVE = ("vehicle", "air", "climb")
 
 
 def check_orbit(record: dict[str, Any], inputs: dict[str, Any], dataset: xr.Dataset) -> None:
-    """Check that record, inputs and series are those of one orbit.
-
-    Parameters
-    ----------
-    record, inputs : of an orbit.
-    dataset : its series.
-
-    Raises
-    ------
-    ValueError : which numbers do not agree.
-    LookupError, TypeError, AttributeError : record or inputs lack something, or hold it in another form.
-    """
+    """Check that record, inputs and series are those of one orbit."""
     series = {str(name): variable.values for name, variable in dataset.variables.items()}
     species, converged = species_of(inputs), Status(record["status"]) is Status.CONVERGED
     changes = [Relaxation(**change) for change in record["relaxations"]]
@@ -89,28 +65,23 @@ def check_orbit(record: dict[str, Any], inputs: dict[str, Any], dataset: xr.Data
         demand(whole == {*series}, "a converged orbit flies the whole beat")
         _check_certificate(record, inputs)
         check_newton(series, species)
-    demand(record["stable"] is _stable(record["floquet_multipliers"], converged), "stable is not what follows")
+    demand(len(record["floquet_multipliers"]) == 4, "there are not four Floquet multipliers")
+    stable = max(math.hypot(*pair) for pair in record["floquet_multipliers"]) < 1.0 if converged else None
+    demand(record["stable"] is stable, "stable is not what follows")
     own = shape_attribute(species).get(SHAPE)
     demand(own == dataset.attrs.get(SHAPE, own), "shape is not that of the species")
-    _check_plausibility(record, inputs, species)
+    # All numbers that can be judged are, and each judgement follows from value and species.
+    problem: Any = SimpleNamespace(species=species, speed=record["speed"])
+    names = judged_names(species, tuple(inputs["free"]))
+    demand([one["name"] for one in record["plausibility"]] == list(names), "plausibility lacks a judgement")
+    for one in record["plausibility"]:
+        demand(one == judged(problem, one["name"], one["value"]), f"{one['name']} is judged wrongly")
 
 
 def check_limits(
     numbers: Mapping[str, Any], active: Iterable[str], inputs: dict[str, Any], unknown: Iterable[str]
 ) -> None:
-    """Check that free parameters are within their bounds, and that all bounds that they reach are listed.
-
-    Parameters
-    ----------
-    numbers : of a certified orbit, by name; those of constraints are by the texts of these.
-    active : names of its active bounds and limits.
-    inputs : of the orbit or the curve.
-    unknown : names of what is sought beside the free parameters.
-
-    Raises
-    ------
-    ValueError : which number and its limits contradict.
-    """
+    """Check that free parameters are within their bounds, and that all bounds that they reach are listed."""
     active = set(active)
     tolerance = inputs.get("options", {}).get("search", {}).get("bound_tolerance", DEFAULTS.search.bound_tolerance)
     for name in {*inputs["free"]} & {*numbers}:
@@ -214,32 +185,10 @@ def _check_certificate(record: dict[str, Any], inputs: dict[str, Any]) -> None:
     check_limits(numbers, record["active_bounds"], inputs, record["initial_state"])
 
 
-def _stable(multipliers: list[list[Any]], converged: bool) -> bool | None:
-    demand(len(multipliers) == 4, "there are not four Floquet multipliers")
-    return max(math.hypot(*pair) for pair in multipliers) < 1.0 if converged else None
-
-
-def _check_plausibility(record: dict[str, Any], inputs: dict[str, Any], species: Species) -> None:
-    """Check that all numbers that can be judged are, and that each judgement follows from value and species."""
-    problem: Any = SimpleNamespace(species=species, speed=record["speed"])
-    names = judged_names(species, tuple(inputs["free"]))
-    demand([one["name"] for one in record["plausibility"]] == list(names), "plausibility lacks a judgement")
-    for one in record["plausibility"]:
-        demand(one == judged(problem, one["name"], one["value"]), f"{one['name']} is judged wrongly")
-
-
 def species_of(inputs: dict[str, Any]) -> Species:
     """Return the species of inputs that set up a problem, and nothing but what a problem has.
 
     The air loads are left out, for a model of them may take a second; `Orbit.problem` sets them up.
-
-    Parameters
-    ----------
-    inputs : of an orbit.
-
-    Raises
-    ------
-    ValueError, LookupError, TypeError, AttributeError : they are not the inputs of a problem.
     """
     known = [one for one in inputs["constraints"] if not one["quantity"].startswith(OWN)]
     least = "frequency" if inputs["objective"].startswith(OWN) else inputs["objective"]
@@ -276,18 +225,7 @@ _ALWAYS = (
 
 
 def check_curve(dataset: xr.Dataset, inputs: dict[str, Any]) -> None:
-    """Check that points, marks and inputs are those of one curve.
-
-    Parameters
-    ----------
-    dataset : of a curve, in the form of one.
-    inputs : of the curve.
-
-    Raises
-    ------
-    ValueError : which numbers do not agree.
-    LookupError, TypeError, AttributeError : the inputs lack something, or hold it in another form.
-    """
+    """Check that points, marks and inputs are those of one curve."""
     columns = {str(name): variable.values for name, variable in dataset.variables.items()}
     species, about = species_of(inputs | {"speed": inputs["speed"][0]}), dataset.attrs
     for name in REPEATED_BY_A_CURVE:

@@ -82,13 +82,6 @@ class BestLine(NamedTuple):
 def characteristic_speeds(line: BestLine, power_limit: float | None = None) -> dict[str, Any]:
     """Return the speeds at which the minimised quantity is least, and those that a power limit allows.
 
-    Parameters
-    ----------
-    line : the best orbits.
-    power_limit : of a minimised power [W].
-
-    Returns
-    -------
     Of a power ``minimum_power``, and ``maximum_range``, where power over speed is least (the tangent from the
     origin); of the cost of transport ``maximum_range``; of another quantity such as ``minimum_frequency``. With a
     limit also ``fastest_sustained`` and ``slowest_sustained``, None if no speed is within the limit. Each holds
@@ -128,14 +121,6 @@ def next_speeds(line: BestLine, tolerance: float, power_limit: float | None = No
 
     A minimum is sought by successive parabolas, and then enclosed from both sides; a crossing by the chord.
 
-    Parameters
-    ----------
-    line : the best orbits so far.
-    tolerance : distance of the neighbours [m/s].
-    power_limit : as in `characteristic_speeds`.
-
-    Returns
-    -------
     Speeds, none twice; no speeds if every characteristic speed is enclosed, or if solving there cannot enclose it:
     at an end, beside a jump, or at a limit.
     """
@@ -305,32 +290,24 @@ def _crossing(line: BestLine, limit: float) -> dict[str, Any] | None:
 
 
 def with_characteristic_speeds(dataset: xr.Dataset, power_limit: float | None) -> xr.Dataset:
-    """Return the data set of a curve with the speeds that follow from it as an attribute.
-
-    Parameters
-    ----------
-    dataset : of a curve.
-    power_limit : of a minimised power [W].
-    """
+    """Return the data set of a curve with the speeds that follow from it as an attribute."""
     found = characteristic_speeds(best_line(dataset), power_limit)
     return dataset.assign_attrs(characteristic_speeds=json.dumps(found))
 
 
 def best_line(dataset: xr.Dataset) -> BestLine:
-    """Return the best orbits of a curve along speed, and the other families of optima.
-
-    Parameters
-    ----------
-    dataset : of the curve, also one read from a file.
-    """
+    """Return the best orbits of a curve along speed, and the other families of optima."""
     values, family = dataset["objective_value"].values, dataset["family"].values
-    others = [_one(np.where(family == one, values, np.nan)) for one in range(int(family.max(initial=-1)) + 1)]
+    others = []
+    for one in range(int(family.max(initial=-1)) + 1):  # each has at most one optimum at each speed
+        rows = np.where(family == one, values, np.nan)
+        others.append(np.where(np.isfinite(rows).any(axis=1), np.nansum(rows, axis=1), np.nan))
     names = [str(text).split(", ") for text in dataset["active_bounds"].values[:, 0]]
     marks = [(m["kind"], m["lower_speed"], m["upper_speed"]) for m in json.loads(dataset.attrs["marks"])]
     objective, unit = dataset.attrs["objective"], dataset["objective_value"].attrs["units"]
     limits = [frozenset(re.split("[<>]=", name)[0] for name in row if name) for row in names]
-    line = _line(objective, unit, dataset["speed"].values, values[:, 0], marks, limits)
-    return line._replace(others=np.array(others).reshape(-1, len(values)))
+    line = objective, unit, dataset["speed"].values, values[:, 0], marks, limits
+    return line_of(*line, others=np.array(others).reshape(-1, len(values)))
 
 
 def is_mean_power(objective: str, unit: str) -> bool:
@@ -342,20 +319,17 @@ def is_mean_power(objective: str, unit: str) -> bool:
     return unit == "W" and not objective.startswith("peak_")
 
 
-def _line(
+def line_of(
     objective: str,
     unit: str,
     speed: np.ndarray,
     value: np.ndarray,
     marks: list[tuple[str, float, float]],
     limits: list[frozenset[str]],
+    others: np.ndarray | None = None,
 ) -> BestLine:
+    """Return a line that is torn at marks (kind, lower and upper speed) of other kinds than a change of bounds."""
     torn = {(low, high) for kind, low, high in marks if kind != "bounds"}
     joined = np.array([ends not in torn for ends in itertools.pairwise(speed.tolist())], dtype=bool)
-    others = np.empty((0, len(speed)))
+    others = np.empty((0, len(speed))) if others is None else others
     return BestLine(objective, is_mean_power(objective, unit), speed, value, joined, limits, others)
-
-
-def _one(rows: np.ndarray) -> np.ndarray:
-    """Return the values of a family, of which there is at most one at each speed."""
-    return np.where(np.isfinite(rows).any(axis=1), np.nansum(rows, axis=1), np.nan)

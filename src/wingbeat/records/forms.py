@@ -1,4 +1,4 @@
-"""The form of each kind of result that is read again: its attributes and variables, with types and dimensions."""
+"""The form of each kind of result that is read again: its attributes, variables and record, with their types."""
 
 from __future__ import annotations
 
@@ -98,16 +98,7 @@ FORMS = {
 
 
 def check_form(dataset: xr.Dataset) -> None:
-    """Check types and dimensions of all attributes and variables of an orbit, a flight or a curve.
-
-    Parameters
-    ----------
-    dataset : as it was read.
-
-    Raises
-    ------
-    ValueError : all faults.
-    """
+    """Check types and dimensions of all attributes and variables of an orbit, a flight or a curve."""
     form = FORMS[dataset.attrs[KIND]]
     faults = [f"{name} is missing" for name in form.needed if name not in dataset.variables]
     known = form.needed | form.others
@@ -175,10 +166,6 @@ def _is_of(value: Any, kind: type) -> bool:
 def from_json(text: str) -> Any:
     """Return the content of a JSON text whose numbers are finite.
 
-    Raises
-    ------
-    ValueError : another text; RecursionError : one that is nested too deeply.
-
     >>> from_json("[1.5, null]")
     [1.5, None]
     """
@@ -245,40 +232,30 @@ def orbit_attributes(record: dict[str, Any], inputs: dict[str, Any]) -> dict[str
 
     The statements on closure and plausibility are added as two texts.
     """
-    attributes = {name: _encode(name, value) for name, value in record.items()}
+    plain = {name for name, value in record.items() if _KINDS.get(name) == (str,) or is_number(value)}
     return {
         KIND: "orbit",
-        **attributes,
-        **_statements(record),
+        **{name: value if name in plain else json.dumps(value) for name, value in record.items()},
+        **said_of(record),
         "inputs": json.dumps(inputs),
         "inputs_hash": inputs_hash(inputs),
     }
 
 
-def _statements(record: dict[str, Any]) -> dict[str, str]:
+def said_of(record: dict[str, Any]) -> dict[str, str]:
+    """Return the statements on closure and plausibility, as attributes."""
     said = statements(record)
     return {"statement_of_closure": said.closes, "statement_of_plausibility": said.plausible}
 
 
 def parse_attributes(attributes: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """Return record and inputs from the attributes of an orbit.
-
-    Raises
-    ------
-    ValueError, LookupError, TypeError, AttributeError, RecursionError : they are not those of an orbit.
-    """
+    """Return record and inputs from the attributes of an orbit."""
     own = {name: value for name, value in attributes.items() if name in _KINDS or name in NOMENCLATURE}
     record = {name: _decode(name, value) for name, value in own.items()}
     inputs = record.pop("inputs")
     if attributes["inputs_hash"] != inputs_hash(inputs):
         raise ValueError("the inputs do not match their hash")
     return record, inputs
-
-
-def _encode(name: str, value: Any) -> Any:
-    if _KINDS.get(name) == (str,) or is_number(value):
-        return value
-    return json.dumps(value)
 
 
 def _decode(name: str, value: Any) -> Any:

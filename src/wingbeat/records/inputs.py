@@ -1,4 +1,8 @@
-"""The inputs of the air loads as a dictionary: for a record, or to set up the same air loads again."""
+"""Everything that an orbit was computed from as a dictionary fit for JSON, and back: the writer beside its reader.
+
+`vehicle_record`, `wingbeat_record` and `aero_record` say what flew; `inputs_of` adds the numbers and names from
+which `problem_from` sets up the same problem again.
+"""
 
 from __future__ import annotations
 
@@ -81,12 +85,7 @@ def aero_inputs(aero: BladeElement) -> dict[str, Any]:
 
 
 def aero_from(aero: dict[str, Any]) -> BladeElement:
-    """Set up the air loads from what `aero_inputs` returned.
-
-    Raises
-    ------
-    KeyError, TypeError, ValueError : the dictionary was not made by `aero_inputs`.
-    """
+    """Set up the air loads from what `aero_inputs` returned."""
     numbers = ("unsteady", "inflow", "induced_factor", "share", "hand_from", "upstroke_factor")
     terms = {name: aero[name] for name in numbers if name in aero}
     hand = _coefficients(aero["hand"]) if "hand" in aero else "none"
@@ -177,12 +176,7 @@ def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
 
 
 def vehicle_from(record: dict[str, Any]) -> Vehicle:
-    """Return the vehicle that `vehicle_record` described, without a tail or other part that the record lacks.
-
-    Raises
-    ------
-    KeyError, TypeError, ValueError : the dictionary was not made by `vehicle_record`.
-    """
+    """Return the vehicle that `vehicle_record` described, without a tail or other part that the record lacks."""
     parts = {name: made(**record[name]) for name, made in _PARTS.items() if name in record}
     return Vehicle(Body(**record["body"]), Wing(**record["wing"]), **parts)
 
@@ -246,12 +240,7 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOpti
 
 
 def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
-    """Set up the problem that `inputs_of` described.
-
-    Raises
-    ------
-    KeyError, TypeError, ValueError : the dictionary was not made by `inputs_of`.
-    """
+    """Set up the problem that `inputs_of` described."""
     species = species_from(inputs)
     return OrbitProblem(
         species,
@@ -280,13 +269,13 @@ def own_functions(inputs: dict[str, Any]) -> list[str]:
 
 
 def species_from(inputs: dict[str, Any]) -> Species:
-    """Set up the species that `inputs_of` described, without its reasons and alternatives, which are not stored.
-
-    Raises
-    ------
-    KeyError, TypeError, ValueError : the dictionary was not made by `inputs_of`.
-    """
+    """Set up the species that `inputs_of` described, without its reasons and alternatives, which are not stored."""
     known = inputs["species"]
+    # A file of a version that judged nothing has no ranges.
+    plausible = {
+        name: Range(low, high, unit, source, None if speeds is None else (speeds[0], speeds[1]))
+        for name, (low, high, unit, source, speeds) in known.get("plausible", {}).items()
+    }
     return Species(
         name=known["name"],
         common_name=known["common_name"],
@@ -302,17 +291,10 @@ def species_from(inputs: dict[str, Any]) -> Species:
         reasons={},
         numbers={path: number_from(*number) for path, number in known["numbers"].items()},
         alternatives={},
-        # A file of a version that judged nothing has no ranges.
-        plausible={name: _plausible_range(*one) for name, one in known.get("plausible", {}).items()},
+        plausible=plausible,
         warnings=tuple(known["warnings"]),
         shape=shape_from(known["shape"]) if "shape" in known else None,
     )
-
-
-def _plausible_range(
-    low: float | None, high: float | None, unit: str, source: str, speeds: list[float] | None
-) -> Range:
-    return Range(low, high, unit, source, None if speeds is None else (speeds[0], speeds[1]))
 
 
 def _pairs(bounds: dict[str, list[float]]) -> dict[str, tuple[float, float]]:

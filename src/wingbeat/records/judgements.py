@@ -1,4 +1,4 @@
-"""Whether an orbit is plausible: its numbers compared with the species' ranges, apart from the certificate."""
+"""What is thought of an orbit's numbers: whether they are plausible, and which of them limits have set."""
 
 from __future__ import annotations
 
@@ -45,11 +45,6 @@ def plausibility(problem: OrbitProblem, beat: Beat, record: dict[str, Any]) -> l
     An unknown end of a range is None. `within` is false if the value is beyond a known end, None if the number has
     no value (such as the Strouhal number in hover) or nothing is known of its range, and true otherwise. Activation
     is judged where there is muscle, the tail's tilt where a tail tilts.
-
-    Parameters
-    ----------
-    problem, beat : the problem and its certified beat.
-    record : the judged numbers of the orbit record.
     """
     values = {
         **record,
@@ -61,13 +56,7 @@ def plausibility(problem: OrbitProblem, beat: Beat, record: dict[str, Any]) -> l
 
 
 def judged(problem: OrbitProblem, name: str, value: float | None) -> dict[str, Any]:
-    """Return the judgement of one number; `plausibility` says what it holds.
-
-    Parameters
-    ----------
-    problem : gives species and speed.
-    name, value : of the number, SI and radians; None if it has no value.
-    """
+    """Return the judgement of one number; `plausibility` says what it holds."""
     known = problem.species.plausible_range(name, problem.speed)
     low, high = known.low, known.high
     within = None
@@ -177,10 +166,6 @@ def set_by_limit(record: dict[str, Any]) -> dict[str, SetBy]:
     Strouhal number, frequency and flap amplitude if two of them are at limits, and the frequency that was minimised
     if the flap amplitude is at its limit, because their product hardly changes.
 
-    Parameters
-    ----------
-    record : of `Orbit.record`, or a part of it with ``active_bounds``, ``objective`` and ``wingbeat``; SI, radians.
-
     >>> beat = {"frequency": 5.1, "flap_amplitude": 1.2}
     >>> found = set_by_limit({"active_bounds": ["flap_amplitude"], "objective": "frequency", "wingbeat": beat})
     >>> found["flap_amplitude"], found["frequency"].words
@@ -194,7 +179,11 @@ def set_by_limit(record: dict[str, Any]) -> dict[str, SetBy]:
     for text in record.get("active_bounds") or ():
         name, *limit = re.split("[<>]=", text)
         value = float(limit[0]) if limit else None if name in PATH_NAMES else reached.get(name)
-        found[name] = SetBy(next((end for end in ends.get(name, ()) if _close(value, end)), value), (name,))
+        for end in ends.get(name, ()):
+            if value is not None and end is not None and math.isclose(value, end, rel_tol=_INSIDE):
+                value = end
+                break
+        found[name] = SetBy(value, (name,))
     if "flap" in found:
         found.setdefault("flap_amplitude", SetBy(None, ("flap",)))
     if record.get("objective") == "frequency" and "flap_amplitude" in found:
@@ -206,10 +195,6 @@ def set_by_limit(record: dict[str, Any]) -> dict[str, SetBy]:
             by = dict.fromkeys(name for one in sorted(related - missing) for name in found[one].by)
             found[follows] = SetBy(None, tuple(by))
     return found
-
-
-def _close(value: float | None, end: float | None) -> bool:
-    return value is not None and end is not None and math.isclose(value, end, rel_tol=_INSIDE)
 
 
 def called(name: str) -> str:

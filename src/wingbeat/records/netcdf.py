@@ -1,4 +1,8 @@
-"""NetCDF-4 as wingbeat writes it: texts of fixed length, which every reader knows, and a digest of all content."""
+"""NetCDF-4 as wingbeat writes it, with a digest of all content, and what is checked before such a file is read.
+
+Texts have a fixed length, which every reader knows. A few bytes can declare gigabytes, or other files: so what a
+file declares is checked first.
+"""
 
 from __future__ import annotations
 
@@ -27,10 +31,6 @@ def netcdf_bytes(dataset: xr.Dataset) -> bytes:
 
     Texts have a fixed length (NC_CHAR, UTF-8). By default, xarray writes texts of variable length (NC_STRING), of
     which Octave's netcdf package reads no unit and no coordinate, and ``nccopy -d`` packs no file that holds one.
-
-    Parameters
-    ----------
-    dataset : numbers and texts.
     """
     import h5py
 
@@ -45,7 +45,8 @@ def netcdf_bytes(dataset: xr.Dataset) -> bytes:
     with h5py.File(held, "r+") as file:
         for place in (file, *file.values()):
             for name in list(place.attrs):
-                if _is_long(place.attrs.get_id(name).dtype):
+                known = h5py.check_string_dtype(place.attrs.get_id(name).dtype)
+                if known is not None and known.length is None:  # a text, not a reference to an object
                     text = str(place.attrs[name]).encode("utf-8", "surrogateescape") or b"\0"
                     place.attrs.create(name, np.array(text, h5py.string_dtype("utf-8", len(text))))
                 elif place is file and not name.startswith("_"):
@@ -59,15 +60,6 @@ def digest(dataset: xr.Dataset, covered: Iterable[str]) -> str:
     It covers the given attributes of the dataset, and of every variable its name, dimensions, shape, type, values
     and wingbeat's attributes. It does not depend on the order, on how a file stores them (chunks, compression,
     order of bytes, kind of text), or on what else is in the attributes.
-
-    Parameters
-    ----------
-    dataset : numbers and texts.
-    covered : names of attributes.
-
-    Raises
-    ------
-    KeyError : the dataset lacks one of the attributes.
 
     >>> import xarray as xr
     >>> one, other = (xr.Dataset({"u": ("phase", [1.0, u])}) for u in (2.0, 3.0))
@@ -94,15 +86,14 @@ def digest(dataset: xr.Dataset, covered: Iterable[str]) -> str:
 
 
 def own_content(dataset: xr.Dataset) -> xr.Dataset:
-    """Return a dataset that was read from a file, without the digest and without what other programs added.
-
-    Raises
-    ------
-    ValueError : there is no digest, or it does not fit the content; in words for a reader.
-    """
+    """Return a dataset that was read from a file, without the digest and without what other programs added."""
     dataset = dataset.copy()
     for place in (dataset, *dataset.variables.values()):
-        place.attrs = {name: _utf8(value) for name, value in place.attrs.items()}
+        # netCDF's library declares UTF-8 as ASCII, which h5netcdf does not decode.
+        place.attrs = {
+            name: v.encode("utf-8", "surrogateescape").decode("utf-8", "replace") if isinstance(v, str) else v
+            for name, v in place.attrs.items()
+        }
     if DIGEST not in dataset.attrs or DIGEST_OF not in dataset.attrs:
         raise ValueError(
             "it has no digest, so another program or an older version of wingbeat wrote it; save the result again "
@@ -122,21 +113,8 @@ def own_content(dataset: xr.Dataset) -> xr.Dataset:
     return dataset
 
 
-def _utf8(value: Any) -> Any:
-    """Return a text as it was written: netCDF's library declares UTF-8 as ASCII, which h5netcdf does not decode."""
-    return value.encode("utf-8", "surrogateescape").decode("utf-8", "replace") if isinstance(value, str) else value
-
-
 def _is_text(dtype: np.dtype) -> bool:
     return dtype.kind in "OUST"
-
-
-def _is_long(dtype: np.dtype) -> bool:
-    """Return whether the type is that of texts of variable length; references to objects have its kind too."""
-    import h5py
-
-    known = h5py.check_string_dtype(dtype)
-    return known is not None and known.length is None
 
 
 def _plain(value: Any) -> Any:
@@ -161,18 +139,7 @@ class UnfitFileError(ValueError):
 
 
 def check_declared(file: h5py.File, path: str | os.PathLike[str], most: int = MOST_DECLARED) -> None:
-    """Refuse, before reading, a file with too many or too large arrays, groups, or links to other files.
-
-    Parameters
-    ----------
-    file : an open HDF5 file.
-    path : of this file.
-    most : most bytes that it may take once it is unpacked.
-
-    Raises
-    ------
-    UnfitFileError : which rule it breaks.
-    """
+    """Refuse, before reading, a file with too many or too large arrays, groups, or links to other files."""
     import h5py
 
     size = os.path.getsize(path)

@@ -1,4 +1,4 @@
-"""What the power of a beat is made of: shares, braking, and what springs at the flap hinges would save."""
+"""Numbers that follow from a flown beat: means and peaks of power, what power is made of, and numbers of flow."""
 
 from __future__ import annotations
 
@@ -69,12 +69,7 @@ def power_account(dataset: xr.Dataset) -> dict[str, Any]:
 
 
 def spent_power(dataset: xr.Dataset) -> dict[str, np.ndarray]:
-    """Return the time series of the parts of the actuator power [W]; the sum of the parts is the actuator power.
-
-    Parameters
-    ----------
-    dataset : `Orbit.dataset`, also one read from a file.
-    """
+    """Return the time series of the parts of the actuator power [W]; the sum of the parts is the actuator power."""
     against_air = {name: dataset[variable].values for name, variable in SPENT.items()}
     return {**against_air, "inertial": (dataset["actuator_power"] + dataset["air_power"]).values}
 

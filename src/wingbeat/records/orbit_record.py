@@ -1,4 +1,4 @@
-"""The orbit record: everything about an orbit in one JSON-able dictionary, names as in the API."""
+"""The orbit record: everything about an orbit in one JSON-able dictionary, with warnings where it is doubtful."""
 
 from __future__ import annotations
 
@@ -32,6 +32,9 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
     """
     problem, wingbeat, certificate = solution.problem, solution.wingbeat, solution.certificate
     beat = solution.beat()
+    price = {}  # of stability, if the problem was also solved without its limits of stability
+    if solution.free_objective is not None:
+        price = {"free_objective": solution.free_objective, "price_of_stability": solution.price_of_stability}
     record = {
         "status": solution.status.value,
         "message": solution.message,
@@ -63,20 +66,13 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "alpha_three_quarter_span": alpha_range(beat, 0.75),
         "floquet_multipliers": [[float(m.real), float(m.imag)] for m in solution.multipliers],
         "stable": bool(np.abs(solution.multipliers).max() < 1.0) if solution.status is Status.CONVERGED else None,
-        **_stability_price(solution),
+        **price,
         "warnings": orbit_warnings(solution, beat),
         "solve_seconds": solution.seconds,
         "version": __version__,
     }
     record["plausibility"] = plausibility(problem, beat, record)
     return finite_or_none(record)
-
-
-def _stability_price(solution: Solution) -> dict[str, float | None]:
-    """Return the price of stability; empty if the problem was not also solved without its limits of stability."""
-    if solution.free_objective is None:
-        return {}
-    return {"free_objective": solution.free_objective, "price_of_stability": solution.price_of_stability}
 
 
 # The wake matters at speeds up to about three times the induced velocity of hover. At that speed it changes alpha
@@ -105,7 +101,9 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
         notes += lag_of_wake(problem, solution.wingbeat)
     notes += fitted_range(solution, beat)
     for name in solution.active_bounds:
-        if name in problem.species.guessed_bounds and problem.bounds[name] == _own_bounds(problem, name):
+        # Bounds that the user set do not count as guesses.
+        own = problem.species.path_bounds | problem.species.bounds
+        if name in problem.species.guessed_bounds and problem.bounds[name] == own[name]:
             notes.append(f"the optimum is at the bound of {name}; that bound is a guess, see the species file")
         if name in ("u", "w", "pitch_rate"):
             what = NOMENCLATURE[name].short_label
@@ -118,7 +116,12 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
         )
     notes += crossing(problem.vehicle, problem.aero.strips, solution.wingbeat, problem.bounds["flap"])
     if is_at_lower_bound(problem, solution.unknowns, solution.options.search.bound_tolerance):
-        notes += at_lower_bound(solution)
+        if solution.status is Status.CONVERGED:
+            notes.append(
+                f"the minimised frequency is at its lower bound, {problem.bounds['frequency'][0]:g} Hz: more "
+                "starts cannot improve it. Other orbits at this bound are equally good. Lower the bound, minimise "
+                "a power, or find the glides of this species with `wingbeat glide`"
+            )
         return notes
     notes += rivals(solution)
     if solution.distinct_optima > 1:
@@ -127,24 +130,6 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
             "ended in this one, the best found; a better one may exist"
         )
     return notes
-
-
-def at_lower_bound(solution: Solution) -> list[str]:
-    """Warn that the minimised frequency is at its lower bound: other orbits at the bound are equally good."""
-    if solution.status is not Status.CONVERGED:
-        return []
-    low = solution.problem.bounds["frequency"][0]
-    return [
-        f"the minimised frequency is at its lower bound, {low:g} Hz: more starts cannot improve it. Other "
-        "orbits at this bound are equally good. Lower the bound, minimise a power, or find the glides of this "
-        "species with `wingbeat glide`"
-    ]
-
-
-def _own_bounds(problem: OrbitProblem, name: str) -> tuple[float, float]:
-    """Return the species' bounds of a parameter or of the path; bounds set by the user do not count as guesses."""
-    species = problem.species
-    return (species.path_bounds | species.bounds)[name]
 
 
 def rivals(solution: Solution) -> list[str]:
@@ -173,12 +158,8 @@ def rivals(solution: Solution) -> list[str]:
 def crossing(vehicle: Vehicle, strips: int, wingbeat: Wingbeat, flap: tuple[float, float]) -> list[str]:
     """Warn of wings that cross the plane of symmetry, and so each other, or that flap beyond their range.
 
-    The solver avoids both; a prescribed wingbeat, such as a filmed one, may not.
-
-    Parameters
-    ----------
-    vehicle, strips, wingbeat : what flies.
-    flap : lowest and highest flap angle that the shoulder allows [rad].
+    The solver avoids both; a prescribed wingbeat, such as a filmed one, may not. `flap` is the lowest and highest
+    flap angle that the shoulder allows [rad].
     """
     phase = np.arange(_STROKE_SAMPLES) / _STROKE_SAMPLES
     leading, trailing = lateral_corners(vehicle.passive, wingbeat, phase, count=strips)
@@ -257,9 +238,12 @@ def _outside_fit(coefficients: CoefficientModel, reynolds: np.ndarray, alpha: np
     share = _outside(degrees, low, high)
     if share > _MENTION:
         also = float(np.mean((degrees > high) & (degrees <= measured)))
+        beyond = f"the extension '{coefficients.extension}' applies"
+        if isinstance(coefficients, CamberedCoefficients):
+            beyond = "the coefficients pass into those of a flat plate"
         notes.append(
             f"angle of attack outside the fitted {low:g} to {high:g} degrees for "
-            f"{share:.0%} of strips and instants{where}: there {_beyond(coefficients)}"
+            f"{share:.0%} of strips and instants{where}: there {beyond}"
             + (f", also from {high:g} to {measured:g} degrees, which were measured ({also:.1%})" if also else "")
         )
     return notes + guessed(coefficients)
@@ -271,13 +255,6 @@ def guessed(coefficients: CoefficientModel) -> list[str]:
         return []
     name = coefficients.name
     return [f"the coefficients of {name} are in part a guess; wb.aero.WING_ESTIMATES marks the guessed numbers"]
-
-
-def _beyond(coefficients: CoefficientModel) -> str:
-    """Say where the coefficients beyond the angles of the fit come from."""
-    if isinstance(coefficients, CamberedCoefficients):
-        return "the coefficients pass into those of a flat plate"
-    return f"the extension '{coefficients.extension}' applies"
 
 
 def _outside(values: np.ndarray, low: float, high: float) -> float:

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from wingbeat._base import KIND, FaultList, FileError, system_reason, write_atomically
 from wingbeat.records.agreement import check_curve, check_orbit
 from wingbeat.records.characteristic import with_characteristic_speeds
-from wingbeat.records.forms import FORMS, _statements, check_form, from_json, parse_attributes
+from wingbeat.records.forms import FORMS, check_form, from_json, parse_attributes, said_of
 from wingbeat.records.inputs import inputs_hash
 from wingbeat.records.netcdf import MOST_DECLARED, UnfitFileError, check_declared, netcdf_bytes, own_content
 from wingbeat.records.series_agreement import check_flight
@@ -35,19 +35,7 @@ def load_dataset(path: str | PathLike[str], *kinds: str, most: int = MOST_DECLAR
     The checks go from the outside in: a plain file of NetCDF-4; its kind; what it declares to hold; its digest;
     types and dimensions of all attributes and variables; and whether its numbers agree with one another.
 
-    Parameters
-    ----------
-    path : of the file.
-    kinds : those that are wanted, of ``"orbit"``, ``"flight"`` and ``"curve"``; all of them if none is given.
-    most : most bytes that the file may take once it is unpacked.
-
-    Returns
-    -------
     What wingbeat wrote, without attributes that other programs added.
-
-    Raises
-    ------
-    FileError : missing, unreadable, cut short, not NetCDF-4, of another kind, too large, changed, or contradictory.
     """
     shown, kinds = repr(os.fspath(path)), kinds or tuple(FORMS)
     articles = [f"{_WRITTEN_BY[kind][0]} {kind}" for kind in kinds]
@@ -123,7 +111,7 @@ def _agreeing(dataset: xr.Dataset, kind: str) -> xr.Dataset:
         return with_characteristic_speeds(dataset, inputs["power_limit"])
     record, inputs = parse_attributes(dataset.attrs)
     check_orbit(record, inputs, dataset)
-    return dataset.assign_attrs(_statements(record))
+    return dataset.assign_attrs(said_of(record))
 
 
 def _listed(names: list[str]) -> str:
@@ -149,11 +137,6 @@ def save_result(dataset: xr.Dataset, path: str | PathLike[str]) -> None:
     """Write a result as NetCDF-4 (.nc), as a flat table (.csv) or for MATLAB (.mat), whole or not at all.
 
     wingbeat can read only the .nc file again. All three hold every number, with its unit.
-
-    Raises
-    ------
-    InvalidInputError : another suffix.
-    FileError : the file cannot be written.
     """
     faults = FaultList()
     check_result_name(faults, "path", path)

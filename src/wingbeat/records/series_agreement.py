@@ -44,17 +44,7 @@ _PARTS_OF_AIR = ("profile_power", "induced_power", "parasite_power", "unsteady_p
 
 
 def check_series(series: dict[str, np.ndarray], weight: float) -> None:
-    """Check the identities that hold at every sample of a flight.
-
-    Parameters
-    ----------
-    series : all series of a flight, by name.
-    weight : of the vehicle [N].
-
-    Raises
-    ------
-    ValueError : which series do not agree.
-    """
+    """Check the identities that hold at every sample of a flight."""
     phase, time = series["phase"], series["time"]
     demand(phase.ndim == 1 and phase.size > 0 and phase[0] == 0, "phase does not begin at 0")
     demand(bool((np.diff(phase) > 0).all() and (np.diff(time) > 0).all()), "phase or time does not increase")
@@ -72,16 +62,7 @@ def check_series(series: dict[str, np.ndarray], weight: float) -> None:
 
 
 def check_finite(series: dict[str, np.ndarray]) -> None:
-    """Check that all series of a flight are finite at all samples before it runs off.
-
-    Parameters
-    ----------
-    series : all series of a flight, by name.
-
-    Raises
-    ------
-    ValueError : which series is not.
-    """
+    """Check that all series of a flight are finite at all samples before it runs off."""
     calm = np.logical_and.reduce([np.abs(series[name]) < _RUNS_OFF for name in STATE_NAMES])
     for name, values in series.items():
         own = values[calm] if len(values) == len(calm) else values
@@ -89,17 +70,7 @@ def check_finite(series: dict[str, np.ndarray]) -> None:
 
 
 def check_wings(wingbeat: Wingbeat, series: dict[str, np.ndarray]) -> None:
-    """Check that times and positions of the wings are those of the wingbeat.
-
-    Parameters
-    ----------
-    wingbeat : of the flight.
-    series : of its first beat, by name, shape (K,) each.
-
-    Raises
-    ------
-    ValueError : which series is not that of the wingbeat.
-    """
+    """Check that times and positions of the wings are those of the wingbeat."""
     same("time", series["time"], series["phase"] / wingbeat.frequency)
     for name, law in _LAWS.items():
         with own_settings():
@@ -154,17 +125,7 @@ def demand(good: bool, otherwise: str) -> None:
 
 
 def check_flight(dataset: xr.Dataset) -> None:
-    """Check that vehicle, wingbeat and series of a flight can be those of one flight.
-
-    Parameters
-    ----------
-    dataset : of a flight, in the form of one.
-
-    Raises
-    ------
-    ValueError : which numbers do not agree.
-    LookupError, TypeError, AttributeError : an attribute lacks something, or holds it in another form.
-    """
+    """Check that vehicle, wingbeat and series of a flight can be those of one flight."""
     about = {name: from_json(dataset.attrs[name]) for name in ("vehicle", "air", "wingbeat")}
     vehicle, air, wingbeat = vehicle_from(about["vehicle"]), Air(**about["air"]), Wingbeat(**about["wingbeat"])
     again = (vehicle_record(vehicle), dict(vars(air)), wingbeat_record(wingbeat))

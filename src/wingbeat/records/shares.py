@@ -1,4 +1,4 @@
-"""How often a quantity of random draws sits at a limit, and what is printed of it instead of an error bar."""
+"""Shares of random draws: at a limit, which is printed instead of an error bar, and stable, with an interval."""
 
 from __future__ import annotations
 
@@ -41,10 +41,6 @@ class LimitShare(NamedTuple):
     def in_words(self, unit: str = "", factor: float = 1.0) -> str:
         """Return in words how many draws a limit has set.
 
-        Parameters
-        ----------
-        unit, factor : to print, and from the quantity's own unit to it.
-
         >>> LimitShare((5.045,), 300, 300, None).in_words("Hz")
         'set by the limit 5.045 Hz in 100 % of the samples'
         """
@@ -58,11 +54,6 @@ class LimitShare(NamedTuple):
 
     def shown(self, value: float, error: float, unit: str = "", factor: float = 1.0) -> str:
         """Return the quantity as it is printed: with its error, or with the limit that set it.
-
-        Parameters
-        ----------
-        value, error : of the quantity, in its own unit; an error of not-a-number is not known.
-        unit, factor : as in `in_words`.
 
         >>> LimitShare((5.045,), 30, 40, (5.1, 5.6)).shown(5.2, 0.2, "Hz")
         'set by the limit 5.045 Hz in 75 % of the samples, 5.10 to 5.60 Hz in the others'
@@ -83,11 +74,6 @@ class LimitShare(NamedTuple):
 
 def limit_share(values: np.ndarray, at_limit: np.ndarray) -> LimitShare:
     """Count the draws of a quantity that are at a limit.
-
-    Parameters
-    ----------
-    values : of the certified draws, shape (n,).
-    at_limit : whether each is at its limit, shape (n,).
 
     >>> limit_share(np.array([5.0, 5.0, 5.3]), np.array([True, True, False]))
     LimitShare(limits=(5.0,), at_limit=2, draws=3, others=(5.3, 5.3))
@@ -159,11 +145,5 @@ class StableShare(NamedTuple):
 
 
 def stable_share(radii: np.ndarray, drawn: int) -> StableShare:
-    """Count the stable orbits.
-
-    Parameters
-    ----------
-    radii : spectral radii of the certified orbits, shape (n,).
-    drawn : number of draws, certified or not.
-    """
+    """Count the stable orbits."""
     return StableShare(int(np.sum(np.asarray(radii) < 1.0)), len(radii), drawn)

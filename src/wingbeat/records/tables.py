@@ -1,4 +1,12 @@
-"""Nested records as flat columns with dotted names, and the unit of each value."""
+"""Records and data sets as tables for other programs: columns with dotted names, pandas, CSV and MATLAB.
+
+Header lines of a CSV file begin with ``#`` and can be skipped as comments: ``pandas.read_csv(file, comment="#")``
+in Python, ``readtable(file, CommentStyle="#")`` in MATLAB, ``read.csv(file, comment.char = "#")`` in R.
+
+In a MATLAB file each series is a variable of its own shape; units, meanings and results are structs. SciPy writes
+names that MATLAB cannot read, and leaves out a field whose name begins with an underscore: so a table with such a
+name becomes a list of names and values.
+"""
 
 from __future__ import annotations
 
@@ -55,10 +63,6 @@ def table_of(records: Iterable[dict[str, Any]]) -> pd.DataFrame:
 
     A range that is None becomes two missing numbers, so that every row has the same columns.
 
-    Parameters
-    ----------
-    records : nested tables of the same form.
-
     >>> table_of([{"price": {"frequency": 1.5}, "range": [0.0, 1.0]}]).columns.to_list()
     ['price.frequency', 'range.0', 'range.1']
     """
@@ -70,13 +74,7 @@ def table_of(records: Iterable[dict[str, Any]]) -> pd.DataFrame:
 
 
 def result_unit(dataset: xr.Dataset, results: dict[str, Any], path: str, value: Any) -> str:
-    """Return the unit of a single value in a data set's attributes; an empty text if it is not known.
-
-    Parameters
-    ----------
-    dataset, results : the data set, and the content of its attributes.
-    path, value : dotted name and value of one of the results.
-    """
+    """Return the unit of a single value in a data set's attributes; an empty text if it is not known."""
     head, last = path.partition(".")[0], path.rpartition(".")[2]
     if isinstance(value, bool | str | dict | None) or (isinstance(value, list) and not (value and numeric(value))):
         return ""
@@ -105,13 +103,7 @@ class _Column(NamedTuple):
 
 
 def csv_text(dataset: xr.Dataset, results: dict[str, Any]) -> str:
-    """Return the text of a CSV file.
-
-    Parameters
-    ----------
-    dataset : of one of the kinds in `_ROWS`.
-    results : the content of its attributes, from `results_of`.
-    """
+    """Return the text of a CSV file."""
     kind = results["wingbeat_kind"]
     along = _ROWS[kind]
     columns = list(_columns(dataset, along))
@@ -132,12 +124,7 @@ def csv_text(dataset: xr.Dataset, results: dict[str, Any]) -> str:
 
 
 def frame_of(dataset: xr.Dataset) -> pd.DataFrame:
-    """Return the rows and columns of the CSV file as a table of pandas.
-
-    Parameters
-    ----------
-    dataset : of one of the kinds in `_ROWS`.
-    """
+    """Return the rows and columns of the CSV file as a table of pandas."""
     import pandas as pd
 
     columns = _columns(dataset, _ROWS[dataset.attrs[KIND]])
@@ -211,17 +198,13 @@ _KEYWORDS = frozenset(
 
 
 def mat_bytes(dataset: xr.Dataset, results: dict[str, Any]) -> bytes:
-    """Return the content of a MATLAB file, version 5, which Octave and every MATLAB since version 5 can read.
-
-    Parameters
-    ----------
-    dataset : of any result; the names of its variables are names of MATLAB.
-    results : the content of its attributes, from `results_of`.
-    """
+    """Return the content of a MATLAB file, version 5, which Octave and every MATLAB since version 5 can read."""
     from scipy.io import savemat
 
     variables = {str(name): variable for name, variable in dataset.variables.items()}
-    content: dict[str, Any] = {name: _array(variable.values) for name, variable in variables.items()}
+    content: dict[str, Any] = {}
+    for name, variable in variables.items():  # numbers as doubles, MATLAB's default type, texts as cell arrays
+        content[name] = variable.values.astype(float if variable.dtype.kind in "biuf" else object)
     for struct, attribute in (("units", "units"), ("meaning", "long_name")):
         content[struct] = {name: v.attrs[attribute] for name, v in variables.items() if attribute in v.attrs}
     content["dimensions"] = {name: _value(list(map(str, v.dims))) for name, v in variables.items()}
@@ -245,21 +228,12 @@ def _units(dataset: xr.Dataset, results: dict[str, Any], part: dict[str, Any], b
     return found
 
 
-def _array(values: np.ndarray) -> np.ndarray:
-    """Return numbers as doubles, MATLAB's default type, and texts as a cell array."""
-    return values.astype(float) if values.dtype.kind in "biuf" else values.astype(object)
-
-
-def _is_name(name: str) -> bool:
-    return _NAME.fullmatch(name) is not None and name not in _KEYWORDS
-
-
 def _value(value: Any) -> Any:
     """Return one part of a record in MATLAB's types; a missing value becomes NaN."""
     if value is None:
         return np.nan
     if isinstance(value, dict):
-        if all(map(_is_name, value)):
+        if all(_NAME.fullmatch(key) and key not in _KEYWORDS for key in value):
             return {key: _value(item) for key, item in value.items()}
         # MATLAB does not accept a limit such as "peak_power<=30" as the name of a field.
         return _value([{"name": key, "value": item} for key, item in value.items()])
@@ -297,16 +271,11 @@ def results_of(dataset: xr.Dataset) -> dict[str, Any]:
         if name == SHAPE:
             continue
         value = value.item() if hasattr(value, "item") else value
-        found[name] = _decoded(value) if isinstance(value, str) and name not in _TEXTS else value
+        if isinstance(value, str) and name not in _TEXTS:
+            with suppress(ValueError):  # a text that is no JSON, such as ``prescribed``
+                value = json.loads(value)
+        found[name] = value
     return found
-
-
-def _decoded(text: str) -> Any:
-    """Return what a JSON text holds; a text that is no JSON, such as ``prescribed``, is returned unchanged."""
-    try:
-        return json.loads(text)
-    except ValueError:
-        return text
 
 
 def finite_or_none(value: Any) -> Any:

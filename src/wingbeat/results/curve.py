@@ -1,4 +1,4 @@
-"""The class `Curve`, certified orbits along speed with characteristic speeds, and functions that make one."""
+"""The class `Curve`, certified orbits along speed with characteristic speeds; how one is found, built and read."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from wingbeat._base import (
     FaultList,
     Report,
     Reported,
+    __version__,
     attributes_of,
     cf,
     harmonic_place,
     label_of,
 )
-from wingbeat._version import __version__
 from wingbeat._workers.tuning import core_count
 from wingbeat.animal.kinematics import NAMED_IF_ON, PARAMETER_NAMES, in_use
 from wingbeat.mechanics.flight_model import State
@@ -38,10 +38,10 @@ from wingbeat.orbits.solve import Progress, check_search
 from wingbeat.plots.draw_curve import curve_page
 from wingbeat.records.characteristic import (
     BestLine,
-    _line,
     best_line,
     characteristic_speeds,
     is_mean_power,
+    line_of,
     next_speeds,
     with_characteristic_speeds,
 )
@@ -406,7 +406,7 @@ def best_of(branches: Branches) -> BestLine:
     value = np.array([one.objective if certified(one) else math.nan for one in best])
     marks = [(mark.kind, mark.lower, mark.upper) for mark in marks_of(branches)]
     limits = [one.limited for one in best]
-    return _line(problem.minimise.name, problem.minimise.unit, speed, value, marks, limits)
+    return line_of(problem.minimise.name, problem.minimise.unit, speed, value, marks, limits)
 
 
 def _common_warnings(records: Sequence[dict[str, Any]]) -> list[str]:

@@ -1,4 +1,4 @@
-"""Simulated flights from an initial state: the motion of the wings is prescribed, or torques drive them."""
+"""Simulated flights: the wings are prescribed or driven by torques, the body is free or moves as filmed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The class `Orbit`, one periodic orbit with its record, time series and file, and the function that reads one."""
+"""The class `Orbit`, one periodic orbit with its record, time series and file; how orbits are found and read."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What an orbit depends on most, and what its bounds cost."""
+"""What an orbit depends on most, what its bounds cost, and its error bars to first order and from samples."""
 
 from __future__ import annotations
 

@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat.animal.kinematics import Wingbeat, parameter
-from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import search_near
 from wingbeat.records.numbers import POWERS, power_summary
 from wingbeat.records.shares import LimitShare, limit_share
@@ -99,7 +98,8 @@ def orbit_spread(
         there = dataclasses.replace(problem, species=problem.species.with_record(wingbeat))
         solution = search_near(there, orbit.unknowns)
         if solution is not None:
-            found.append((_row(solution), solution.limited))
+            trim = {f"wingbeat.{name}": parameter(solution.wingbeat, name) for name in problem.free}
+            found.append((power_summary(solution.problem, solution.beat()) | trim, solution.limited))
         if progress is not None:
             progress(i, len(wingbeats))
     record, trimmed = orbit.record(), dict(zip(problem.free, orbit.unknowns[4:], strict=True))
@@ -108,8 +108,3 @@ def orbit_spread(
     own = {name: name.removeprefix("wingbeat.") for name in estimates}
     at_limit = {n: np.array([own[n] in limited for _, limited in found], dtype=bool) for n in estimates}
     return Spread(columns, estimates, len(wingbeats), at_limit)
-
-
-def _row(solution: Solution) -> dict[str, float | None]:
-    trimmed = {f"wingbeat.{name}": parameter(solution.wingbeat, name) for name in solution.problem.free}
-    return power_summary(solution.problem, solution.beat()) | trimmed

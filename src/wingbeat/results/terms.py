@@ -66,7 +66,8 @@ class TermTrace:
             point |= {"family": row[0] if found else None, "optima": len(row) if found else 0}
             point |= {name: about[name] if found else None for name in _NUMBERS}
             point["wingbeat"] = about["wingbeat"] if found else None
-            point["spent"] = _mean_spent(orbit) if found else None
+            spent = power_account(orbit.dataset)["spent"] if found else {}
+            point["spent"] = {name: part["mean"] for name, part in spent.items()} if found else None
             points.append(point)
         record = {
             **{"species": self.problem.species.name, "speed": self.problem.speed, "climb": self.problem.climb},
@@ -79,10 +80,6 @@ class TermTrace:
             "version": __version__,
         }
         return finite_or_none(record)
-
-
-def _mean_spent(orbit: Orbit) -> dict[str, float]:
-    return {name: part["mean"] for name, part in power_account(orbit.dataset)["spent"].items()}
 
 
 def trace_terms(

@@ -1,4 +1,4 @@
-"""What a power curve says to a reader, as the blocks of a report."""
+"""What power curves and Pareto fronts say to a reader, as the blocks of a report."""
 
 from __future__ import annotations
 
@@ -34,12 +34,7 @@ _MINIMISED_AT = 3  # column of the minimised quantity, after the power
 
 
 def curve_report(record: dict[str, Any]) -> Report:
-    """Return a row for each speed, changes of the best orbit between them, characteristic speeds and warnings.
-
-    Parameters
-    ----------
-    record : of `Curve.record`.
-    """
+    """Return a row for each speed, changes of the best orbit between them, characteristic speeds and warnings."""
     points = record["points"]
     animal, minimised = record["species"] + climb_text(record["climb"]), in_words(record["objective"])
     certified = len(points) - len(record["gaps"])
@@ -141,10 +136,6 @@ def speed_label(name: str) -> str:
 def speed_in_words(found: dict[str, Any] | None) -> str:
     """Return a characteristic speed with its error bar, or why none is given.
 
-    Parameters
-    ----------
-    found : an entry of `Curve.characteristic_speeds`.
-
     >>> speed_in_words({"status": "at_or_below", "speed": None, "interval": [None, 4.0]})
     'at or below 4 m/s, where the curve ends'
     >>> speed_in_words({"status": "found", "speed": 8.4762, "interval": [8.36, 8.56]})
@@ -227,12 +218,7 @@ def _its(names: list[str]) -> str:
 
 
 def pareto_report(record: dict[str, Any]) -> Report:
-    """Return a row for each limit: what is reached, and what it costs.
-
-    Parameters
-    ----------
-    record : of `ParetoFront.record`.
-    """
+    """Return a row for each limit: what is reached, and what it costs."""
     minimised, limited = (in_words(record[kind]) for kind in ("objective", "quantity"))
     where = f"{record['species']} at {record['speed']:g} m/s{climb_text(record['climb'])}"
     factor, unit = for_people(record["quantity_unit"])

@@ -1,4 +1,4 @@
-"""An orbit record as rows of label and value in readable units, for terminal and page."""
+"""What an orbit record says to a reader: rows of label and value in readable units, and the blocks of a report."""
 
 from __future__ import annotations
 
@@ -255,12 +255,7 @@ def _digits(value: Any, unit: str, factor: float) -> str:
 
 
 def orbit_report(record: dict[str, Any]) -> Report:
-    """Return certificate, plausibility, what limits have set, every group of numbers, and warnings of an orbit.
-
-    Parameters
-    ----------
-    record : of `Orbit.record`; with a ``power_account``, its parts are reported too.
-    """
+    """Return certificate, plausibility, what limits have set, every group of numbers, and warnings of an orbit."""
     lines: list[Block]
     if record.get("status") == "converged":
         said = statements(record)

@@ -25,6 +25,7 @@ NEEDED = [
     "wingbeat/viewer/viewer.js",
     "wingbeat_evidence/data/whole_flights/pigeon.toml",
     "wingbeat_explorer/app/page.css",
+    "wingbeat_explorer/explorer.js",
 ]
 CLASSIFIERS = [f"Programming Language :: Python :: {version}" for version in ("3.11", "3.12", "3.13")]
 

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import wingbeat as wb
+import wingbeat_explorer
 from wingbeat._base import write_atomically
 from wingbeat_explorer import solve_lattice, write_explorer
 
@@ -69,9 +70,10 @@ def solved(name: str, model: str) -> str:
 def _program() -> str:
     """Return a digest of all of wingbeat's Python and data, without which a kept result could be out of date."""
     digest = hashlib.sha256(Path(__file__).read_bytes())
-    source = Path(wb.__file__).parent
-    for path in sorted(p for p in source.rglob("*") if p.suffix in (".py", ".toml", ".csv")):
-        digest.update(path.read_bytes())
+    for package in (wb, wingbeat_explorer):
+        source = Path(package.__file__).parent
+        for path in sorted(p for p in source.rglob("*") if p.suffix in (".py", ".toml", ".csv")):
+            digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 
 

@@ -12,8 +12,8 @@ from tests.explorer.conftest import read_script
 from wingbeat._base import InvalidInputError
 from wingbeat.cli.app import main
 from wingbeat_explorer import default_speeds, measured_points, solve_lattice, write_explorer
+from wingbeat_explorer.folder import check_names
 from wingbeat_explorer.lattice import SPEEDS
-from wingbeat_explorer.page import check_names
 from wingbeat_explorer.pushed import pushes_of
 from wingbeat_explorer.thinning import in_16_bits, thinned, unpacked
 

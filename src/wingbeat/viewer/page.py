@@ -45,18 +45,15 @@ _PAGE = """<!doctype html>
 """
 
 
-def bundle_path(name: str = "viewer") -> Path:
-    """Return the path of a bundle of JavaScript.
+def bundle_path() -> Path:
+    """Return the path of the viewer's JavaScript, an ES module with ``mount(element, scene, options)``.
 
-    Parameters
-    ----------
-    name : ``"viewer"`` for an ES module with ``mount(element, scene, options)``, or ``"explorer"`` for a classic
-        script that sets ``globalThis.wingbeatExplorer``, with ``explore(element, options)`` and ``mount``.
+    Without its last line, which exports, it is a classic script that sets ``globalThis.wingbeatViewer``.
 
-    >>> bundle_path("explorer").name
-    'explorer.js'
+    >>> bundle_path().name
+    'viewer.js'
     """
-    return Path(__file__).with_name(f"{name}.js")
+    return Path(__file__).with_name("viewer.js")
 
 
 def write_page(

@@ -12,7 +12,6 @@ from nicegui import ui
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.reading import species_names
 from wingbeat.orbits.problem.problem import FASTEST
-from wingbeat.viewer import bundle_path
 from wingbeat_explorer.app.downloads import Download, Downloads
 from wingbeat_explorer.app.scenario import Scenario
 from wingbeat_explorer.app.widgets import run_script, tag
@@ -22,11 +21,6 @@ BUNDLE = "/wingbeat/explorer.js"
 READY = "/wingbeat/first.json"  # the face that was solved beforehand
 # What the face asks is sent at most about twenty times a second while its point is dragged.
 _THROTTLE = 0.05
-
-
-def bundle() -> bytes:
-    """Return the component's script."""
-    return bundle_path("explorer").read_bytes()
 
 
 @functools.cache

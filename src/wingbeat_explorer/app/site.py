@@ -17,10 +17,11 @@ from starlette.requests import ClientDisconnect
 from wingbeat_explorer.app.curve import drawn
 from wingbeat_explorer.app.door import Door, guard_events
 from wingbeat_explorer.app.downloads import DOWNLOADS
-from wingbeat_explorer.app.face import BUNDLE, READY, bundle
+from wingbeat_explorer.app.face import BUNDLE, READY
 from wingbeat_explorer.app.first import First
 from wingbeat_explorer.app.house import House
 from wingbeat_explorer.app.uploads import MOST_BYTES, clean_label
+from wingbeat_explorer.folder import explorer_script
 
 _HEADERS = {
     # Nothing is fetched from elsewhere, and no page of another site frames this page.
@@ -85,7 +86,7 @@ def _add_files(app: FastAPI, house: House) -> None:
     fixed = {
         "/wingbeat/page.js": (script, "text/javascript"),
         "/wingbeat/page.css": (style, "text/css"),
-        BUNDLE: (bundle(), "text/javascript"),
+        BUNDLE: (explorer_script(), "text/javascript"),
         READY: (_face_of(house.first), "application/json"),
     }
     for path, (content, kind) in fixed.items():

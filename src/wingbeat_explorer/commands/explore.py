@@ -17,8 +17,8 @@ from wingbeat.cli.arguments import Seed, Whole, check_outputs, parse_range
 from wingbeat.cli.process import EXIT_GOOD
 from wingbeat.cli.terminal import progress_bar
 from wingbeat_explorer import LATTICE_MODELS, default_speeds, solve_lattice, write_explorer
+from wingbeat_explorer.folder import check_names
 from wingbeat_explorer.lattice import check_lattice
-from wingbeat_explorer.page import check_names
 
 _MOST_SPEEDS = 200
 

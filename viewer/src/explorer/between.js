@@ -1,8 +1,7 @@
 // The picture between two computed flights of one animal: every array of the beat, blended sample by sample. It is a
 // picture only; no number on the page follows from it.
 
-import { Flight } from "../flight.js";
-import { short } from "../writing.js";
+import { Flight, short } from "./shared.js";
 
 // Wings that are farther apart than this, in semi-spans, beat in different ways, and nothing lies between them. From one
 // default speed of pigeon and bat to the next they move by at most 0.40, and where the wingbeat jumps by 0.97 or more.

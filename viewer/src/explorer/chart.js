@@ -1,7 +1,7 @@
 // What the power curve is drawn with: scales, ticks, lines between neighbours, marks, and measured ranges behind.
 
-import { draw } from "../elements.js";
 import { ends, implausible } from "./numbers.js";
+import { draw } from "./shared.js";
 
 export const MARGIN = { left: 46, right: 16, top: 14, bottom: 38 };
 

@@ -1,10 +1,9 @@
 // The curve against speed, which is the speed control: a point on it that one drags or moves with the keyboard.
 
-import { draw, make } from "../elements.js";
-import { short, ticks } from "../writing.js";
 import { axes, dots, lines, MARGIN, measured, rings } from "./chart.js";
 import { ends, implausible, judged } from "./numbers.js";
 import { ownMarks } from "./own_marks.js";
+import { draw, make, short, ticks } from "./shared.js";
 
 const QUANTITIES = [
   { name: "power", label: "Power", unit: "W" },

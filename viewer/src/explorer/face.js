@@ -1,13 +1,11 @@
 // The explorer's face: sentence and verdict, the flying animal, the curve that is the speed control, and the gauges.
 
-import { make } from "../elements.js";
-import { Viewer } from "../viewer.js";
-import { short } from "../writing.js";
 import { Curve } from "./curve.js";
 import { Gauges } from "./gauges.js";
 import { LinkedPush } from "./linked_push.js";
 import { OwnData } from "./own_data.js";
 import { Pins } from "./pins.js";
+import { make, short, Viewer } from "./shared.js";
 import { styles } from "./styles.js";
 import { Tour } from "./tour.js";
 import { Verdict } from "./verdict.js";

@@ -1,9 +1,9 @@
 // The static explorer: a folder with a catalogue and a file of data for each animal and model. Each is a script that calls
 // `open` or `hold`, because a page that opens from disk may not fetch.
 
-import { make } from "../elements.js";
 import { Between } from "./between.js";
 import { Face } from "./face.js";
+import { make } from "./shared.js";
 
 export class Folder {
   constructor(element, catalogue) {

@@ -1,7 +1,7 @@
 // Gauges: each number on a bar with its plausible band. The scale is set by the band, so that it rests while one drags.
 
-import { make } from "../elements.js";
 import { withUnit } from "./numbers.js";
+import { make } from "./shared.js";
 
 // A number above twice its band's upper end is drawn at the end of the bar.
 const ROOM = 2;

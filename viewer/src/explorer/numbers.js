@@ -1,6 +1,6 @@
 // Numbers as the explorer writes them, and the words for what is known of a point.
 
-import { short } from "../writing.js";
+import { short } from "./shared.js";
 
 export function withUnit(value, unit, digits = 3) {
   return unit ? `${short(value, digits)} ${unit}` : short(value, digits);

@@ -1,8 +1,8 @@
 // The reader's own files: measured flights behind the curve, a wing's motion in the plots, and species files.
 
-import { make } from "../elements.js";
 import { Faults, tableOf, tooLarge } from "./csv.js";
 import { flightsOf, kindOf, motionOf } from "./own_tables.js";
+import { make } from "./shared.js";
 
 const HELP =
   "A CSV file of measured flights has the columns speed [m/s] and power [W] or frequency [Hz], and may have error " +

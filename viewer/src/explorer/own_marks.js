@@ -1,8 +1,8 @@
 // The reader's own measured flights behind the curve: a diamond a row, with its error as a line.
 
-import { draw } from "../elements.js";
 import { MARGIN } from "./chart.js";
 import { withUnit } from "./numbers.js";
+import { draw } from "./shared.js";
 
 const MOST_WORDS = 400; // of more marks than these, none says its row
 

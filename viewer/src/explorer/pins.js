@@ -1,7 +1,6 @@
 // Comparison: one answer is pinned, and stays beside those that follow.
 
-import { make } from "../elements.js";
-import { short } from "../writing.js";
+import { make, short } from "./shared.js";
 
 export class Pins {
   // `act` is called when the pinned answer or the way to show it changes. A page that keeps pinned answers itself sets

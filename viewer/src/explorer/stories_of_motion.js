@@ -1,6 +1,6 @@
 // Two guided tours about a flight as a whole: what a robot must give, and what a gust does to a bird.
 
-import { capital } from "../writing.js";
+import { capital } from "./shared.js";
 import {
   amplitude,
   enough,

@@ -1,6 +1,6 @@
 // Two guided tours about what flight costs: a hummingbird that slows down, and one bat in two kinds of air loads.
 
-import { capital } from "../writing.js";
+import { capital } from "./shared.js";
 import { gauge, hertz, judgement, largest, moved, percent, shareOf, since, speed, watts } from "./words.js";
 
 export const hovering = {

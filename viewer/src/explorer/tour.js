@@ -1,7 +1,6 @@
 // Runs a guided tour: asks for the flight of a step, sets the view, and says what the reader sees.
 
-import { make } from "../elements.js";
-import { setView, viewOf } from "../state.js";
+import { make, setView, viewOf } from "./shared.js";
 import { SPEEDS, STORIES } from "./stories.js";
 import { emphasised } from "./words.js";
 

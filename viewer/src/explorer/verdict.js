@@ -1,6 +1,6 @@
 // What one reads first: the sentence, the two lights, and the warnings beside them.
 
-import { make } from "../elements.js";
+import { make } from "./shared.js";
 
 const NAMES = { closes: ["Closes", "Does not close"], plausible: ["Plausible", "Not plausible"] };
 const NUMBERS = /(?<![\w.])(\d[\d.,]*(?:e[+-]?\d+)?(?: m\/s| W| times a second| times)?)/;

@@ -1,7 +1,6 @@
 // Sentences with numbers of answers in them. Every number that a tour says is made here, from an answer that was shown.
 
-import { make } from "../elements.js";
-import { short } from "../writing.js";
+import { make, short } from "./shared.js";
 
 export const watts = (value) => `${short(value)} W`;
 export const speed = (answer) => (answer.speed ? `at ${short(answer.speed)} m/s` : "in hover");

@@ -44,6 +44,17 @@ number is fitted to a measured flight.</footer>
 """
 
 
+def explorer_script() -> bytes:
+    """Return the JavaScript of every explorer: the viewer's, as a classic script, and then the explorer's own.
+
+    It sets ``globalThis.wingbeatViewer`` and ``globalThis.wingbeatExplorer``; a page that opens from disk can load
+    it, because it is no module.
+    """
+    viewer, _, exported = bundle_path().read_text("utf-8").rstrip("\n").rpartition("\n")
+    assert "export" in exported, "the viewer's last line makes a module of it"
+    return f"{viewer}\n{Path(__file__).with_name('explorer.js').read_text('utf-8')}".encode()
+
+
 def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any]]) -> list[Path]:
     """Write the static explorer, and return the paths of its files.
 
@@ -92,7 +103,7 @@ def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any
     }
     others = [place / name for name in ("index.html", "explorer.js", "catalogue.js")]
     write_atomically(others[0], _PAGE.encode())
-    write_atomically(others[1], bundle_path("explorer").read_bytes())
+    write_atomically(others[1], explorer_script())
     _call(others[2], "open", catalogue)
     return [*others, *written]
 

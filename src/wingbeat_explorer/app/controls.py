@@ -14,16 +14,15 @@ from wingbeat.models import model_of
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.studies.recipe import OF_ELEMENTS
 from wingbeat_explorer import default_speeds
-from wingbeat_explorer.app.checked import NO_YES, truth_in
 from wingbeat_explorer.app.face import animals
 from wingbeat_explorer.app.formatting import from_shown, sentence
+from wingbeat_explorer.app.links import NO_YES, truth_in
 from wingbeat_explorer.app.numbers import Numbers
-from wingbeat_explorer.app.scenario import Scenario, own_species, species_in
+from wingbeat_explorer.app.scenario import NUMBERS, WHOLE, WORDS, Scenario, own_species, species_in
 from wingbeat_explorer.app.widgets import Field, box, button, choice_field, number_field, slider, tag, text_field
 from wingbeat_explorer.models import EXPLORER_MODELS, name_of
 
 _OWN = "(loaded file)"
-_CHOICES = ("aero", "extension", "force_point", "airspeed", "unsteady", "inflow", "hand", "minimise")
 _FASTEST = 25.0  # m/s, the right end of the slider; faster is typed
 
 
@@ -129,13 +128,14 @@ class Controls:
             self._build_numbers()
         elif scenario.values != before.values or scenario.bounds != before.bounds:
             self._numbers.show(scenario)
-        for name in ("speed", "climb", "blend_width_deg", "induced_factor", "hand_from", "upstroke_factor"):
+        for name in NUMBERS:
             self._fields[name].show(f"{getattr(scenario, name):g}")
-        for name in _CHOICES:
-            self._fields[name].show(getattr(scenario, name))
+        for name in WORDS:
+            if name not in ("species", "model"):  # each has more to it
+                self._fields[name].show(getattr(scenario, name))
         self._fields["model"].show(_flight_model(scenario))
         self._fields["within_plausible"].show(NO_YES[scenario.within_plausible])
-        for name in ("strips", "starts", "seed"):
+        for name in WHOLE:
             value = getattr(scenario, name)
             self._fields[name].show("" if value is None else str(value))
         self._fields["limits"].show(", ".join(scenario.limits))

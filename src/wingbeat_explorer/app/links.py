@@ -6,55 +6,35 @@ import base64
 import binascii
 import dataclasses
 import json
+import math
 import re
 import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
+from pydantic import TypeAdapter, ValidationError
+
 from wingbeat._base import Fault, FaultList, FileError, InvalidInputError
-from wingbeat_explorer.app.checked import (
-    NO_YES,
-    every,
-    finite,
-    number_in,
-    switch,
-    table,
-    text_of,
-    truth_in,
-    value_in,
-    word,
-)
-from wingbeat_explorer.app.scenario import LARGEST_FILE, Scenario
+from wingbeat_explorer.app.scenario import LARGEST_FILE, NUMBERS, SWITCHES, WHOLE, WORDS, Scenario
 
 # Servers and browsers accept addresses of 16 kB and more; a species file takes some 6 kB.
 _LONGEST_QUERY = 24_000
 _VERSION = 1
-_NUMBERS = ("speed", "climb", "blend_width_deg", "induced_factor", "hand_from", "upstroke_factor")
-_WHOLE = ("strips", "starts", "seed")
-_SWITCHES = ("within_plausible",)
-_WORDS = (
-    "species",
-    "model",
-    "aero",
-    "extension",
-    "force_point",
-    "airspeed",
-    "unsteady",
-    "inflow",
-    "hand",
-    "minimise",
-)
+_LONGEST_NUMBER = 40  # characters
+NO_YES = ("no", "yes")  # a truth value as a text
+_PARTS = (*WORDS, *NUMBERS, *WHOLE, *SWITCHES, "sweep", "species_file")  # of a link, beside those that come often
+_CHECKED = TypeAdapter(Scenario)
 
 
 def to_query(scenario: Scenario) -> str:
     """Return the query of a permalink: values that differ from the defaults, and the compressed species file."""
     empty, words = Scenario(), []
-    for name in (*_WORDS, *_NUMBERS, *_WHOLE):
+    for name in (*WORDS, *NUMBERS, *WHOLE):
         value = getattr(scenario, name)
         if value != getattr(empty, name) or name in ("species", "model", "speed"):
             words.append((name, value if isinstance(value, str) else repr(value)))
-    words += [(name, NO_YES[True]) for name in _SWITCHES if getattr(scenario, name)]
+    words += [(name, NO_YES[True]) for name in SWITCHES if getattr(scenario, name)]
     if scenario.species_file:
         packed = zlib.compress(scenario.species_file.encode(), 9)
         words.append(("species_file", base64.urlsafe_b64encode(packed).decode().rstrip("=")))
@@ -105,14 +85,14 @@ def _read_pair(plain: dict[str, Any], name: str, text: str, faults: FaultList) -
             faults.add(name, text, "is given twice", "keep one of them")
         else:
             given[path] = values if name == "bound" else values[0]
-    elif name not in (*_WORDS, *_NUMBERS, *_WHOLE, *_SWITCHES, "sweep", "species_file"):
-        parts = (*_WORDS, *_NUMBERS, *_WHOLE, *_SWITCHES, "sweep", "species_file", "limit", "bound", "set")
-        faults.add(name[:60], text[:60], "is not part of a link", f"the parts of a link are {', '.join(parts)}")
+    elif name not in _PARTS:
+        parts = ", ".join((*_PARTS, "limit", "bound", "set"))
+        faults.add(name[:60], text[:60], "is not part of a link", f"the parts of a link are {parts}")
     elif name in plain:
         faults.add(name, text[:60], "is given twice", "keep one of them")
-    elif name in _WORDS:
+    elif name in WORDS:
         plain[name] = text
-    elif name in _SWITCHES:
+    elif name in SWITCHES:
         plain[name] = truth_in(text)
         if plain[name] is None:
             faults.add(name, text[:60], "must be yes or no")
@@ -122,7 +102,7 @@ def _read_pair(plain: dict[str, Any], name: str, text: str, faults: FaultList) -
         parts = [number_in(part) for part in text.split(":")] if name == "sweep" else [number_in(text)]
         if None in parts:
             faults.add(name, text[:60], "must be numbers" if name == "sweep" else "must be a number")
-        elif name in _WHOLE:
+        elif name in WHOLE:
             plain[name] = int(parts[0]) if parts[0] == round(parts[0] or 0.0) else parts[0]  # type: ignore[arg-type]
         else:
             plain[name] = parts if name == "sweep" else parts[0]
@@ -157,34 +137,20 @@ def from_plain(plain: Any) -> Scenario:
     InvalidInputError : another form, unknown names, invalid choices; all at once.
     """
     faults = FaultList()
-    known = {"values" if name == "set" else name for name in plain} if isinstance(plain, dict) else set()
-    if not isinstance(plain, dict) or not known <= {f.name for f in dataclasses.fields(Scenario)}:
-        odd = sorted(str(name)[:40] for name in known - {f.name for f in dataclasses.fields(Scenario)})
-        what = ", ".join(odd[:5]) if isinstance(plain, dict) else type(plain).__name__
+    known = {"set" if f.name == "values" else f.name for f in dataclasses.fields(Scenario)}
+    if not isinstance(plain, dict) or not plain.keys() <= known:
+        odd = sorted(str(name)[:40] for name in plain.keys() - known) if isinstance(plain, dict) else []
+        what = ", ".join(odd[:5]) if odd else type(plain).__name__
         faults.add("state", what, "is not a state of the explorer", "load a file that the explorer saved")
         faults.raise_if_any()
-    given: dict[str, Any] = {}
-    checks: dict[str, Callable[[Any], Any]] = {
-        **dict.fromkeys(_WORDS, word),
-        **dict.fromkeys(_NUMBERS, finite),
-        **dict.fromkeys(_WHOLE, lambda value: value),  # the scenario's own check names the range
-        **dict.fromkeys(_SWITCHES, switch),
-        "species_file": text_of,
-        "limits": lambda value: every(value, word),
-        "sweep": lambda value: found if (found := every(value, finite)) and len(found) == 3 else None,
-        "bounds": lambda value: table(
-            value, lambda pair: p if (p := every(pair, finite)) and len(p) == 2 else None
-        ),
-        "set": lambda value: table(value, lambda v: every(v, finite) if isinstance(v, list) else finite(v)),
-    }
-    for name, value in plain.items():
-        understood = checks[name](value)
-        if understood is None and not (name == "starts" and value is None):
-            faults.add(name, repr(value)[:60], "is not understood", "save the state again")
-        else:
-            given["values" if name == "set" else name] = understood
-    faults.raise_if_any()
-    scenario = Scenario(**given)
+    try:
+        scenario = _CHECKED.validate_python({"values" if name == "set" else name: v for name, v in plain.items()})
+    except ValidationError as error:
+        wrong = {each["loc"][0] for each in error.errors(include_url=False)}
+        for name, value in plain.items():
+            if ("values" if name == "set" else name) in wrong:
+                faults.add(name, repr(value)[:60], "is not understood", "save the state again")
+        raise InvalidInputError(faults.faults) from None
     scenario.faults().raise_if_any()
     return scenario
 
@@ -213,3 +179,25 @@ def from_json(text: str, label: str) -> Scenario:
 
 def _written(value: float | Sequence[float]) -> str:
     return repr(float(value)) if isinstance(value, int | float) else json.dumps(list(value)).replace(" ", "")
+
+
+def number_in(text: str) -> float | None:
+    """Return the finite number that a text is."""
+    try:
+        value = float(text) if len(text) < _LONGEST_NUMBER else math.nan
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None
+
+
+def value_in(text: str) -> float | list[Any] | None:
+    """Return the number or the list of numbers, in brackets, that a text is."""
+    if not text.startswith("["):
+        return number_in(text)
+    parts = [number_in(part) for part in text[1:-1].split(",")] if text.endswith("]") and text != "[]" else []
+    return parts if parts and None not in parts else None
+
+
+def truth_in(text: str) -> bool | None:
+    """Return the truth value that a text is."""
+    return text == NO_YES[True] if text in NO_YES else None

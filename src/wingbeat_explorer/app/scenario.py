@@ -7,6 +7,9 @@ import functools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Annotated, get_type_hints
+
+from pydantic import AfterValidator, Field, SkipValidation, Strict
 
 from wingbeat._base import FaultList, FileError, InvalidInputError
 from wingbeat.aero import (
@@ -33,11 +36,33 @@ from wingbeat_explorer.models import name_of, search_starts
 MOST_STARTS, MOST_STRIPS, MOST_SPEEDS, MOST_LIMITS, MOST_NUMBERS = 100, 60, 60, 8, 60
 TAIL_TILT = "tail_tilt"  # the parameter that a species holds fixed and the page can free
 LARGEST_FILE = 1 << 18  # characters of a species file, as `load_species` has it
+_LONGEST_WORD = 200
+
+
+def _shown(text: str) -> str:
+    """Return a text of one line that is not too long to be shown."""
+    if len(text) > _LONGEST_WORD or not text.isprintable():
+        raise ValueError
+    return text
+
+
+def _encodable(text: str) -> str:
+    """Return a text that UTF-8 can encode; JSON may contain lone surrogates, which have no code in UTF-8."""
+    text.encode()
+    return text
+
+
+# What links and files from elsewhere may hold in place of a choice.
+Word = Annotated[str, Strict(), AfterValidator(_shown)]
+Finite = Annotated[float, Strict(), Field(allow_inf_nan=False)]
+Row = Annotated[tuple[Finite, ...], Field(max_length=1000)]
+Whole = Annotated[int, SkipValidation]  # the scenario's own check names the range
+Switch = Annotated[bool, Strict()]
 
 
 @dataclass(frozen=True)
 class Scenario:
-    """Every choice of the page; SI units and radians.
+    """Every choice of the page; SI units and radians. Links, files and their checks follow from these fields.
 
     Parameters
     ----------
@@ -59,31 +84,31 @@ class Scenario:
     sweep : first and last speed and step of the curve [m/s].
     """
 
-    species: str = "pigeon"
-    species_file: str = ""
-    speed: float = 10.0
-    climb: float = 0.0
-    model: str = "paper"
-    aero: str = "su-fan"
-    extension: str = "mirrored"
-    blend_width_deg: float = 1.0
-    strips: int = 10
-    force_point: str = "quarter-chord"
-    airspeed: str = "planar"
-    unsteady: str = "none"
-    inflow: str = "none"
-    induced_factor: float = 1.2
-    hand: str = "none"
-    hand_from: float = 0.5
-    upstroke_factor: float = 1.0
-    minimise: str = "frequency"
-    limits: tuple[str, ...] = ()
-    bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
-    within_plausible: bool = False
-    values: Mapping[str, float | tuple[float, ...]] = field(default_factory=dict)
-    starts: int | None = None
-    seed: int = 0
-    sweep: tuple[float, float, float] = (4.0, 16.0, 1.0)
+    species: Word = "pigeon"
+    species_file: Annotated[str, Strict(), AfterValidator(_encodable)] = ""
+    speed: Finite = 10.0
+    climb: Finite = 0.0
+    model: Word = "paper"
+    aero: Word = "su-fan"
+    extension: Word = "mirrored"
+    blend_width_deg: Finite = 1.0
+    strips: Whole = 10
+    force_point: Word = "quarter-chord"
+    airspeed: Word = "planar"
+    unsteady: Word = "none"
+    inflow: Word = "none"
+    induced_factor: Finite = 1.2
+    hand: Word = "none"
+    hand_from: Finite = 0.5
+    upstroke_factor: Finite = 1.0
+    minimise: Word = "frequency"
+    limits: tuple[Word, ...] = ()
+    bounds: Mapping[Word, tuple[Finite, Finite]] = field(default_factory=dict)
+    within_plausible: Switch = False
+    values: Mapping[Word, Finite | Row] = field(default_factory=dict)
+    starts: Whole | None = None
+    seed: Whole = 0
+    sweep: tuple[Finite, Finite, Finite] = (4.0, 16.0, 1.0)
 
     @property
     def face_model(self) -> str:
@@ -156,6 +181,15 @@ class Scenario:
     def asks_as(self, other: Scenario) -> bool:
         """Return whether two scenarios ask for the same orbit; the range of the curve does not matter."""
         return self == dataclasses.replace(other, sweep=self.sweep)
+
+
+def _named(*types: object) -> tuple[str, ...]:
+    """Return the names of the choices of these types; a species file is no word."""
+    hints = get_type_hints(Scenario)
+    return tuple(name for name, kind in hints.items() if kind in types and name != "species_file")
+
+
+WORDS, NUMBERS, WHOLE, SWITCHES = _named(str), _named(float), _named(int, int | None), _named(bool)
 
 
 @functools.lru_cache(maxsize=32)

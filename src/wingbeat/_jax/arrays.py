@@ -6,7 +6,7 @@ import dataclasses
 import functools
 import math
 from collections.abc import Callable, Mapping
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from jax.custom_derivatives import SymbolicZero
 
@@ -14,6 +14,9 @@ from wingbeat._jax.config import in_own_settings as in_own_settings
 from wingbeat._jax.config import jax as jax
 from wingbeat._jax.config import jnp as jnp
 from wingbeat._jax.config import own_settings as own_settings
+
+if TYPE_CHECKING:
+    from wingbeat._jax.shapes import *  # noqa: F403  # for signatures
 
 T = TypeVar("T")
 

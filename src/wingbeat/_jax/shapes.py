@@ -2,8 +2,8 @@
 
 Within a call, axes with the same name have the same size. ``*phases`` stands for any number of axes, including none
 for a single instant. An axis marked ``#`` may have length one or be left out. The type of array is open, because
-the same equation takes JAX arrays and tracers, NumPy arrays and plain floats. Only type checkers and tests import
-this module, because importing `jaxtyping` takes 30 ms.
+the same equation takes JAX arrays and tracers, NumPy arrays and plain floats. Only type checkers (by way of `arrays`)
+and tests import this module, because importing `jaxtyping` takes 30 ms.
 """
 
 from __future__ import annotations

@@ -32,7 +32,7 @@ from wingbeat.aero.model_file import load_model
 from wingbeat.aero.table import load_table
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Angles, PerStrip, PerStripBroadcast, Phases, Scalar
+    from wingbeat._jax.arrays import Angles, PerStrip, PerStripBroadcast, Phases, Scalar
     from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
 
 

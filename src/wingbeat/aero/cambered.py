@@ -28,7 +28,7 @@ from wingbeat.aero.formula import GRADES
 from wingbeat.aero.published import SuFan
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Angles, Scalar
+    from wingbeat._jax.arrays import Angles, Scalar
 
 
 def _ramp(x: Angles, width: Scalar) -> Angles:

@@ -16,7 +16,7 @@ import numpy as np
 from wingbeat._base import FaultList
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Pair, PerStrip, PerStripBroadcast, Phases, Scalar
+    from wingbeat._jax.arrays import Pair, PerStrip, PerStripBroadcast, Phases, Scalar
 
 INFLOWS = ("none", "momentum")
 # Number of Newton's steps. Outside the vortex ring, 12 steps come within 1e-12 m/s of the solution.

@@ -13,7 +13,7 @@ from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat._jax.arrays import in_own_settings, jax
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Angles
+    from wingbeat._jax.arrays import Angles
 
 # What a wing can have. Sections with slotted flaps reach a lift coefficient of about 4.5, and a plate across the
 # flow has a drag coefficient of about 2. The centre of pressure is in chords from the leading edge.

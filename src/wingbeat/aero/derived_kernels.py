@@ -19,7 +19,7 @@ from wingbeat._jax.arrays import horner, jnp, register_record, sin
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Angles, Scalar, Spline
+    from wingbeat._jax.arrays import Angles, Scalar, Spline
     from wingbeat.aero.coefficient_model import Kernel
 
 # Knots of the tables over the whole turn: a spline through them is within 1e-6 of the formulas of the library, and

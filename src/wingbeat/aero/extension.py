@@ -33,7 +33,7 @@ from wingbeat._jax.arrays import horner, jax, jnp
 from wingbeat._jax.exported import exported
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Angles, Scalar
+    from wingbeat._jax.arrays import Angles, Scalar
 
 Function = Callable[[Any], Any]
 

@@ -12,7 +12,7 @@ from wingbeat.aero.coefficient_model import CoefficientModel, check_aspect_ratio
 from wingbeat.aero.extension import ExtendedKernel, check_extension, extend
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Angles, Scalar
+    from wingbeat._jax.arrays import Angles, Scalar
 
 
 _DEG = 180 / math.pi

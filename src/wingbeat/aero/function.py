@@ -17,7 +17,7 @@ from wingbeat._jax.arrays import in_own_settings, jax, jnp, unchecked
 from wingbeat.aero.coefficient_model import CoefficientModel, check_curve
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Angles
+    from wingbeat._jax.arrays import Angles
 
 
 _WHERE = "aero.coefficients"

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
     from scipy.interpolate import PPoly
 
-    from wingbeat._jax.shapes import Angles, Cells, Knots, PieceColumns, Scalar
+    from wingbeat._jax.arrays import Angles, Cells, Knots, PieceColumns, Scalar
 
 
 def monotone_curve(knots: Knots, values: Knots, *, periodic: bool = False) -> Any:

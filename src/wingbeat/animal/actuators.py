@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from wingbeat._jax.arrays import jnp
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Series
+    from wingbeat._jax.arrays import Series
     from wingbeat.animal.vehicle import Motor, Muscle, Springs
 
 # Largest eccentric force divided by isometric force, and the steepness of its rise: Alexander 1997, doi

@@ -18,7 +18,7 @@ from wingbeat._base import FIRST_ORDER, HARMONIC_NAMES, HIGHEST_ORDER, SHARES, F
 from wingbeat._jax.arrays import at_default, atan2, cos, jnp, register_record, sin, unchecked
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Parameters, Phases, Scalar
+    from wingbeat._jax.arrays import Parameters, Phases, Scalar
 
 
 _SWEEP = ("sweep_mean", "sweep_amplitude", "sweep_phase")

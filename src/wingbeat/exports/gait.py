@@ -29,7 +29,7 @@ from wingbeat.results.orbit import Orbit
 if TYPE_CHECKING:
     import xarray as xr
 
-    from wingbeat._jax.shapes import Phases
+    from wingbeat._jax.arrays import Phases
 
 # The laws of a wing, by their names in data sets.
 _LAWS = {

@@ -19,7 +19,7 @@ from wingbeat.mechanics.wing_motion import air_chord, strips_of, tail_tilt
 from wingbeat.mechanics.wing_points import PointMotion
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import (
+    from wingbeat._jax.arrays import (
         CoordinateMatrix,
         Coordinates,
         PerStrip,

@@ -19,7 +19,7 @@ from wingbeat.mechanics.strip_sums import sum_over_strips
 from wingbeat.mechanics.wing_motion import WingMotion
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Pair, PerStrip, Phases, Scalar, Triple
+    from wingbeat._jax.arrays import Pair, PerStrip, Phases, Scalar, Triple
 
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from wingbeat.mechanics.wing_motion import air_chord, shape_at, strips_of, with_
 from wingbeat.mechanics.wing_shape import Strips, WingShape
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Component, FlapAngles, PerStrip, PerStripBroadcast, Phases
+    from wingbeat._jax.arrays import Component, FlapAngles, PerStrip, PerStripBroadcast, Phases
 
 
 # Chordwise place of the leading and the trailing edge from the quarter chord, in chords.

@@ -21,7 +21,7 @@ from wingbeat.mechanics.wing_motion import strips_of
 from wingbeat.mechanics.wing_points import bias_accelerations, partial_velocities, point_motion
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import CoordinateMatrix, Coordinates, Pair, PerStrip, Phases
+    from wingbeat._jax.arrays import CoordinateMatrix, Coordinates, Pair, PerStrip, Phases
 
 
 class EquationsOfMotion(NamedTuple):

@@ -13,7 +13,7 @@ from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_tabl
 from wingbeat.mechanics.flights import air_between
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import AirOfFlights, Flights, FlightStates, Samples, Scalar
+    from wingbeat._jax.arrays import AirOfFlights, Flights, FlightStates, Samples, Scalar
 
 
 def fly_beat_in_steps(

@@ -15,7 +15,7 @@ from wingbeat.mechanics.wing_motion import air_chord, strips_of, stroke_attitude
 from wingbeat.mechanics.wing_points import point_motion
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import (
+    from wingbeat._jax.arrays import (
         Coordinates,
         MassPoints,
         PerStrip,

@@ -18,7 +18,7 @@ from wingbeat.mechanics.frames import dot, from_world
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude, wing_motion
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import BodyAcceleration, Component, Pair, Phases, PitchState, Scalar
+    from wingbeat._jax.arrays import BodyAcceleration, Component, Pair, Phases, PitchState, Scalar
 
 
 if TYPE_CHECKING:

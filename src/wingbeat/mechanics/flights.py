@@ -17,7 +17,7 @@ from wingbeat.mechanics.equations_of_motion import accelerations_from_torques
 from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import AirTable, AirVelocity, Integrated, Samples, Scalar, StartState, StateVector
+    from wingbeat._jax.arrays import AirTable, AirVelocity, Integrated, Samples, Scalar, StartState, StateVector
 
 
 RTOL = 1e-10

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from wingbeat._jax.arrays import cos, sin
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Component, Pair, Triple
+    from wingbeat._jax.arrays import Component, Pair, Triple
 
 
 def to_world(attitude: Component, forward: Component, up: Component) -> Pair:

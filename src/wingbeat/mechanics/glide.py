@@ -23,7 +23,7 @@ from wingbeat.mechanics.flight_model import FlightModel, at_velocity
 from wingbeat.mechanics.frames import stroke_pitch
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Coordinates, Scalar
+    from wingbeat._jax.arrays import Coordinates, Scalar
 
 
 TRIMS = ("body-pitch", "flap", "tail")

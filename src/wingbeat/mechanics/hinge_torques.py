@@ -33,7 +33,7 @@ from wingbeat.mechanics.wing_motion import (
 )
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import BodyAcceleration, Pair, PerStrip, PerStripBroadcast, Phases, PitchState, Triple
+    from wingbeat._jax.arrays import BodyAcceleration, Pair, PerStrip, PerStripBroadcast, Phases, PitchState, Triple
 
 
 class PartialMotion(NamedTuple):

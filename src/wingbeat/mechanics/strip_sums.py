@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from wingbeat._jax.arrays import jnp
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import PerStrip, PerStripBroadcast, Phases, Sums
+    from wingbeat._jax.arrays import PerStrip, PerStripBroadcast, Phases, Sums
 
 
 _FEW_STRIPS = 32

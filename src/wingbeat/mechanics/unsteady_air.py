@@ -19,7 +19,7 @@ from wingbeat.mechanics.strip_sums import mass_moments, sum_over_strips
 from wingbeat.mechanics.wing_shape import WingShape
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import (
+    from wingbeat._jax.arrays import (
         ByBodyMotion,
         PerStrip,
         PerStripBroadcast,

@@ -28,7 +28,7 @@ from wingbeat.mechanics.unsteady_air import UnsteadyLoad, strip_motion, unsteady
 from wingbeat.mechanics.wing_shape import Strips, WingShape
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Pair, PerStrip, PerStripBroadcast, Phases, Scalar, Triple
+    from wingbeat._jax.arrays import Pair, PerStrip, PerStripBroadcast, Phases, Scalar, Triple
 
 
 class WingMotion(NamedTuple):

@@ -18,7 +18,7 @@ from wingbeat.mechanics.wing_motion import air_chord, chord_at, mass_points, str
 from wingbeat.mechanics.wing_shape import Strips
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import (
+    from wingbeat._jax.arrays import (
         ChordFractions,
         Component,
         Coordinates,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from wingbeat._jax.arrays import jnp
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import PerStripBroadcast, Phases, Triple
+    from wingbeat._jax.arrays import PerStripBroadcast, Phases, Triple
 
 
 class Strips(NamedTuple):

@@ -12,7 +12,7 @@ from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import PitchState, RatesByState, Samples
+    from wingbeat._jax.arrays import PitchState, RatesByState, Samples
 
 
 @exported

@@ -14,7 +14,7 @@ from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.stability.smooth_commands import Smoother, parameters_of
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import (
+    from wingbeat._jax.arrays import (
         AirOfFlights,
         Flights,
         FlownCommands,

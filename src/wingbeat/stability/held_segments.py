@@ -13,7 +13,7 @@ from wingbeat.mechanics.fixed_steps import fly_beat_in_steps
 from wingbeat.mechanics.flight_model import FlightModel
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import (
+    from wingbeat._jax.arrays import (
         AirOfFlights,
         Flights,
         FlownBumps,

@@ -29,7 +29,7 @@ from wingbeat.animal.kinematics import (
 from wingbeat.animal.vehicle import Vehicle
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Free, LawJumps, Phases
+    from wingbeat._jax.arrays import Free, LawJumps, Phases
 
 # The laws that move mass. The chord law does not: the mass stays distributed over the full chord, and the unsteady
 # loads leave out the rate of the chord.

@@ -17,7 +17,7 @@ from wingbeat.animal.kinematics import Wingbeat, parameter, unpack, with_paramet
 from wingbeat.stability.inputs import LAWS, Compensation, law_jumps, laws_at
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import (
+    from wingbeat._jax.arrays import (
         AllParameters,
         Commands,
         InputChanges,

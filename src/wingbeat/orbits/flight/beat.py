@@ -19,7 +19,7 @@ from wingbeat.mechanics.wing_motion import WingMotion, strips_of, stroke_attitud
 from wingbeat.orbits.flight.shooting import STEPS, Flown
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import (
+    from wingbeat._jax.arrays import (
         FieldByFree,
         FieldByState,
         FieldTangents,

@@ -18,7 +18,7 @@ from wingbeat.mechanics.flights import Steps
 from wingbeat.orbits.flight.runge_kutta import ALONG, PLACES, WEIGHTS
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Stretches, StretchMaps, StretchStates
+    from wingbeat._jax.arrays import Stretches, StretchMaps, StretchStates
 
 
 # Number of steps in each step of the certifier, whose steps are short at the kinks of the loads. With two, the

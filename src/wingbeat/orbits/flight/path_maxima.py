@@ -14,7 +14,7 @@ import numpy as np
 from wingbeat._jax.arrays import jax, jnp
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Columns, Indices, Quarters, SampledSeries, SamplesOfPeaks
+    from wingbeat._jax.arrays import Columns, Indices, Quarters, SampledSeries, SamplesOfPeaks
 
 
 PARTS = 4

@@ -21,7 +21,7 @@ from wingbeat.orbits.flight.runge_kutta import ALONG, PLACES, WEIGHTS
 from wingbeat.orbits.flight.stroke_distances import ROWS, least_distances
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import (
+    from wingbeat._jax.arrays import (
         EndJacobian,
         FlownPath,
         Free,

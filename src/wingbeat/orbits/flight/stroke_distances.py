@@ -21,7 +21,7 @@ from wingbeat.mechanics.wing_shape import Strips
 from wingbeat.orbits.flight.path_maxima import PARTS
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import Samples, StrokeIndices, StrokeRows, StrokeSeries
+    from wingbeat._jax.arrays import Samples, StrokeIndices, StrokeRows, StrokeSeries
 
 
 # Name of the corners' limit among the active bounds.

@@ -11,7 +11,7 @@ from wingbeat._jax.arrays import jax, jnp
 from wingbeat.orbits.problem.quantity import Quantity
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import FiveExcesses, FourCoefficients, Moduli, Scalar, StrokeMatrix
+    from wingbeat._jax.arrays import FiveExcesses, FourCoefficients, Moduli, Scalar, StrokeMatrix
 
 # What counts as stable where nobody gives a limit: disturbances are halved in 140 beats at the latest.
 STABLE_RADIUS = 0.995

@@ -27,7 +27,7 @@ from wingbeat.orbits.problem.quantity import Quantity
 from wingbeat.orbits.problem.traced import ALL_FIELDS, SAMPLES, fields_read, given_by
 
 if TYPE_CHECKING:
-    from wingbeat._jax.shapes import StrokeMatrix
+    from wingbeat._jax.arrays import StrokeMatrix
 
 # How to add what a quantity needs to a vehicle.
 _FIXES = {

@@ -2,7 +2,7 @@
 
 Within a call, axes with the same name have the same size. ``*phases`` stands for any number of axes, including none
 for a single instant. An axis marked ``#`` may have length one or be left out. The type of array is open, because
-the same equation takes JAX arrays and tracers, NumPy arrays and plain floats. Only type checkers (by way of `arrays`)
+the same equation takes JAX arrays and tracers, NumPy arrays and plain floats. Only type checkers (through `arrays`)
 and tests import this module, because importing `jaxtyping` takes 30 ms.
 """
 

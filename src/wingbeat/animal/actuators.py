@@ -27,14 +27,9 @@ def force_at(shortening: Series, curvature: Any) -> Series:
     """Return the force of fully active fibres divided by their isometric force.
 
     Equations: ``(1 - q) / (1 + q/k)`` if the muscle shortens (Hill 1938), ``1.8 - 0.8 (1 + q) / (1 - 7.56 q/k)`` if
-    it lengthens (Alexander 1997, J Theor Biol 184:253, doi 10.1006/jtbi.1996.0262). The equations were taken from
-    programs that cite these papers, not from the papers.
-
-    Parameters
-    ----------
-    shortening : q, speed of shortening divided by its largest value, from -1 to 1; negative if the muscle
-        lengthens.
-    curvature : k.
+    it lengthens (Alexander 1997, J Theor Biol 184:253, doi 10.1006/jtbi.1996.0262), with q the speed of shortening
+    divided by its largest value, from -1 to 1, and k the curvature. The equations were taken from programs that
+    cite these papers, not from the papers.
 
     >>> [round(float(force_at(jnp.array(q), 0.25)), 3) for q in (-1.0, 0.0, 0.2, 1.0)]
     [1.8, 1.0, 0.444, 0.0]
@@ -48,14 +43,10 @@ def force_at(shortening: Series, curvature: Any) -> Series:
 def metabolic_rate(shortening: Series) -> Series:
     """Return the metabolic power of fully active fibres divided by (isometric force times largest speed).
 
-    Equation: ``(0.054 + 0.506 q + 2.46 q^2) / (1 - 1.13 q + 12.8 q^2 - 1.64 q^3)``, q from -1 to 1.
+    Equation: ``(0.054 + 0.506 q + 2.46 q^2) / (1 - 1.13 q + 12.8 q^2 - 1.64 q^3)``, q as for `force_at`.
 
     Source: Minetti and Alexander 1997, J Theor Biol 186:467, doi 10.1006/jtbi.1997.0407, as other papers quote it;
     we did not read the paper itself.
-
-    Parameters
-    ----------
-    shortening : q, speed of shortening divided by its largest value.
 
     >>> round(float(metabolic_rate(jnp.array(0.0))), 3), round(float(metabolic_rate(jnp.array(0.2))), 3)
     (0.054, 0.199)
@@ -69,10 +60,6 @@ def isometric_share(shortening: Series, curvature: Any) -> Series:
 
     Up to 0.95 of the largest speed, the result is ``1 / force_at``. At higher speeds it continues as a straight
     line, the tangent at 0.95, so that the solver can return from speeds that no muscle reaches.
-
-    Parameters
-    ----------
-    shortening, curvature : as for `force_at`.
     """
     inside = jnp.clip(shortening, -1.0, _LAST_SHARE)
     slope = (1.0 + 1.0 / curvature) / (1.0 - _LAST_SHARE) ** 2  # of (1 + q/k) / (1 - q) there
@@ -80,18 +67,12 @@ def isometric_share(shortening: Series, curvature: Any) -> Series:
 
 
 def metabolic_power(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[Series, Series]:
-    """Return the metabolic powers of elevators and depressors [W]; only positive values count.
+    """Return the metabolic powers of elevators and depressors [W], shape (K,); only positive values count.
 
     Equation: ``T omega_max Phi(q)``, with T the isometric torque of the active fibres and omega_max the flap rate
-    at which they exert no torque. The elevators exert upward torques, and the depressors downward ones. At each
-    instant, the muscle that does not exert the torque rests, and its value is negative. The power of the rest of
-    the body is not included.
-
-    Parameters
-    ----------
-    muscle : the muscles.
-    torque : flap torque that they must exert, both wings, up positive [N m], shape (K,).
-    flap_rate : up positive [rad/s], shape (K,).
+    at which they exert no torque. The elevators exert upward torques, and the depressors downward ones: `torque` is
+    that of both wings, up positive [N m], as is `flap_rate` [rad/s]. At each instant, the muscle that does not
+    exert the torque rests, and its value is negative. The power of the rest of the body is not included.
     """
 
     def cost(shortening: Series) -> Series:
@@ -103,13 +84,9 @@ def metabolic_power(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[
 
 
 def activation(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[Series, Series]:
-    """Return the share of active fibres that elevators need, and that of depressors; above 1, a muscle is too weak.
+    """Return the shares of active fibres that elevators and depressors need; above 1, a muscle is too weak.
 
-    At each instant one muscle rests; its share is negative.
-
-    Parameters
-    ----------
-    muscle, torque, flap_rate : as for `metabolic_power`.
+    At each instant one muscle rests; its share is negative. Torque and rate are as for `metabolic_power`.
     """
     shortening, whole = flap_rate / muscle.max_flap_rate, muscle.depressor_torque
     up = torque * isometric_share(shortening, muscle.curvature) / (whole * muscle.elevator_share)
@@ -120,10 +97,6 @@ def activation(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[Serie
 def best_efficiency(curvature: Any) -> Any:
     """Return a muscle's largest efficiency, mechanical power divided by metabolic power, at any speed.
 
-    Parameters
-    ----------
-    curvature : k of Hill's relation.
-
     >>> round(float(best_efficiency(0.25)), 2)
     0.5
     """
@@ -132,15 +105,9 @@ def best_efficiency(curvature: Any) -> Any:
 
 
 class MotorState(NamedTuple):
-    """Speed, torque and electrical quantities of a motor at the K samples of one beat, as arrays of shape (K,).
+    """A motor's speed [rad/s], torque [N m], current [A], voltage [V] and electrical power [W], shape (K,) each.
 
-    Attributes
-    ----------
-    speed : of the motor [rad/s].
-    torque : of the motor on gear and rotor; friction is not included [N m].
-    current : [A].
-    voltage : at its terminals [V].
-    power : electrical power, negative where the motor returns power [W].
+    The torque is that on gear and rotor, without friction; the power is negative where the motor returns power.
     """
 
     speed: Series
@@ -156,13 +123,8 @@ def motor_state(motor: Motor, torque: Series, rate: Series, acceleration: Series
     Equations: ``omega = N rate``, ``torque = load / N + J omega'``, ``i = torque/kt + sign(omega) i0``, ``v = R i +
     kt omega``, ``P = v i``. The loss of the gear is added to the load while the motor drives the wings, and
     subtracted from the load while the wings drive the motor. With a crank, the speed is ``N 2 pi f``, the load is
-    the flap hinges' power divided by the crank's speed, and the rotor's inertia has no effect.
-
-    Parameters
-    ----------
-    motor : the motor.
-    torque, rate, acceleration : at both flap hinges together [N m, rad/s, rad/s2], shape (K,).
-    frequency : of the beat [Hz].
+    the flap hinges' power divided by the crank's speed, and the rotor's inertia has no effect. Torque, rate and
+    acceleration are those of both flap hinges together [N m, rad/s, rad/s2]; the frequency is the beat's [Hz].
     """
     turning = 2.0 * jnp.pi * frequency
     crank = motor.crank
@@ -183,13 +145,9 @@ _AHEAD = (45 / 60, -9 / 60, 1 / 60)
 
 
 class Driven(NamedTuple):
-    """Torque and motion that the actuators of both flap hinges must provide, as arrays of shape (K,).
+    """Torque [N m], rate [rad/s] and acceleration [rad/s2] that the actuators must provide, shape (K,) each.
 
-    Attributes
-    ----------
-    torque : up positive [N m].
-    rate : of the actuator's angle, converted to an angle of the flap hinge [rad/s].
-    acceleration : [rad/s2].
+    They are those of both hinges, up positive; the actuator's angle is counted as an angle of the flap hinge.
     """
 
     torque: Series
@@ -200,10 +158,7 @@ class Driven(NamedTuple):
 def periodic_rate(values: Series, period: Any) -> Series:
     """Return the rate of a periodic series, by central differences of order 6.
 
-    Parameters
-    ----------
-    values : at equal phases from 0 to 1, both ends included and equal, shape (K,).
-    period : [s].
+    The values are at equal phases from 0 to 1, both ends included and equal, shape (K,).
     """
     once = values[:-1]
     step = period / once.shape[0]
@@ -213,14 +168,7 @@ def periodic_rate(values: Series, period: Any) -> Series:
 
 
 def spring_torque(stiffness: Any, flap: Series, rest_angle: Any) -> Series:
-    """Return the torque of springs beside the actuators, ``-k (flap - rest)`` [N m].
-
-    Parameters
-    ----------
-    stiffness, rest_angle : k of both sides [N m/rad], and the flap angle at which the springs exert no torque
-        [rad].
-    flap : [rad], shape (K,).
-    """
+    """Return the torque of springs beside the actuators, ``-k (flap - rest)`` [N m]."""
     return -stiffness * (flap - rest_angle)
 
 
@@ -229,13 +177,7 @@ def actuated(springs: Springs, flap: Series, rate: Series, torque: Series, perio
 
     Equations: the actuators give the torque that the springs beside them do not give. All of this torque passes
     through the springs in series, so that the actuators' angle is ahead of the flap angle by
-    ``compliance * torque``.
-
-    Parameters
-    ----------
-    springs : the springs.
-    flap, rate, torque : angle, rate and torque of both flap hinges [rad, rad/s, N m], shape (K,).
-    period : [s].
+    ``compliance * torque``. Angle, rate and torque are those of both flap hinges [rad, rad/s, N m], shape (K,).
     """
     left = torque - spring_torque(springs.stiffness, flap, springs.rest_angle)
     own_rate = rate + springs.series_compliance * periodic_rate(left, period)

@@ -309,13 +309,6 @@ def unwrapped(faults: FaultList, where: str, phase: Array, angle: Array) -> tupl
     the frame before. Then all frames are moved together, so that their mean lies within half a turn of 0. A frame
     that is not moved keeps every digit.
 
-    Parameters
-    ----------
-    faults : receives a fault if the angle does not come back to its first value after a beat.
-    where : of the column, for that fault.
-    phase : beats, shape (n,).
-    angle : as tracked [deg], shape (n,).
-
     >>> unwrapped(FaultList(), "pitch", np.arange(4) / 4, np.array([170.0, -175.0, 172.0, 165.0]))
     (array([170., 185., 172., 165.]), 1)
     """

@@ -47,10 +47,7 @@ def _swinging(law: str, mean: float, waves: list[float], sign: float) -> dict[st
 
 
 def _drawn_in(law: str, mean: float, waves: list[float]) -> dict[str, Any]:
-    """Return retraction and harmonics of span or chord.
-
-    The law of retraction has a mean and a sine; harmonics describe the rest.
-    """
+    """Return retraction, which has a mean and a sine, and harmonics, for the rest, of span or chord."""
     retraction = max(2.0 * (1.0 - mean), 0.0)
     harmonics = (waves[0], waves[1] - 0.5 * retraction, *waves[2:])
     return {f"{law}_retraction": retraction, f"{law}_harmonics": harmonics}

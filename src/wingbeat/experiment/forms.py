@@ -36,8 +36,7 @@ def value_and_slopes(terms: Any, alpha_deg: Array, curve: str = "at") -> tuple[A
     """Return values and derivatives of a formula of `wingbeat.aero` at angles [deg], shape (n,).
 
     The derivatives with respect to the terms are a record like `terms`, with arrays of shape (n,) instead of
-    numbers. All forms with the same terms share one compiled function. `curve` names the method of
-    the terms that is the formula.
+    numbers. All forms with the same terms share one compiled function; `curve` names its method.
 
     >>> value, slopes = value_and_slopes(FormulaTerms(0.1, 2.0, 2.0, 0.0), np.array([45.0]))
     >>> round(float(value[0]), 12), round(float(slopes.amplitude[0]), 12)

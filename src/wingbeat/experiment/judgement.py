@@ -51,13 +51,7 @@ class Difference(NamedTuple):
 
 
 def judge(curve: CurveFit, reynolds: Array | None) -> tuple[str, ...]:
-    """Return warnings on the residuals of a fit, in words with numbers.
-
-    Parameters
-    ----------
-    curve : the fit.
-    reynolds : chord Reynolds number of each measurement, shape (n,), or None.
-    """
+    """Return warnings on the residuals of a fit, in words with numbers."""
     least = LEAST_SHARE * float(np.ptp(curve.values))
     if least <= 0:
         return ()
@@ -108,20 +102,11 @@ def _of_reynolds(
 
 
 def group_difference(alpha_deg: Array, residuals: Array, inside: NDArray[np.bool_]) -> Difference | None:
-    """Return how the residuals of a group of rows differ from those of the others, by an F test.
+    """Return how the residuals of a group of rows differ from those of the others, None if both share too few rows.
 
     Over the angles that both have, the residuals are fitted by hat functions of the angle, once the same for all
     rows, once with further hats for the group. ``F = ((S1 - S2)/(n1 - n2))/(S2/n2)`` with the sums of squares S and
     their degrees of freedom n has Snedecor's distribution if the group does not differ.
-
-    Parameters
-    ----------
-    alpha_deg, residuals : angles [deg] and residuals, shape (n,).
-    inside : which rows are the group, shape (n,).
-
-    Returns
-    -------
-    The difference, or None if group and others share too few rows.
 
     >>> a, wave = np.tile(np.arange(10.0), 2), np.tile([0.01, -0.01], 10)
     >>> found = group_difference(a, wave + np.repeat([0.0, 0.3], 10), np.repeat([False, True], 10))
@@ -258,10 +243,6 @@ def failures(curve: CurveFit) -> tuple[str, ...]:
 
     A curve fails if R^2 is below 0, or below 0.5 with a scatter of more than a tenth of the largest value; and if
     the size of C_L exceeds 5, or C_D is not above 0 and at most 5, within the measured angles.
-
-    Parameters
-    ----------
-    curve : the fit.
     """
     found = []
     share = float(np.sqrt((curve.residuals**2).mean()) / max(np.abs(curve.values).max(), 1e-12))
@@ -276,13 +257,7 @@ def failures(curve: CurveFit) -> tuple[str, ...]:
 
 
 def model_failures(model: CoefficientModel, measured_deg: tuple[float, float]) -> tuple[str, ...]:
-    """Return why the model that follows from a fit is useless: what no wing has, at any angle of attack.
-
-    Parameters
-    ----------
-    model : as flights use it, at all angles.
-    measured_deg : lowest and highest measured angle [deg].
-    """
+    """Return why the model that follows from a fit is useless: what no wing has, at any angle of attack."""
     angles = np.arange(-180.0, 180.5)
     alpha = np.deg2rad(angles)
     columns = {"C_L": np.asarray(model.lift(alpha)), "C_D": np.asarray(model.drag(alpha))}
@@ -330,13 +305,7 @@ class Branches(NamedTuple):
 
     @classmethod
     def between(cls, a: Array, residuals: Array, inside: NDArray[np.bool_]) -> Branches:
-        """Return the branches of rows whose membership is known.
-
-        Parameters
-        ----------
-        a, residuals : angles [deg] and residuals, shape (n,).
-        inside : the rows of one branch, shape (n,).
-        """
+        """Return the branches of rows whose membership is known."""
         low, high = (max(a[inside].min(), a[~inside].min()), min(a[inside].max(), a[~inside].max()))
         grid = np.unique(np.round(a[(a >= low) & (a <= high)], 2))
         one, other = (_curve(grid, a[rows], residuals[rows]) for rows in (inside, ~inside))

@@ -242,12 +242,7 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
 
 
 def refuse_radians(where: str, angles: NDArray[np.float64]) -> None:
-    """Refuse a sweep of angles that does not go beyond pi: such a sweep is in radians.
-
-    Raises
-    ------
-    InvalidInputError : four angles or more, none beyond pi, and some not zero.
-    """
+    """Refuse a sweep of four angles or more that does not go beyond pi and is not zero: it is in radians."""
     faults = FaultList()
     check_radians(faults, where, angles)
     faults.raise_if_any()
@@ -279,12 +274,7 @@ class RunMeans(NamedTuple):
 
 
 # Constants beyond these ranges are in another unit. Streams are slower than sound, mercury has 13 500 kg/m3.
-_RANGES = {
-    "speed": (1e-4, 340.0),
-    "density": (0.004, 2e4),
-    "chord": (1e-4, 10.0),
-    "span": (1e-4, 50.0),
-}
+_RANGES = {"speed": (1e-4, 340.0), "density": (0.004, 2e4), "chord": (1e-4, 10.0), "span": (1e-4, 50.0)}
 # Dynamic viscosities of gases from 100 to 3000 K, and of liquids from liquefied gas to honey [Pa s].
 _GAS, _LIQUID = (4e-6, 1e-4), (5e-5, 50.0)
 _GAS_DENSITY, _LIQUID_DENSITY = 50.0, 400.0
@@ -321,7 +311,7 @@ _FACTORS = {
 
 
 def check_constants(faults: FaultList, run: LoadCellRun) -> None:
-    """Note constants of a run, in SI units, that no stream and no plate has, with what they seem to be.
+    """Note constants of a run that no stream and no plate has, with what they seem to be.
 
     The viscosity of gases and liquids is judged with the density, because both are known for any fluid.
     """

@@ -80,12 +80,7 @@ def clip_rate(clock: Array, columns: Mapping[str, Array]) -> Clip | None:
     ``p = f t + g t^2/2``: for given f and g, linear least squares gives the mean and the amplitudes (variable
     projection, Golub and Pereyra 1973, doi 10.1137/0710036), and Gauss-Newton steps give f and g. The standard
     errors are those of least squares, larger by the lag-one correlation of the residuals. The rate is that of the
-    fit with g = 0.
-
-    Parameters
-    ----------
-    clock : rising times or phases of the frames, shape (n,).
-    columns : filmed quantities by name, NaN in frames where they were not seen, shape (n,) each.
+    fit with g = 0. Columns are NaN in frames where they were not seen.
 
     >>> at = np.arange(90) / 240
     >>> clip = clip_rate(at, {"flap_deg": 40 * np.cos(2 * math.pi * 8.2 * at)})
@@ -113,13 +108,7 @@ def clip_rate(clock: Array, columns: Mapping[str, Array]) -> Clip | None:
 
 
 def scatter_at(clock: Array, values: Array, rate: float) -> float:
-    """Return the standard deviation of a column from the best beat of a given rate, in the column's unit.
-
-    Parameters
-    ----------
-    clock, values : frames in which the column was seen, shape (n,).
-    rate : beats per unit of the clock.
-    """
+    """Return the standard deviation of a column from the best beat of a given rate, in the column's unit."""
     left, _, _ = _linearised([(clock - clock.mean(), values - values.mean())], np.array([rate, 0.0]), steady=True)
     return math.sqrt(float(left @ left) / max(len(left) - 2 * _ORDERS - 1, 1))
 
@@ -228,12 +217,7 @@ class FilmedLaw(NamedTuple):
     frames: int
 
     def curve(self, phase: Any) -> tuple[Array, Array]:
-        """Return the series at phases of the film, and its standard error.
-
-        Parameters
-        ----------
-        phase : phases of the film, shape (n,).
-        """
+        """Return the series at phases of the film, and its standard error, shape (n,) each."""
         columns = fourier_columns(phase)
         return columns @ self.coefficients, np.sqrt(np.einsum("ni,ij,nj->n", columns, self.covariance, columns))
 
@@ -244,16 +228,9 @@ def fit_law(phase: Array, values: Array) -> FilmedLaw:
 
 
 def fit_travel(phase: Array, values: Array) -> tuple[float, FilmedLaw]:
-    """Fit uniform travel plus a periodic smoothing spline.
+    """Fit uniform travel plus a periodic smoothing spline; return the travel in a beat, and the spline.
 
-    Parameters
-    ----------
-    phase : in beats, counted on from beat to beat, shape (n,).
-    values : shape (n,).
-
-    Returns
-    -------
-    The travel in a beat, and the spline.
+    The phase counts on from beat to beat.
     """
     from_start = (phase - phase.mean())[:, None]
     found = _smoothed(np.hstack([from_start, fourier_columns(phase)]), values)

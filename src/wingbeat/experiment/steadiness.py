@@ -99,13 +99,7 @@ _MOVING = 0.1
 
 
 class Rest(NamedTuple):
-    """Intervals of a record in which the fluid is at rest.
-
-    Attributes
-    ----------
-    spans : their start and end [s].
-    zero, zero_se : readings of the channels in them, and standard errors, shape (intervals, 3).
-    """
+    """Intervals of rest [s], with the channels' readings in them and standard errors, shape (intervals, 3)."""
 
     spans: list[tuple[float, float]]
     zero: Array
@@ -113,13 +107,7 @@ class Rest(NamedTuple):
 
 
 def rest_spans(time: Array, force: Array) -> list[tuple[float, float]]:
-    """Return the intervals at the ends of a record in which the force is that of rest, [] if there are none.
-
-    Parameters
-    ----------
-    time : of the samples [s], shape (n,).
-    force : normal and tangential force [N], shape (2, n).
-    """
+    """Return the intervals at the ends of a record in which the force, shape (2, n), is that of rest, if any."""
     size = max(time.size // _REST_BLOCKS, 1)
     count = time.size // size
     level = np.hypot(*force[:, : count * size].reshape(2, count, size).mean(axis=2))
@@ -142,15 +130,7 @@ def rest_spans(time: Array, force: Array) -> list[tuple[float, float]]:
 
 
 def refuse_rest(faults: FaultList, run: LoadCellRun, force: Array, keep: NDArray[np.bool_]) -> None:
-    """Note a window in which there is hardly any force, while there was one before.
-
-    Parameters
-    ----------
-    faults : collects the fault.
-    run : the record.
-    force : normal and tangential force without the zero [N], shape (2, n).
-    keep : the samples in the window.
-    """
+    """Note a window in which there is hardly any force [N], shape (2, n), while there was one before."""
     before = force[:, ~keep]
     size = max(before.shape[1] // _REST_BLOCKS, 1)
     if before.shape[1] < 2 * _BLOCKS:
@@ -175,14 +155,8 @@ def unsteady(runs: list[LoadCellRun], windows: list[Array], series: Array, zeroe
 
     A step, a straight line and a parabola are fitted to the means of 16 blocks. A step is reported if it fits best,
     a drift otherwise, if the change is significant by Student's t and more than 5 per cent (step) or 3 per cent
-    (line) of the force coefficient.
-
-    Parameters
-    ----------
-    runs : the records.
-    windows : times of the samples in the window of each run [s].
-    series : C_L, C_D and C_M in the window, shape (runs, 3, n).
-    zeroed : whether rest was stated, from which the zero is known.
+    (line) of the force coefficient. The series are C_L, C_D and C_M in the window, shape (runs, 3, n); `zeroed`
+    says that rest was stated, from which the zero is known.
     """
     size = series.shape[2] // _BLOCKS
     blocks = series[..., : size * _BLOCKS].reshape(*series.shape[:2], _BLOCKS, size).mean(axis=3)
@@ -248,11 +222,7 @@ def _steadier(run: LoadCellRun, blocks: Array, zeroed: bool) -> str:
 def signal_notes(run: LoadCellRun, keep: NDArray[np.bool_], raw: Array) -> list[str]:
     """Return notes on gaps in the time, and on channels that are constant, clipped, repeated or have spikes.
 
-    Parameters
-    ----------
-    run : the record.
-    keep : the samples in the window.
-    raw : the channels in the window, shape (3, n).
+    The channels are those in the window, shape (3, n).
     """
     notes, steps = [], np.diff(run.time[keep])
     usual = float(np.median(steps))
@@ -292,15 +262,7 @@ def signal_notes(run: LoadCellRun, keep: NDArray[np.bool_], raw: Array) -> list[
 
 
 def stated_rest(faults: FaultList, run: LoadCellRun, spans: list[tuple[float, float]], raw: Array) -> Rest:
-    """Return the channels' readings in stated intervals of rest; note intervals that are not at rest.
-
-    Parameters
-    ----------
-    faults : collects faults.
-    run : the record.
-    spans : start and end of each interval [s].
-    raw : the channels, shape (3, n).
-    """
+    """Return the channels' readings in stated intervals of rest [s]; note intervals that are not at rest."""
     zero, errors = np.zeros((len(spans), 3)), np.zeros((len(spans), 3))
     moving = np.ones(run.time.size, dtype=bool)
     for start, end in spans:

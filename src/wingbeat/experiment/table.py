@@ -75,11 +75,7 @@ class CoefficientTable:
         return columns
 
     def between(
-        self,
-        lowest_deg: float = -180.0,
-        highest_deg: float = 180.0,
-        *,
-        reynolds: tuple[float, float] | None = None,
+        self, lowest_deg: float = -180.0, highest_deg: float = 180.0, *, reynolds: tuple[float, float] | None = None
     ) -> CoefficientTable:
         """Return the rows between two angles and, if given, between two Reynolds numbers.
 

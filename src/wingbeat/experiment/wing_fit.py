@@ -297,14 +297,7 @@ _CAMBERED = """\
 
 
 def model_text(model: Fitted, form: str, curves: dict[str, CurveFit]) -> str:
-    """Return the content of the model file of a fit.
-
-    Parameters
-    ----------
-    model : what the file holds.
-    form : name of the form.
-    curves : the fitted curves by coefficient.
-    """
+    """Return the content of the model file of a fit with its curves by coefficient."""
     lines = [
         _HEAD,
         *([_CAMBERED] if isinstance(model, FittedWing) else []),

@@ -68,10 +68,7 @@ class LiftForm(BoxForm):
             faults.add(label, f"{values.min():g} to {values.max():g}", rule, fix)
 
     def starts(self, alpha_deg: Array, values: Array, weight: Array) -> list[dict[str, float]]:
-        """Return three starts: the best nodes of a grid of zero-lift angles and slopes.
-
-        The lowest and highest lift of each start are those of the data.
-        """
+        """Return the three best nodes of a grid of zero-lift angles and slopes, and the extremes of the data."""
         ends = {"lift_lowest": float(values.min()), "lift_highest": float(values.max())}
         zeros = np.linspace(np.median(alpha_deg[values < 0]), np.median(alpha_deg[values > 0]), _NODES)
         found = [
@@ -83,12 +80,7 @@ class LiftForm(BoxForm):
 
 
 def stall_notes(lift: CurveFit) -> tuple[str, ...]:
-    """Return notes on the sides whose stall the measurements do not reach.
-
-    Parameters
-    ----------
-    lift : fit of C_L.
-    """
+    """Return notes on the sides whose stall the measurements of lift do not reach."""
     terms, notes = lift.parameters, []
     for angle, end, side in ((lift.alpha_deg.min(), "lift_lowest", -1), (lift.alpha_deg.max(), "lift_highest", 1)):
         line = terms["lift_slope"] * math.radians(float(angle) - terms["zero_lift_deg"])
@@ -105,12 +97,7 @@ class DragForm(BoxForm):
     """The drag of a cambered wing; its induced part and its onsets depend on lift, which `beside` sets."""
 
     def beside(self, lift: CurveFit) -> DragForm:
-        """Return the form for a fitted lift, whose terms also set the ranges of the two onsets.
-
-        Parameters
-        ----------
-        lift : fit of C_L to the same table.
-        """
+        """Return the form for a fitted lift, whose terms also set the ranges of the two onsets."""
         terms = lift.parameters
         zero = terms["zero_lift_deg"]
         middle = math.degrees(0.5 * (terms["lift_lowest"] + terms["lift_highest"]) / terms["lift_slope"])
@@ -137,10 +124,7 @@ class DragForm(BoxForm):
 class DragFit(CurveFit):
     """A fit of drag that depends on fitted lift; `covariance` includes the uncertainty of the lift.
 
-    Attributes
-    ----------
-    joint_names : the parameters of lift, then those of drag.
-    joint : covariance of the parameters in `joint_names`, shape (p, p).
+    `joint` is the covariance of the parameters in `joint_names`: those of lift, then those of drag.
     """
 
     joint_names: tuple[str, ...]
@@ -167,11 +151,6 @@ def with_lift(drag: CurveFit, lift: CurveFit) -> DragFit:
     and L are the derivatives of drag with respect to its own terms and to those of lift. So if the errors of lift
     and drag are independent, the covariance of all terms is ``[[V_l, V_l G^T], [G V_l, V_d + G V_l G^T]]``: Murphy
     and Topel 1985, J. Bus. Econ. Stat. 3:370.
-
-    Parameters
-    ----------
-    drag : fit by the form that `DragForm.beside` returned.
-    lift : fit of C_L to the same table.
     """
     own, other = tuple(drag.parameters), tuple(lift.parameters)
     weighted = _slopes(drag, drag.alpha_deg, (*own, *other)) / drag.sigma[:, None]
@@ -191,17 +170,7 @@ def fit_drag(
 ) -> DragFit:
     """Fit the drag of a cambered wing, given its fitted lift.
 
-    Parameters
-    ----------
-    form : of the drag.
-    lift : fit of C_L to the same table.
-    values, sigma : C_D and its standard errors, or None, shape (n,).
-    label : name of the quantity in messages.
-    copies : how often each measurement is among the values: 2 if half of them are a mirror image.
-
-    Raises
-    ------
-    InvalidInputError : inputs that `fit_curve` refuses.
+    Each measurement is `copies` times among the values: 2 if half of them are a mirror image.
     """
     alone = fit_curve(lift.alpha_deg, values, form.beside(lift), sigma, label)
     return with_lift(dataclasses.replace(alone, covariance=copies * alone.covariance), lift)

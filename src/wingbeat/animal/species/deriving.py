@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -62,55 +61,6 @@ _STROUHAL_SOURCE = (
 )
 
 
-def _plausible(
-    muscle: tuple[float, str], mass: float, chord: float, viscosity: float, whose: str
-) -> dict[str, Range]:
-    share, share_source = muscle
-    cruise = scaling.CRUISE_BY_MASS.number(mass)
-    slowest, fastest = cruise.range or (0.0, math.inf)
-    law = f"{scaling.CRUISE_BY_MASS.formula} = {cruise.value:.3g} m/s, {scaling.CRUISE_BY_MASS.source}{whose}"
-    return {
-        "positive_power_per_mass": Range(None, _MUSCLE * share, "W/kg", f"{_MUSCLE_SOURCE}; {share_source}"),
-        "peak_force_over_weight": _FORCE,
-        "mean_body_pitch": _MEAN_BODY_PITCH._replace(
-            source=f"{_MEAN_BODY_PITCH.source}; cruise is 0.6 to 1.6 times {law}: slower flight is steeper",
-            speeds=(slowest, fastest),
-        ),
-        "body_pitch_range": _BODY_PITCH,
-        "strouhal": Range(
-            *_STROUHAL,
-            "1",
-            f"{_STROUHAL_SOURCE}; cruise is 0.6 to 1.6 times {law}: slower flight has a larger one",
-            (slowest, fastest),
-        ),
-        "reynolds": Range(
-            None,
-            fastest * chord / viscosity,
-            "1",
-            f"derived: the fastest cruise, 1.6 times {law}, at a chord of {chord:.3g} m",
-        ),
-    }
-
-
-def plausible_of_birds(mass: float, chord: float, viscosity: float) -> dict[str, Range]:
-    """Return the plausible ranges for a bird of this mass [kg], mean chord [m] and viscosity of the air [m2/s].
-
-    >>> plausible_of_birds(0.316, 0.112, 1.5e-5)["strouhal"].high
-    0.4
-    """
-    return _plausible(_BIRD_MUSCLE, mass, chord, viscosity, "")
-
-
-def plausible_of_bats(mass: float, chord: float, viscosity: float) -> dict[str, Range]:
-    """Return the plausible ranges for a bat of this mass [kg], mean chord [m] and air viscosity [m2/s]."""
-    return _plausible(_BAT_MUSCLE, mass, chord, viscosity, "; birds, no law of bats was found")
-
-
-def plausible_of_robots(mass: float, chord: float, viscosity: float) -> dict[str, Range]:
-    """Return ranges that are open at both ends: no law of robots was found, because motors differ too much."""
-    return {key.name: Range(None, None, key.unit, _NO_LAW) for key in PLAUSIBLE if key.name != "peak_activation"}
-
-
 _SPEED = 7.0  # m/s, of a bat's stock wingbeat: in the middle of the speeds that the law's spread covers
 # Bounds of the frequency in a search. Two frequencies determine them: the stock one, and that of the cruising law
 # of birds, which depends on size, weight and air. The lower bound is the first factor times the lower frequency;
@@ -133,7 +83,7 @@ class Kind:
     aspect_ratios: tuple[tuple[float, float], str]
     recovery: dict[str, float]
     recovery_source: str
-    plausible: Callable[[float, float, float], dict[str, Range]]
+    muscle: tuple[float, str] | None  # share of the whole mass that is flight muscle, and its source
 
 
 BIRD = Kind(
@@ -145,7 +95,7 @@ BIRD = Kind(
     scaling.BIRD_ASPECT_RATIO,
     {"span_retraction": 0.3, "twist_ratio": 1.0, "fold_amplitude": 0.0},
     f"guess: as the pigeon of {_SU_FAN}, who give no retraction",
-    plausible_of_birds,
+    _BIRD_MUSCLE,
 )
 BAT = Kind(
     "bat",
@@ -156,7 +106,7 @@ BAT = Kind(
     scaling.BAT_ASPECT_RATIO,
     {"span_retraction": 0.0, "twist_ratio": 1.6, "fold_amplitude": math.radians(10)},
     f"guess: as the bat of {_SU_FAN}",
-    plausible_of_bats,
+    _BAT_MUSCLE,
 )
 ROBOT = Kind(
     "robot",
@@ -167,23 +117,51 @@ ROBOT = Kind(
     scaling.ROBOT_ASPECT_RATIO,
     {"span_retraction": 0.0, "twist_ratio": 1.0, "fold_amplitude": 0.0},
     "guess: rigid wings",
-    plausible_of_robots,
+    None,
 )
+
+
+def plausible_of(kind: Kind, mass: float, chord: float, viscosity: float) -> dict[str, Range]:
+    """Return the plausible ranges for an animal of this mass [kg], mean chord [m] and air viscosity [m2/s].
+
+    No law of robots was found, because motors differ too much: their ranges are open at both ends.
+
+    >>> plausible_of(BIRD, 0.316, 0.112, 1.5e-5)["strouhal"].high
+    0.4
+    """
+    if kind.muscle is None:
+        return {
+            key.name: Range(None, None, key.unit, _NO_LAW) for key in PLAUSIBLE if key.name != "peak_activation"
+        }
+    share, share_source = kind.muscle
+    cruise = scaling.CRUISE_BY_MASS.number(mass)
+    slowest, fastest = cruise.range or (0.0, math.inf)
+    whose = "; birds, no law of bats was found" if kind is BAT else ""
+    law = f"{scaling.CRUISE_BY_MASS.formula} = {cruise.value:.3g} m/s, {scaling.CRUISE_BY_MASS.source}{whose}"
+    steeper = f"{_MEAN_BODY_PITCH.source}; cruise is 0.6 to 1.6 times {law}: slower flight is steeper"
+    larger = f"{_STROUHAL_SOURCE}; cruise is 0.6 to 1.6 times {law}: slower flight has a larger one"
+    highest = f"derived: the fastest cruise, 1.6 times {law}, at a chord of {chord:.3g} m"
+    return {
+        "positive_power_per_mass": Range(None, _MUSCLE * share, "W/kg", f"{_MUSCLE_SOURCE}; {share_source}"),
+        "peak_force_over_weight": _FORCE,
+        "mean_body_pitch": _MEAN_BODY_PITCH._replace(source=steeper, speeds=(slowest, fastest)),
+        "body_pitch_range": _BODY_PITCH,
+        "strouhal": Range(*_STROUHAL, "1", larger, (slowest, fastest)),
+        "reynolds": Range(None, fastest * chord / viscosity, "1", highest),
+    }
 
 
 def derive(
     kind: Kind, content: SpeciesText, mass: float, span: float, area: float, frequencies: tuple[float, float] | None
 ) -> None:
-    """Fill in what `content` does not give.
+    """Add what `content` lacks, from the whole mass [kg], the span tip to tip [m] and the area of both wings [m2].
 
-    Parameters
-    ----------
-    kind : the kind of animal, with its laws.
-    content : the measured numbers, by path; the others are added to it.
-    mass, span, area : mass of the whole animal [kg], span tip to tip [m], area of both wings [m2].
-    frequencies : bounds of the wingbeat frequency [Hz]; None for wide ones around the stock frequency.
+    The bounds of the wingbeat frequency are `frequencies` [Hz], or wide ones around the stock frequency.
     """
-    found = _vehicle(kind, content.numbers, mass, span, area) | _air()
+    found = _vehicle(kind, content.numbers, mass, span, area)
+    limits = {"density": (0.8, 1.35), "viscosity": (1.2e-5, 2.0e-5), "gravity": (9.78, 9.84)}
+    for name, value in dataclasses.asdict(Air()).items():
+        found[f"air.{name}"] = Number(value, plain_unit(name), "guess: standard air at sea level", limits[name])
     air = [single(content.numbers.get(path, found[path])) for path in ("air.density", "air.gravity")]
     found |= _wingbeat(kind, mass, span, area, *air)
     for path, number in found.items():
@@ -194,78 +172,63 @@ def derive(
         usual.append(scaling.BIRD_FREQUENCY(mass, span, area, *air))
     content.free, content.path = _bounds(usual, frequencies)
     content.written = {name: (f"free.{name}", list(bound.bounds)) for name, bound in content.free.items()}
-    content.plausible = kind.plausible(mass, area / span, single(content.numbers["air.viscosity"]))
-    content.alternatives = _alternatives(kind, mass)
-
-
-def _shoulder(mass: float, span: float) -> Number:
-    half_width = scaling.BODY_HALF_WIDTH.number(mass)
-    beside = f"guess: level with the body's centre of mass; half the body's width to the side, {half_width.source}"
-    return Number((0.0, single(half_width), 0.0), "m", beside, (-0.02 * span, 0.08 * span))
+    content.plausible = plausible_of(kind, mass, area / span, single(content.numbers["air.viscosity"]))
+    drag, rigid = Numbers(), Numbers()
+    drag["vehicle.body.drag_area"] = scaling.BODY_DRAG_AREA.number(mass)
+    reason = "the drag of the body, which Su et al. leave out; the law of birds"
+    content.alternatives = {"body-drag": Alternative(reason, drag)}
+    if kind is BIRD:
+        rigid["wingbeat.span_retraction"] = Number(0.0, "1", "guess: the lower end of its range")
+        reason = "a wing that keeps its span, to see how much depends on the guess"
+        content.alternatives["rigid-span"] = Alternative(reason, rigid)
 
 
 def _vehicle(kind: Kind, given: Numbers, mass: float, span: float, area: float) -> dict[str, Number]:
+    whole = Number(mass, "kg", "given")
+    if kind is BIRD:
+        # A range only if no bird of this span has this mass: what somebody measured is exact.
+        usual = scaling.BIRD_MASS.number(span)
+        low, high = _range(usual)
+        if not low <= mass <= high:
+            whole = Number(mass, "kg", f"given; range {usual.source}", (low, high))
     length = given.get("vehicle.wing.semi_span", kind.wing_length.number(span))
     wing_mass = given.get("vehicle.wing.mass", kind.wing_mass.number(mass))
     drag = scaling.BODY_DRAG_AREA.number(mass)
     drag_source = f"{_SU_FAN}, have no body drag; top of the range {drag.source}"
+    chord = scaling.MEAN_CHORD.number(span, area)
+    (low, high), whose = kind.aspect_ratios
+    if not low <= span * span / area <= high:
+        odd = f"; range: aspect ratio {low:g} to {high:g}, {whose}"
+        chord = chord._replace(source=chord.source + odd, range=(span / high, span / low))
     if kind.flap_inertia is None:
         exponent = scaling.ROBOT_MASS_EXPONENT.number()
     else:
         exponent = scaling.mass_exponent(kind.flap_inertia, single(wing_mass), single(length))
+    half_width = scaling.BODY_HALF_WIDTH.number(mass)
+    beside = f"guess: level with the body's centre of mass; half the body's width to the side, {half_width.source}"
     vertical = "guess: near vertical is the best in cruise (Parslew 2015, J R Soc Interface 12:20140953, on birds)"
     return {
-        "vehicle.mass": _whole(kind, mass, span),
+        "vehicle.mass": whole,
         "vehicle.body.pitch_inertia": kind.pitch_inertia.number(mass),
         "vehicle.body.drag_area": Number(0.0, "m2", drag_source, (0.0, _range(drag)[1])),
         "vehicle.wing.semi_span": length,
-        "vehicle.wing.chord": _chord(kind, span, area),
+        "vehicle.wing.chord": chord,
         "vehicle.wing.mass": wing_mass,
         "vehicle.wing.mass_exponent": exponent,
-        "vehicle.wing.shoulder": _shoulder(mass, span),
+        "vehicle.wing.shoulder": Number((0.0, single(half_width), 0.0), "m", beside, (-0.02 * span, 0.08 * span)),
         "vehicle.wing.stroke_plane_angle": _guess("vehicle.wing.stroke_plane_angle", None, 45, 110, vertical),
-    }
-
-
-def _whole(kind: Kind, mass: float, span: float) -> Number:
-    """Return the given mass, with a range only if no bird of this span has it: what somebody measured is exact."""
-    if kind is not BIRD:
-        return Number(mass, "kg", "given")
-    usual = scaling.BIRD_MASS.number(span)
-    low, high = _range(usual)
-    if low <= mass <= high:
-        return Number(mass, "kg", "given")
-    return Number(mass, "kg", f"given; range {usual.source}", (low, high))
-
-
-def _chord(kind: Kind, span: float, area: float) -> Number:
-    chord = scaling.MEAN_CHORD.number(span, area)
-    (low, high), whose = kind.aspect_ratios
-    ratio = span * span / area
-    if low <= ratio <= high:
-        return chord
-    odd = f"; range: aspect ratio {low:g} to {high:g}, {whose}"
-    return chord._replace(source=chord.source + odd, range=(span / high, span / low))
-
-
-def _air() -> dict[str, Number]:
-    standard, limits = Air(), {"density": (0.8, 1.35), "viscosity": (1.2e-5, 2.0e-5), "gravity": (9.78, 9.84)}
-    source = "guess: standard air at sea level"
-    return {
-        f"air.{name}": Number(value, plain_unit(name), source, limits[name])
-        for name, value in dataclasses.asdict(standard).items()
     }
 
 
 def _wingbeat(kind: Kind, mass: float, span: float, area: float, density: Any, gravity: Any) -> dict[str, Number]:
     if kind is BAT:
         frequency, amplitude = bat_beat(mass, area)
-    else:
-        law = scaling.BIRD_FREQUENCY if kind is BIRD else scaling.ROBOT_FREQUENCY
-        frequency = law.number(mass, span, area, density, gravity)
+    elif kind is BIRD:
+        frequency = scaling.BIRD_FREQUENCY.number(mass, span, area, density, gravity)
         amplitude = scaling.BIRD_FLAP_AMPLITUDE.number(span)
-        if kind is ROBOT:
-            amplitude = scaling.ROBOT_FLAP_AMPLITUDE.number()
+    else:
+        frequency = scaling.ROBOT_FREQUENCY.number(mass, span, area, density, gravity)
+        amplitude = scaling.ROBOT_FLAP_AMPLITUDE.number()
     ranges = {"span_retraction": (0.0, 0.5), "twist_ratio": (1.0, 2.0), "fold_amplitude": (0.0, math.radians(30))}
     found = {
         f"wingbeat.{name}": Number(value, plain_unit(name), kind.recovery_source, ranges[name])
@@ -293,10 +256,9 @@ def _guess(path: str, degrees: float | None, low: float, high: float, source: st
 
 def _bounds(usual: list[float], given: tuple[float, float] | None) -> tuple[dict[str, Bound], dict[str, Bound]]:
     """Return the bounds of the free parameters and those along the path; `usual` holds typical frequencies [Hz]."""
-    low, high = _WIDE[0] * min(usual), _WIDE[1] * max(usual)
-    frequency = Bound((low, high), "guess: an eighth to four times what the laws of the frequency give", True)
-    if given is not None:
-        frequency = Bound(given, "given")
+    wide = _WIDE[0] * min(usual), _WIDE[1] * max(usual)
+    guess = "guess: an eighth to four times what the laws of the frequency give"
+    frequency = Bound(wide, guess, True) if given is None else Bound(given, "given")
 
     def angles(low: float, high: float, reason: str) -> Bound:
         return Bound((math.radians(low), math.radians(high)), reason, True)
@@ -314,16 +276,6 @@ def _bounds(usual: list[float], given: tuple[float, float] | None) -> tuple[dict
         "flap": angles(-90, 90, f"{reach}: upright above and below; no measurement found"),
     }
     return free, path
-
-
-def _alternatives(kind: Kind, mass: float) -> dict[str, Alternative]:
-    drag, rigid = Numbers(), Numbers()
-    drag["vehicle.body.drag_area"] = scaling.BODY_DRAG_AREA.number(mass)
-    found = {"body-drag": Alternative("the drag of the body, which Su et al. leave out; the law of birds", drag)}
-    if kind is BIRD:
-        rigid["wingbeat.span_retraction"] = Number(0.0, "1", "guess: the lower end of its range")
-        found["rigid-span"] = Alternative("a wing that keeps its span, to see how much depends on the guess", rigid)
-    return found
 
 
 def single(number: Number) -> float:

@@ -119,46 +119,35 @@ def _leaves(keys: Iterable[Key], kind_of: Callable[[Key], Any]) -> dict[str, Any
     return fields
 
 
-def _bounded(_: Key) -> Any:
-    return _bare_or_table(_Pair, BoundTable)
-
-
-def _section(
-    prefix: str, complete: bool, inner: dict[str, Any] | None = None, optional: tuple[str, ...] = ()
-) -> Any:
-    """Return the field of one table. TOML has no null, so an absent table is simply not checked.
-
-    A complete table must have those tables of `inner` that are not `optional`.
-    """
-    own = [key for key in KEYS if key.path.rpartition(".")[0] == prefix]
-    required = [" ".join(p.rpartition(".")[2] for p in key.spellings) for key in own if key.required]
-    name = prefix.replace(".", " ").title().replace(" ", "") + ("" if complete else "Change")
-    inner = inner or {}
-    required += [part for part in inner if part not in optional]
-    return (
-        _table(name, _leaves(own, lambda key: _sourced(key.shape)) | inner, required if complete else []),
-        None,
-    )
-
-
 def _sections(complete: bool) -> dict[str, Any]:
-    inner = {part: _section(f"vehicle.{part}", complete) for part in ("body", "wing", *PARTS)}
-    sections = {"vehicle": _section("vehicle", complete, inner, tuple(PARTS))}
-    return sections | {part: _section(part, complete) for part in ("wingbeat", "air")}
+    """Return the fields of vehicle, wingbeat and air; a complete file must have the numbers that are required.
+
+    TOML has no null, so an absent table is simply not checked.
+    """
+
+    def section(prefix: str, inner: dict[str, Any]) -> Any:
+        own = [key for key in KEYS if key.path.rpartition(".")[0] == prefix]
+        required = [" ".join(p.rpartition(".")[2] for p in key.spellings) for key in own if key.required]
+        required += [part for part in inner if part not in PARTS]
+        name = prefix.replace(".", " ").title().replace(" ", "") + ("" if complete else "Change")
+        fields = _leaves(own, lambda key: _sourced(key.shape)) | inner
+        return _table(name, fields, required if complete else []), None
+
+    parts = {part: section(f"vehicle.{part}", {}) for part in ("body", "wing", *PARTS)}
+    return {"vehicle": section("vehicle", parts), "wingbeat": section("wingbeat", {}), "air": section("air", {})}
 
 
 def _shape() -> Any:
     """Return the field of the table that says how the animal looks; its texts stand alone, without a source."""
-    colours = [key for key in LOOKS if key.part == "colours"]
-    inner = {"colours": (_table("Colours", _leaves(colours, _bare), [key.name for key in colours]), None)}
-    own = _leaves([key for key in LOOKS if key not in colours], _bare)
-    numbers = _leaves(SHAPE, lambda key: _sourced(key.shape))
+    texts = _leaves(LOOKS, lambda key: _SHAPES[key.shape])
+    fields = {"cover": texts.pop("cover"), **_leaves(SHAPE, lambda key: _sourced(key.shape))}
+    fields["colours"] = (_table("Colours", texts, [*texts]), None)
     required = ["cover", *(key.name for key in SHAPE if key.required), "colours"]
-    return _table("Shape", own | numbers | inner, required), None
+    return _table("Shape", fields, required), None
 
 
-def _bare(key: Key) -> Any:
-    return _SHAPES[key.shape]
+def _bounds(name: str, keys: Iterable[Key]) -> Any:
+    return _table(name, _leaves(keys, lambda _: _bare_or_table(_Pair, BoundTable)), []), None
 
 
 _Alternative = create_model(
@@ -175,8 +164,8 @@ SpeciesFile = _table(
         "scientific_name": (str, ""),
         "kind": (Literal[KINDS], Field(default=None, description="kind of flyer; selects the scaling laws")),
         **_sections(complete=True),
-        "free": (_table("Free", _leaves(FREE, _bounded), []), None),
-        "path": (_table("Path", _leaves(PATH, _bounded), []), None),
+        "free": _bounds("Free", FREE),
+        "path": _bounds("Path", PATH),
         "plausible": (_table("Plausible", _leaves(PLAUSIBLE, lambda _: RangeTable), []), None),
         "shape": _shape(),
         "alternatives": (dict[str, _Alternative], None),

@@ -68,7 +68,7 @@ def load_species(name_or_path: str | os.PathLike[str]) -> Species:
     """
     name, faults = name_or_path, FaultList()
     if isinstance(name, str) and name in species_names():
-        return _build(packaged_text(name), f"{name}.toml", name)
+        return species_of(read_species_text(packaged_text(name), f"{name}.toml", name, faults), faults)
     if isinstance(name, str) and not (name.endswith(".toml") or any(s in name for s in _SEPARATORS)):
         known = suggest(name.lower(), species_names()).replace("?", "")
         if os.path.isfile(name):
@@ -78,21 +78,12 @@ def load_species(name_or_path: str | os.PathLike[str]) -> Species:
     elif not isinstance(name, str | os.PathLike):
         faults.add("species", name, "must be a name or a path", f"the names are {', '.join(species_names())}")
     faults.raise_if_any()
-    return _build(read_text(name, limit=_LARGEST), os.fspath(name), Path(name).stem)
-
-
-def _build(text: str, label: str, name: str) -> Species:
-    faults = FaultList()
-    return species_of(read_species_text(text, label, name, faults), faults)
+    text = read_text(name, limit=_LARGEST)
+    return species_of(read_species_text(text, os.fspath(name), Path(name).stem, faults), faults)
 
 
 def species_of(content: SpeciesText, faults: FaultList) -> Species:
-    """Return the species that a text describes.
-
-    Raises
-    ------
-    InvalidInputError : the faults noted before, and everything else that is wrong with it.
-    """
+    """Return the species that a text describes, or refuse it with the faults noted before and all others."""
     numbers: dict[str, Number] = dict(content.numbers)
     if WHOLE in numbers:
         derive_body(numbers, content.numbers, faults)
@@ -279,20 +270,20 @@ def _species(
     if not isinstance(tail, bool):
         faults.add("tail", shown(tail), "must be True or False", "give its numbers as tail_area= and so on")
     for where, text in zip(("name", "common_name", "scientific_name"), names, strict=True):
-        if (
-            not isinstance(text, str)
-            or not (text.isprintable() and text.strip() == text)
-            or (where == "name" and not text)
-        ):
+        good = isinstance(text, str) and text.isprintable() and text.strip() == text
+        if not good or (where == "name" and not text):
             faults.add(where, shown(text), "must be a text on one line", "for example 'jackdaw'")
     content = SpeciesText(*names, kind.name)
     _check_size(size, faults)
     for name, value in measured.items():
         _put(content.numbers, name, plain(value), size, faults)
-    limits = _checked_range(frequency_range, faults)
+    limits = None if frequency_range is None else _checked_range(frequency_range, faults)
     faults.raise_if_any()
     mass, span, area = (float(value) for value in size.values())
-    _check_laws(kind, content.numbers, mass, area, faults)
+    # The law of bats' amplitude, a logarithm, gives no wingbeat for some areas.
+    if kind is BAT and "wingbeat.flap_amplitude" not in content.numbers and single(bat_beat(mass, area)[1]) <= 0:
+        rule = "is outside the range of the law for bats' flap_amplitude"
+        faults.add("wing_area", area, rule, "give flap_amplitude=")
     faults.raise_if_any()
     derive(kind, content, mass, span, area, limits)
     for path, number in tail_numbers(mass).items() if tail else ():
@@ -304,31 +295,19 @@ def _species(
 def _check_size(size: dict[str, Any], faults: FaultList) -> None:
     mass, span, area = size.values()
     faults.number("mass", mass, at_least=1e-6, at_most=1e3, unit="kg", fix="give the whole mass in kg")
-    good = faults.number(
+    known = faults.number(
         "wing_span", span, at_least=1e-3, at_most=1e2, unit="m", fix="give the span tip to tip in m"
     )
     if (
         not faults.number("wing_area", area, above=0, unit="m2", fix="give the area of both wings in m2")
-        or not good
+        or not known
     ):
         return
     if area > span * span:
         faults.add("wing_area", area, f"is larger than the square of the span, {span * span:g} m2", "use m and m2")
     elif area * _MOST_CHORDS < span * span:
-        faults.add(
-            "wing_area", area, f"is less than {1 / _MOST_CHORDS:g} of the square of the span", "use m and m2"
-        )
-
-
-def _check_laws(kind: Kind, given: Numbers, mass: float, area: float, faults: FaultList) -> None:
-    """Note an area for which the law of bats' amplitude, a logarithm, gives no wingbeat."""
-    if kind is not BAT or "wingbeat.flap_amplitude" in given:
-        return
-    _, amplitude = bat_beat(mass, area)
-    if single(amplitude) <= 0:
-        faults.add(
-            "wing_area", area, "is outside the range of the law for bats' flap_amplitude", "give flap_amplitude="
-        )
+        rule = f"is less than {1 / _MOST_CHORDS:g} of the square of the span"
+        faults.add("wing_area", area, rule, "use m and m2")
 
 
 def _put(numbers: Numbers, name: str, value: Any, size: dict[str, Any], faults: FaultList) -> None:
@@ -355,18 +334,12 @@ def _possible(name: str, value: Any, size: dict[str, Any], faults: FaultList) ->
     whole, low, high = _SHARES[name]
     if low * size[whole] <= value <= high * size[whole]:
         return True
-    faults.add(
-        name,
-        value,
-        f"must be {low:g} to {high:g} times the {whole} of {size[whole]:g}",
-        "give that of one wing, in kg or m",
-    )
+    rule = f"must be {low:g} to {high:g} times the {whole} of {size[whole]:g}"
+    faults.add(name, value, rule, "give that of one wing, in kg or m")
     return False
 
 
 def _checked_range(limits: Any, faults: FaultList) -> tuple[float, float] | None:
-    if limits is None:
-        return None
     where = "frequency_range"
     if not isinstance(limits, tuple | list) or len(limits) != 2:
         faults.add(where, shown(limits), "must be (lowest, highest)", "give both in Hz")

@@ -40,108 +40,79 @@ class Key(NamedTuple):
         return (self.path, f"{self.path}_deg") if self.unit == "rad" else (self.path,)
 
 
-def _key(path: str, required: bool = True, shape: str = "number") -> Key:
-    """Return the key of a path, with unit and meaning from the nomenclature."""
-    term = find(path)
-    assert term is not None, path
-    return Key(path, plain(term.unit), term.definition, required, shape)
+def _keys(section: str, required: str = "", optional: str = "", shape: str = "number") -> tuple[Key, ...]:
+    """Return the keys of a section by their names, with units and meanings from the nomenclature."""
+    keys = []
+    for names, needed in ((required, True), (optional, False)):
+        for name in names.split():
+            term = find(path := f"{section}.{name}")
+            assert term is not None, path
+            keys.append(Key(path, plain(term.unit), term.definition, needed, shape))
+    return tuple(keys)
 
 
 KEYS = (
-    _key("vehicle.mass", False),
-    _key("vehicle.body.mass", False),
-    _key("vehicle.body.pitch_inertia"),
-    _key("vehicle.body.drag_area", False),
-    _key("vehicle.wing.semi_span"),
-    _key("vehicle.wing.chord", shape="stations"),
-    _key("vehicle.wing.mass"),
-    _key("vehicle.wing.mass_exponent", False),
-    _key("vehicle.wing.shoulder", False, "vector"),
-    _key("vehicle.wing.stroke_plane_angle", False),
-    *(_key(f"vehicle.tail.{name}") for name in ("area", "arm", "lift_slope")),
-    *(_key(f"vehicle.tail.{name}", False) for name in ("drag_coefficient", "height", "incidence")),
-    *(_key(f"vehicle.muscle.{name}") for name in ("mass", "elevator_share", "strain_per_angle", "max_strain_rate")),
-    *(_key(f"vehicle.muscle.{name}", False) for name in ("isometric_stress", "curvature")),
-    *(_key(f"vehicle.motor.{name}") for name in ("torque_constant", "resistance", "gear_ratio")),
-    *(
-        _key(f"vehicle.motor.{name}", False)
-        for name in ("rotor_inertia", "no_load_current", "gear_efficiency", "crank")
-    ),
-    *(_key(f"vehicle.springs.{name}", False) for name in ("stiffness", "rest_angle", "series_compliance")),
-    *(
-        _key(f"wingbeat.{name}")
-        for name in ("frequency", "flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude")
-    ),
-    *(
-        _key(f"wingbeat.{name}", False)
-        for name in (
-            *("span_retraction", "twist_ratio", "fold_amplitude", "wrist", "pitch_phase", "downstroke_fraction"),
-            *("sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt", "tail_tilt"),
-            *("chord_retraction", "twist_mean"),
-        )
-    ),
-    *(_key(f"wingbeat.{law}_harmonics", False, "list") for law in FIRST_ORDER),
-    *(_key(f"air.{name}", False) for name in ("density", "viscosity", "gravity")),
+    *_keys("vehicle", optional="mass"),
+    *_keys("vehicle.body", optional="mass"),
+    *_keys("vehicle.body", "pitch_inertia", "drag_area"),
+    *_keys("vehicle.wing", "semi_span"),
+    *_keys("vehicle.wing", "chord", shape="stations"),
+    *_keys("vehicle.wing", "mass", "mass_exponent"),
+    *_keys("vehicle.wing", optional="shoulder", shape="vector"),
+    *_keys("vehicle.wing", optional="stroke_plane_angle"),
+    *_keys("vehicle.tail", "area arm lift_slope", "drag_coefficient height incidence"),
+    *_keys("vehicle.muscle", "mass elevator_share strain_per_angle max_strain_rate", "isometric_stress curvature"),
+    *_keys("vehicle.motor", "torque_constant resistance gear_ratio", "rotor_inertia no_load_current"),
+    *_keys("vehicle.motor", optional="gear_efficiency crank"),
+    *_keys("vehicle.springs", optional="stiffness rest_angle series_compliance"),
+    *_keys("wingbeat", "frequency flap_mean flap_amplitude pitch_mean pitch_amplitude"),
+    *_keys("wingbeat", optional="span_retraction twist_ratio fold_amplitude wrist pitch_phase downstroke_fraction"),
+    *_keys("wingbeat", optional="sweep_mean sweep_amplitude sweep_phase stroke_plane_tilt tail_tilt"),
+    *_keys("wingbeat", optional="chord_retraction twist_mean"),
+    *_keys("wingbeat", optional=" ".join(f"{law}_harmonics" for law in FIRST_ORDER), shape="list"),
+    *_keys("air", optional="density viscosity gravity"),
 )
-# Parts that a vehicle may lack; a vehicle without a part has none of the part's numbers.
+# Parts that a vehicle may lack, all but body and wing; a vehicle without a part has none of the part's numbers.
 PARTS = {
     part: tuple(key for key in KEYS if key.path.startswith(f"vehicle.{part}."))
-    for part in ("tail", "muscle", "motor", "springs")
+    for part in dict.fromkeys(key.part for key in KEYS if key.path.count(".") == 2)
+    if part not in ("body", "wing")
 }
 TAIL_PATHS = (*(key.path for key in PARTS["tail"]), "wingbeat.tail_tilt")
 # Limits along the whole path, not only at its start.
-PATH = (_key("path.body_pitch"), _key("path.flap"))
+PATH = _keys("path", "body_pitch flap")
 # The wrist cannot be free: each strip is wholly arm or hand, so an orbit changes in steps with the wrist and has no
 # derivative by which to search.
-FREE = (
-    *(
-        _key(f"free.{key.name}")
-        for key in KEYS
-        if key.path.startswith("wingbeat.") and key.path != "wingbeat.wrist" and key.shape == "number"
+FREE = _keys(
+    "free",
+    " ".join(
+        (
+            *(key.name for key in KEYS if key.part == "wingbeat" and key.name != "wrist" and key.shape == "number"),
+            *HARMONIC_NAMES,
+        )
     ),
-    *(_key(f"free.{name}") for name in HARMONIC_NAMES),
 )
 # How the animal looks. No model reads it.
 TRUNK = ("body_length", "body_width", "body_depth")
 EXTREMITIES = ("head_length", "bill_length", "ear_length", "tail_length", "tail_width")  # 0 without one
 SHAPE = (
-    *(_key(f"shape.{name}", shape="edge") for name in ("leading_edge", "trailing_edge")),
-    *(_key(f"shape.{name}", False) for name in ("camber", "thickness")),
-    *(_key(f"shape.{name}") for name in TRUNK),
-    *(_key(f"shape.{name}", False) for name in EXTREMITIES),
+    *_keys("shape", "leading_edge trailing_edge", shape="edge"),
+    *_keys("shape", optional="camber thickness"),
+    *_keys("shape", " ".join(TRUNK), " ".join(EXTREMITIES)),
 )
 COVERS = ("feathers", "membrane", "film")
 COLOURS = ("back", "breast", "head", "wing", "wing_tip", "bill")
 COLOUR = "#[0-9a-fA-F]{6}"  # the form of each, as a regular expression
 NO_COLOUR = ("must be a colour", 'write it as "#rrggbb"')  # the fault of another form, and how to fix it
-LOOKS = (
-    _key("shape.cover", shape="cover"),
-    *(_key(f"shape.colours.{name}", shape="colour") for name in COLOURS),
-)
-# What is read off a beat and judged beside the certificate. The ranges of frequency and flap amplitude stand with
-# their numbers, under wingbeat.
-PLAUSIBLE = tuple(
-    _key(f"plausible.{name}", False)
-    for name in (
-        *("positive_power_per_mass", "peak_activation", "peak_force_over_weight", "mean_body_pitch"),
-        *("body_pitch_range", "strouhal", "reynolds"),
-    )
-)
-
-# What is judged of an orbit, in the order of a record: activation where there is muscle, the tail's tilt where a
-# tail tilts.
+LOOKS = (*_keys("shape", "cover", shape="cover"), *_keys("shape.colours", " ".join(COLOURS), shape="colour"))
+# What is judged of an orbit beside the certificate, in the order of a record: activation where there is muscle, the
+# tail's tilt where a tail tilts. The ranges of the numbers of a wingbeat stand with them, under wingbeat.
 JUDGED = (
-    "positive_power_per_mass",
-    "peak_activation",
-    "frequency",
-    "flap_amplitude",
-    "tail_tilt",
-    "peak_force_over_weight",
-    "mean_body_pitch",
-    "body_pitch_range",
-    "strouhal",
-    "reynolds",
+    *("positive_power_per_mass", "peak_activation", "frequency", "flap_amplitude", "tail_tilt"),
+    *("peak_force_over_weight", "mean_body_pitch", "body_pitch_range", "strouhal", "reynolds"),
 )
+_IN_WINGBEAT = ("frequency", "flap_amplitude", "tail_tilt")
+PLAUSIBLE = _keys("plausible", optional=" ".join(name for name in JUDGED if name not in _IN_WINGBEAT))
 
 
 class Shown(str):
@@ -208,7 +179,7 @@ class Bound(NamedTuple):
 class Range(NamedTuple):
     """The plausible range of a quantity, SI and radians; an unknown end is None.
 
-    `speeds` are the lowest and highest flight speed at which it applies [m/s]; None means all speeds.
+    It applies between the lowest and the highest flight speed in `speeds` [m/s]; None means all speeds.
     """
 
     low: float | None = None
@@ -314,11 +285,6 @@ def words(path: str, number: Number) -> str:
 def bound_cells(path: str, limits: tuple[float, float]) -> tuple[str, str, str]:
     """Return name, bounds and unit of a parameter or of a limit along the path, with angles in degrees.
 
-    Parameters
-    ----------
-    path : of the parameter, as in species files.
-    limits : its bounds, SI and radians.
-
     >>> bound_cells("wingbeat.frequency", (1.0, 30.0))
     ('wingbeat.frequency', '1 to 30', 'Hz')
     """
@@ -337,12 +303,9 @@ HARVEY = "Harvey et al. 2022, Nature 603:648, doi 10.1038/s41586-022-04477-8, da
 
 @dataclass(frozen=True)
 class Data:
-    """The data a law was fitted to: lowest and highest value of each input in SI units, and where they were read.
+    """The data a law was fitted to: the range of each input by its symbol, in SI units, and where it was read.
 
-    Parameters
-    ----------
-    ranges : by the symbol of the input; empty for a law without data, or with data that we did not find.
-    where : where the ranges were read, or why there are none.
+    The ranges are empty for a law without data, or with data that we did not find; `where` then says why.
     """
 
     ranges: dict[str, tuple[float, float]]
@@ -353,17 +316,9 @@ class Data:
 class Law:
     """A number of an animal as a function of others, in SI units, with its source and how far animals scatter.
 
-    Parameters
-    ----------
-    unit : of the number.
-    formula : as text, for the source of the number.
-    inputs : symbol and unit of each value that it takes.
-    function : the formula.
-    source : where it was read.
-    spread : lowest and highest ratio of measured values to the value that the law gives.
-    scatter : where the spread comes from.
-    data : what it was fitted to.
-    beyond : how the law continues outside its data, if not by its formula.
+    The `inputs` are symbol and unit of each value that it takes; `spread` is the lowest and highest ratio of
+    measured values to what the law gives, and `scatter` says where that comes from; `beyond` says how the law
+    continues outside its data, if not by its formula.
 
     >>> from wingbeat.animal.species.scaling import BIRD_WING_MASS
     >>> number = BIRD_WING_MASS.number(0.316)

@@ -111,12 +111,7 @@ MAX_STRAIN_RATE = Law(
 
 
 def muscle_numbers(mass: float, bat: bool = False) -> dict[str, Number]:
-    """Return the numbers of the flight muscle that the laws give an animal, by their paths.
-
-    Parameters
-    ----------
-    mass : of the whole animal [kg].
-    bat : whether it is a bat; else it is a bird.
+    """Return the numbers of the flight muscle that the laws give a bird or a bat of this mass [kg], by their paths.
 
     >>> {path.rpartition(".")[2]: float(f"{number.value:.3g}") for path, number in muscle_numbers(0.316).items()}
     {'mass': 0.0442, 'elevator_share': 0.11, 'strain_per_angle': 0.15, 'max_strain_rate': 19.5, \
@@ -217,11 +212,7 @@ TAIL_DRAG = Law(
 
 
 def tail_numbers(mass: float) -> dict[str, Number]:
-    """Return the numbers of the tail that the laws give a bird, by their paths.
-
-    Parameters
-    ----------
-    mass : of the whole bird [kg].
+    """Return the numbers of the tail that the laws give a bird of this mass [kg], by their paths.
 
     >>> {path.rpartition(".")[2]: float(f"{number.value:.3g}") for path, number in tail_numbers(0.316).items()}
     {'area': 0.00646, 'arm': 0.164, 'lift_slope': 3.63, 'drag_coefficient': 0.02, 'incidence': 0.0}

@@ -59,12 +59,7 @@ def species_names() -> tuple[str, ...]:
 
 
 def parse_toml(text: str, label: str) -> dict[str, Any]:
-    """Return the tables of a TOML text.
-
-    Raises
-    ------
-    FileError : empty, not TOML, or nested too deeply.
-    """
+    """Return the tables of a TOML text, or raise a `FileError`: empty, not TOML, or nested too deeply."""
     raw = toml_tables(text, label)
     if not raw:
         raise FileError(f"{label!r} holds nothing; `wingbeat species new FILE` writes a template to start from")
@@ -74,15 +69,8 @@ def parse_toml(text: str, label: str) -> dict[str, Any]:
 def read_species_text(text: str, label: str, name: str, faults: FaultList) -> SpeciesText:
     """Return the content of a species file; note its faults and leave out the entries that have them.
 
-    Parameters
-    ----------
-    text, label : the TOML text, and the name of the file for messages.
-    name : the name of the species if the file gives none.
-    faults : receives every fault of keys, types, shapes and units, and every missing key.
-
-    Raises
-    ------
-    FileError : not TOML at all.
+    The label is the file's name for messages, the name that of the species if the file gives none. A text that is
+    not TOML at all raises a `FileError`.
     """
     raw = parse_toml(text, label)
     check_shape(raw, faults)

@@ -256,16 +256,7 @@ class Species(Reported):
         return self.with_derived(muscle_numbers(self.vehicle.mass, self.kind == "bat"))
 
     def with_derived(self, numbers: Mapping[str, Number]) -> Species:
-        """Return this species with numbers that laws gave, with their own sources and ranges.
-
-        Parameters
-        ----------
-        numbers : by their paths.
-
-        Raises
-        ------
-        InvalidInputError : the changed numbers do not make a valid vehicle.
-        """
+        """Return this species with numbers that laws gave, with their own sources and ranges, by their paths."""
         found = Numbers()
         found.update(numbers)
         return self._rebuilt(self.numbers | found, found, FaultList())
@@ -336,12 +327,7 @@ def _jsonable(value: Any) -> Any:
 
 
 def range_of_tilt(numbers: Mapping[str, Number]) -> Range:
-    """Return the plausible range of the tail's tilt: its own, or what the range of the incidence allows.
-
-    Parameters
-    ----------
-    numbers : of a species, by their paths.
-    """
+    """Return the plausible range of the tail's tilt: its own, or what the range of the incidence allows."""
     own, incidence = numbers.get("wingbeat.tail_tilt"), numbers.get("vehicle.tail.incidence")
     if own is not None and own.range is not None:
         return range_of(own)
@@ -360,12 +346,7 @@ def range_of(number: Number) -> Range:
 
 
 def species_report(animal: Species) -> Report:
-    """Return every number of a species with its source, the bounds of free parameters, and the plausible ranges.
-
-    Parameters
-    ----------
-    animal : the species.
-    """
+    """Return every number of a species with its source, the bounds of free parameters, and the plausible ranges."""
     names = ", ".join(name for name in (animal.common_name, animal.scientific_name, animal.kind) if name)
     sources: dict[str, int] = {}
     blocks: list[Block] = [Line(f"{animal.name}{': ' if names else ''}{names}")]

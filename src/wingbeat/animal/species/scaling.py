@@ -325,9 +325,7 @@ CRUISE_BY_MASS = Law(
 def exponent_of_inertia(share: float) -> float:
     """Return the p of strip masses ``(1 - s/L)**p`` that gives a flap inertia; 0, a uniform wing, if none does.
 
-    Parameters
-    ----------
-    share : inertia about the shoulder, divided by wing mass times length squared: ``2/((p + 2) (p + 3))``.
+    The share is the inertia about the shoulder, divided by wing mass times length squared: ``2/((p + 2) (p + 3))``.
 
     >>> exponent_of_inertia(1 / 3), round(exponent_of_inertia(0.1), 9)
     (0.0, 2.0)

@@ -154,13 +154,7 @@ def _is_edge(where: str, edge: Any, faults: FaultList) -> bool:
 
 
 def shape_of(text: ShapeText | None, faults: FaultList) -> Shape | None:
-    """Return the shape that a species file describes, None without one; note what is wrong with it.
-
-    Parameters
-    ----------
-    text : the table [shape] of the file; what is missing in it is noted already.
-    faults : receives the faults.
-    """
+    """Return the shape that a file's table [shape] describes, if any; what is missing in it is noted already."""
     if text is None:
         return None
     given = {path.removeprefix("shape."): number.value for path, number in text.numbers.items()}
@@ -184,12 +178,7 @@ def shape_record(shape: Shape) -> dict[str, Any]:
 
 
 def shape_from(record: Mapping[str, Any]) -> Shape:
-    """Return the shape that `shape_record` described.
-
-    Raises
-    ------
-    KeyError, TypeError, ValueError : the dictionary was not made by `shape_record`.
-    """
+    """Return the shape that `shape_record` described; another dictionary raises a Key-, Type- or ValueError."""
     numbers = {path: number_from(*known) for path, known in record["numbers"].items()}
     values: dict[str, Any] = {path.removeprefix("shape."): number.value for path, number in numbers.items()}
     return Shape(cover=record["cover"], colours=dict(record["colours"]), numbers=numbers, **values)

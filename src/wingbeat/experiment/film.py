@@ -119,7 +119,15 @@ class Film:
             faults.add(f"{self.name}, columns", "tip_pitch_deg", rule, "add the column pitch_deg")
         faults.raise_if_any()
         object.__setattr__(self, "columns", dict(self.columns))
-        self._check_shapes(faults)
+        for name, column in self.columns.items():
+            where = f"{self.name}, column {name}"
+            if column.shape != self.phase.shape:
+                faults.add(where, f"shape {column.shape}", f"must be {self.phase.shape}, as phase")
+            elif (count := int(np.isfinite(column).sum())) < _FEWEST:
+                rule = f"must be seen in at least {_FEWEST} frames"
+                faults.add(where, f"{count} frames", rule, "film more frames")
+            elif name == "flap_deg":
+                check_flap(faults, where, *self.seen(name))
         faults.raise_if_any()
         self._check_clock(faults)
         faults.raise_if_any()
@@ -146,17 +154,6 @@ class Film:
         there = np.isfinite(self.columns[name])
         return self.phase[there], self.columns[name][there]
 
-    def _check_shapes(self, faults: FaultList) -> None:
-        for name, column in self.columns.items():
-            where = f"{self.name}, column {name}"
-            if column.shape != self.phase.shape:
-                faults.add(where, f"shape {column.shape}", f"must be {self.phase.shape}, as phase")
-            elif (count := int(np.isfinite(column).sum())) < _FEWEST:
-                rule = f"must be seen in at least {_FEWEST} frames"
-                faults.add(where, f"{count} frames", rule, "film more frames")
-            elif name == "flap_deg":
-                check_flap(faults, where, *self.seen(name))
-
     def _check_clock(self, faults: FaultList) -> None:
         """Compare the beats of the frames with those of the phases; phases within one beat say nothing about it."""
         order = np.argsort(self.phase, kind="stable")
@@ -167,17 +164,15 @@ class Film:
             return
         object.__setattr__(self, "clip", clip)
         off = abs(clip.rate - 1.0)
-        if off <= max(_PHASE_ERROR, SURE * clip.rate_se, 0.5 * abs(clip.change)) or even_only(
-            clip.rate, self.columns
-        ):
+        loose = max(_PHASE_ERROR, SURE * clip.rate_se, 0.5 * abs(clip.change))
+        if off <= loose or even_only(clip.rate, self.columns):
             return
         unit = [name for name, turn in _PHASE_UNITS.items() if abs(clip.rate * turn - 1.0) < 0.15]
         if not unit and np.array_equal(clock, np.round(clock)):
             unit = ["numbers of frames"]
-        rule = f"the frames repeat every {1 / clip.rate:.4g} of phase, but a phase counts beats"
-        fix = (
-            f"the phases seem to be {unit[0]}; divide them by {1 / clip.rate:.4g}" if unit else "correct the phases"
-        )
+        every = f"{1 / clip.rate:.4g}"
+        rule = f"the frames repeat every {every} of phase, but a phase counts beats"
+        fix = f"the phases seem to be {unit[0]}; divide them by {every}" if unit else "correct the phases"
         faults.add(f"{self.name}, phase", f"{clock[0]:g} to {clock[-1]:g}", rule, fix)
 
     def _check(self, name: str, faults: FaultList) -> list[str]:
@@ -189,7 +184,16 @@ class Film:
             start = place[gaps.argmax()]
             rule = f"has no frame from phase {start:.2f} to {(start + gaps.max()) % 1.0:.2f}"
             faults.add(where, f"{len(values)} frames", rule, "are the phases in beats, and the frequency in Hz?")
-        notes = self._unwrap(name, phase, faults) if name in WRAPPED else []
+        notes = []
+        if name in WRAPPED:
+            there, column = np.isfinite(self.columns[name]), self.columns[name].astype(float)
+            column[there], moved = unwrapped(faults, where, phase, column[there])
+            if moved:
+                self.columns[name] = column
+                how = (
+                    f"{moved} of {len(phase)} frames were moved by whole turns, because the angle jumps by 360 deg"
+                )
+                notes.append(f"{where}: {how}")
         largest = float(np.abs(values).max())
         if FILMED.get(name) == "deg" and name not in WRAPPED and largest > 180:
             faults.add(where, largest, "must lie between -180 and 180 degrees", "wrap the angle")
@@ -233,18 +237,6 @@ class Film:
                     "lengths or areas, divide them by it"
                 )
         return found
-
-    def _unwrap(self, name: str, phase: NDArray[np.float64], faults: FaultList) -> list[str]:
-        """Remove jumps of whole turns from a column, and return a note if there were any."""
-        where, column = f"{self.name}, column {name}", self.columns[name].astype(float)
-        there = np.isfinite(column)
-        column[there], moved = unwrapped(faults, where, phase, column[there])
-        if not moved:
-            return []
-        self.columns[name] = column
-        return [
-            f"{where}: {moved} of {len(phase)} frames were moved by whole turns, because the angle jumps by 360 deg"
-        ]
 
     def save(self, path: str | Path) -> None:
         """Write the film as a CSV file that `read_film` reads.

@@ -90,12 +90,11 @@ def read_film(path: str | Path, side: str = "both") -> Film:
     sides = _columns(faults, sheet)
     given = _constants(faults, sheet)
     if len(sheet.rows) > MAX_FRAMES:
+        where = f"{sheet.file} row {sheet.rows[MAX_FRAMES][0]}"
         rule = (
             f"has more than {MAX_FRAMES} rows, 100 s at 1000 frames a second; no animal repeats a beat for longer"
         )
-        faults.add(
-            f"{sheet.file} row {sheet.rows[MAX_FRAMES][0]}", f"{len(sheet.rows)} frames", rule, "cut the clip"
-        )
+        faults.add(where, f"{len(sheet.rows)} frames", rule, "cut the clip")
     clocks = [name for _, name in sides if name in _CLOCKS]
     if set(name for _, name in sides) & set(BODY) and clocks == ["phase"]:
         rule = "has the path of a body but no times"
@@ -244,9 +243,9 @@ def _own(faults: FaultList, sheet: Sheet, clip: Clip | None, counts: bool) -> fl
         fix = "add the line '# frequency [Hz] = ...' above the table, or give phases"
         faults.add(f"{sheet.file}, frequency", "", f"is missing: it converts times to phases, and {short}", fix)
     elif counts or clip.rate < _SLOWEST:
-        looks = (
-            "count frames: add the line '# frame rate [Hz] = ..'" if counts else "be milliseconds: write seconds"
-        )
+        looks = "be milliseconds: write seconds"
+        if counts:
+            looks = "count frames: add the line '# frame rate [Hz] = ..'"
         rule = f"is that of the clip, {1 / clip.rate:.4g} s a beat: the times seem to {looks}"
         faults.add(f"{sheet.file}, frequency", clip.rate, rule)
     else:

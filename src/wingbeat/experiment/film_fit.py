@@ -6,6 +6,7 @@ all films. The body moves by uniform travel plus a spline.
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import functools
 import math
@@ -97,11 +98,8 @@ def _numbers(laws: Mapping[str, Array], species_span: Array | None = None) -> di
     if "tip_pitch_deg" in series:
         mean, *waves = (series["tip_pitch_deg"] - series["pitch_deg"]).tolist()
         # Each of the two angles is known only up to whole turns.
-        fields |= {
-            "twist_ratio": 1.0,
-            "twist_mean": math.remainder(mean, 2 * math.pi),
-            "twist_harmonics": tuple(waves),
-        }
+        fields |= {"twist_ratio": 1.0, "twist_mean": math.remainder(mean, 2 * math.pi)}
+        fields["twist_harmonics"] = tuple(waves)
     if "area_fraction" in series and span is not None:
         mean, *waves = _chord_of(series["area_fraction"], span).tolist()
         fields |= _drawn_in("chord", mean, waves)
@@ -164,22 +162,19 @@ class FilmedBeat:
         """
         fields = self._numbers(_span_of(wingbeat))
         if "area_fraction" in self.laws:
-            self._check_chord(wingbeat)
+            area, span = self.laws["area_fraction"], self.laws.get("span_fraction")
+            mean = _chord_of(area.coefficients, _span_of(wingbeat) if span is None else span.coefficients)[0]
+            error = math.hypot(*(math.sqrt(law.covariance[0, 0]) for law in (area, span) if law is not None))
+            faults = FaultList()
+            if not 0.5 < mean <= 1.0 + _NOISE * error:
+                rule = "the mean ratio of area fraction to span fraction must be above 0.5 and at most 1"
+                fix = "divide the areas by that of the fully spread wing of the species file"
+                faults.add(f"{self.film.name}, area_fraction", float(mean), rule, fix)
+            faults.raise_if_any()
         if "stroke_plane_deg" in self.laws:
             angle = math.radians(self.laws["stroke_plane_deg"].coefficients[0]) - vehicle.wing.stroke_plane_angle
             fields["stroke_plane_tilt"] = math.remainder(angle, 2 * math.pi)
         return fields
-
-    def _check_chord(self, wingbeat: Wingbeat) -> None:
-        area, span = self.laws["area_fraction"], self.laws.get("span_fraction")
-        mean = _chord_of(area.coefficients, _span_of(wingbeat) if span is None else span.coefficients)[0]
-        error = math.hypot(*(math.sqrt(law.covariance[0, 0]) for law in (area, span) if law is not None))
-        faults = FaultList()
-        if not 0.5 < mean <= 1.0 + _NOISE * error:
-            rule = "the mean ratio of area fraction to span fraction must be above 0.5 and at most 1"
-            fix = "divide the areas by that of the fully spread wing of the species file"
-            faults.add(f"{self.film.name}, area_fraction", float(mean), rule, fix)
-        faults.raise_if_any()
 
     @property
     def notes(self) -> tuple[str, ...]:
@@ -242,19 +237,16 @@ class FilmedBeat:
         """
         random, found, span = np.random.default_rng(seed), [], _span_of(wingbeat)
         for _ in range(count):
-            drawn = {
-                n: random.multivariate_normal(law.coefficients, law.covariance) for n, law in self.laws.items()
-            }
+            normal = random.multivariate_normal
+            drawn = {name: normal(law.coefficients, law.covariance) for name, law in self.laws.items()}
             fields = _numbers(drawn, span)
             if "stroke_plane_deg" in drawn:
                 moved = drawn["stroke_plane_deg"] - self.laws["stroke_plane_deg"].coefficients
                 fields["stroke_plane_tilt"] = wingbeat.stroke_plane_tilt + math.radians(moved[0])
             if self.film.frequency is not None:
                 fields["frequency"] = random.normal(self.film.frequency, self.film.frequency_se)
-            try:
+            with contextlib.suppress(InvalidInputError):
                 found.append(dataclasses.replace(wingbeat, **fields))
-            except InvalidInputError:
-                continue
         return found
 
 

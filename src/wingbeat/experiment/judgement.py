@@ -206,14 +206,9 @@ def _wrong_rows(curve: CurveFit, least: float) -> list[str]:
     others = np.arange(len(left)) != row
     if abs(left[row]) < max(2.5 * scatter, least):
         return []
+    a, y, sigma = (column[others] for column in (curve.alpha_deg, curve.values, curve.sigma))
     try:
-        without = fit_curve(
-            curve.alpha_deg[others],
-            curve.values[others],
-            curve.form,
-            curve.sigma[others] if curve.weighted else None,
-            curve.label,
-        )
+        without = fit_curve(a, y, curve.form, sigma if curve.weighted else None, curve.label)
     except InvalidInputError:  # too few rows without it
         return []
     misses = curve.values - without.form.value(curve.alpha_deg, without.parameters)
@@ -229,9 +224,8 @@ def _wrong_rows(curve: CurveFit, least: float) -> list[str]:
     value, wanted = float(curve.values[row]), float(curve.values[row] - misses[row])
     ratio = wanted / value if value else math.inf
     slipped = any(0.7 < ratio / factor < 1.4 for factor in (10.0, 0.1))
-    guess = (
-        "a slipped decimal point?" if slipped else "a wrong sign?" if -1.3 < ratio < -0.7 else "is it a mistake?"
-    )
+    guess = "a wrong sign?" if -1.3 < ratio < -0.7 else "is it a mistake?"
+    guess = "a slipped decimal point?" if slipped else guess
     return [
         f"{curve.label}: row {row + 1} of the table ({curve.alpha_deg[row]:g} deg) is {value:.4g}, but the curve "
         f"through the other rows gives {wanted:.3g} with a scatter of {spread:.2g}: {guess}"
@@ -308,7 +302,11 @@ class Branches(NamedTuple):
         """Return the branches of rows whose membership is known."""
         low, high = (max(a[inside].min(), a[~inside].min()), min(a[inside].max(), a[~inside].max()))
         grid = np.unique(np.round(a[(a >= low) & (a <= high)], 2))
-        one, other = (_curve(grid, a[rows], residuals[rows]) for rows in (inside, ~inside))
+        means = []
+        for rows in (inside, ~inside):  # the means at equal angles, joined by lines
+            angles, place = np.unique(np.round(a[rows], 2), return_inverse=True)
+            means.append(np.interp(grid, angles, np.bincount(place, residuals[rows]) / np.bincount(place)))
+        one, other = means
         gap = np.abs(one - other)
         worst = int(np.argmax(gap))
         apart = gap > _APART * gap[worst]
@@ -319,12 +317,6 @@ class Branches(NamedTuple):
             last += 1
         pair = float(one[worst]), float(other[worst])
         return cls(float(grid[first]), float(grid[last]), float(grid[worst]), max(pair), min(pair))
-
-
-def _curve(grid: Array, a: Array, y: Array) -> Array:
-    """Return the means at equal angles, joined by lines."""
-    angles, place = np.unique(np.round(a, 2), return_inverse=True)
-    return np.interp(grid, angles, np.bincount(place, y) / np.bincount(place))
 
 
 def two_branches(alpha_deg: Array, residuals: Array, least: float) -> Branches | None:

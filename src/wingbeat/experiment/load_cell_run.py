@@ -72,9 +72,8 @@ class LoadCellRun:
     def __post_init__(self) -> None:
         faults = FaultList()
         for name, unit in CONSTANT_UNITS.items():
-            faults.number(
-                f"{self.name}, {name}", getattr(self, name), above=0, unit=unit, fix="give it in SI units"
-            )
+            where = f"{self.name}, {name}"
+            faults.number(where, getattr(self, name), above=0, unit=unit, fix="give it in SI units")
         faults.number(f"{self.name}, thickness", self.thickness, at_least=0, unit="m")
         if self.channel_width is not None:
             faults.number(f"{self.name}, channel_width", self.channel_width, above=0, unit="m")
@@ -124,9 +123,8 @@ def _check_series(faults: FaultList, run: LoadCellRun) -> None:
         faults.add(f"{run.name}, time[{first}]", float(run.time[first]), rule, "sort by time, drop duplicates")
     elif (step := float(np.median(steps))) >= SLOWEST_STEP:
         counts = step == 1.0 and np.array_equal(run.time, np.round(run.time))
-        rule = (
-            f"has samples {step:.4g} s apart; the times seem to {'count samples' if counts else 'be milliseconds'}"
-        )
+        looks = "count samples" if counts else "be milliseconds"
+        rule = f"has samples {step:.4g} s apart; the times seem to {looks}"
         faults.add(f"{run.name}, time", f"{run.time[0]:g} to {run.time[-1]:g}", rule, "give seconds")
     alpha = np.asarray(run.alpha_deg)
     if np.abs(alpha).max() > 180:
@@ -356,9 +354,8 @@ def constant_notes(run: LoadCellRun) -> list[str]:
     """Return notes on constants that are possible, but not usual."""
     notes = []
     if not _USUAL_REYNOLDS[0] <= run.reynolds <= _USUAL_REYNOLDS[1]:
-        notes.append(
-            f"{run.name}: the Reynolds number is {run.reynolds:.3g}; are speed, chord and viscosity in SI units?"
-        )
+        are = "are speed, chord and viscosity in SI units?"
+        notes.append(f"{run.name}: the Reynolds number is {run.reynolds:.3g}; {are}")
     if not _ASPECT[0] <= run.span / run.chord <= _ASPECT[1]:
         notes.append(f"{run.name}: the span is {run.span / run.chord:.3g} chords; are both in metres?")
     # Sutherland's law at 1 bar, with the temperature from the density of air.
@@ -399,9 +396,8 @@ def check_coefficients(faults: FaultList, run: LoadCellRun, means: RunMeans) -> 
     turn = math.radians(means.alpha_deg)
     tangential = drag * math.cos(turn) - lift * math.sin(turn)
     if sine > _INCLINED and whole + _SURE * error < _SLIGHT * sine:
-        rule = (
-            f"is the whole force coefficient, less than a tenth of a plate's there, about {10 * _SLIGHT * sine:.2g}"
-        )
+        usual = f"{10 * _SLIGHT * sine:.2g}"
+        rule = f"is the whole force coefficient, less than a tenth of a plate's there, about {usual}"
         faults.add(where, whole, rule, off)
     elif sine > _STEEP and abs(tangential) - friction - _SURE * error > abs(means.normal):
         rule = f"is the tangential force coefficient, more than that of the normal force, {means.normal:.2g}"

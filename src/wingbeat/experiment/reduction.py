@@ -167,19 +167,18 @@ def _means(runs: list[LoadCellRun], steady: list[_Steady], zeroed: bool) -> list
     # The error of the zero: of C_L and C_D from those of C_N and C_T; of the lever, through force and moment.
     of_n, of_t, of_m = np.stack([part.zero_se for part in steady], axis=1)[..., None]
     of_lever = np.hypot(of_m, lever_slope * of_n) / np.abs(some)
-    se = np.hypot(
-        se,
-        np.stack(
-            [np.hypot(of_n * cos, of_t * sin), np.hypot(of_n * sin, of_t * cos), of_m, of_lever, of_n], axis=1
-        )[..., 0],
-    )
+    of_l, of_d = np.hypot(of_n * cos, of_t * sin), np.hypot(of_n * sin, of_t * cos)
+    se = np.hypot(se, np.stack([of_l, of_d, of_m, of_lever, of_n], axis=1)[..., 0])
     notes = unsteady(runs, [part.time for part in steady], series[:, :3], zeroed)
     means = []
     for i, run in enumerate(runs):
         found = np.stack([mean[i], sd[i], se[i]])[:, :4]
         normal, normal_se = float(mean_n[i, 0]), float(se[i, 4])
-        found[:, 3] = _centre(normal, float(mean_m[i, 0]), normal_se, sd[i, 3], se[i, 3])
-        blockage = _blockage(run, float(cos[i, 0]), float(sin[i, 0]))
+        # No centre of pressure where the normal force is too small to divide by.
+        known = abs(normal) > max(CENTRE_FLOOR, CENTRE_SIGNAL * normal_se)
+        found[:, 3] = (0.5 - float(mean_m[i, 0]) / normal, sd[i, 3], se[i, 3]) if known else math.nan
+        across = run.chord * abs(float(sin[i, 0])) + run.thickness * abs(float(cos[i, 0]))
+        blockage = 0.0 if run.channel_width is None else across / run.channel_width
         rows = found[0], found[1], found[2]
         one = RunMeans(alpha_deg[i], run.reynolds, *rows, normal, normal_se, blockage, ())
         said = (*notes[i], *steady[i].notes, *coefficient_notes(run, one))
@@ -214,20 +213,6 @@ def _window(run: LoadCellRun, last: float, spans: list[tuple[float, float]]) -> 
     return moving & (run.time > until - last + 0.5 * step)
 
 
-def _centre(normal: float, moment: float, normal_se: float, sd: float, se: float) -> tuple[float, float, float]:
-    """Return x_cp with its errors, NaN where the normal force is too small to divide by."""
-    if abs(normal) <= max(CENTRE_FLOOR, CENTRE_SIGNAL * normal_se):
-        return math.nan, math.nan, math.nan
-    return 0.5 - moment / normal, sd, se
-
-
-def _blockage(run: LoadCellRun, cos: float, sin: float) -> float:
-    """Return the plate's width across the stream divided by the channel's width; 0 if that is not given."""
-    if run.channel_width is None:
-        return 0.0
-    return (run.chord * abs(sin) + run.thickness * abs(cos)) / run.channel_width
-
-
 def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS, rest: Intervals = ()) -> CoefficientTable:
     """Return the coefficients of a campaign: one row for each angle and Reynolds number; repeated runs are pooled.
 
@@ -259,7 +244,11 @@ def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS, rest: I
     for k in range(stream.max() + 1):
         here = stream == k
         point[here] = _clusters(alpha[here], SAME_ALPHA_DEG) + (point.max() + 1 if k else 0)
-    return _pooled(means, stream, point, [] if rest else zero_notes(runs))
+    notes = [*([] if rest else zero_notes(runs)), *(note for one in means for note in one.notes)]
+    blockage = max((one.blockage for one in means), default=0.0)
+    if blockage > _BLOCKED:
+        notes.append(f"the plate blocks up to {blockage:.1%} of the channel's width; no correction was made")
+    return _pooled(means, stream, point, tuple(notes))
 
 
 def _clusters(values: NDArray[np.float64], gap: float) -> NDArray[np.intp]:
@@ -271,8 +260,15 @@ def _clusters(values: NDArray[np.float64], gap: float) -> NDArray[np.intp]:
     return clusters
 
 
+class Variance(NamedTuple):
+    """Variance of each point's mean: the part from its samples, and the added part from scatter between repeats."""
+
+    within: NDArray[np.float64]
+    between: NDArray[np.float64]
+
+
 def _pooled(
-    means: list[RunMeans], stream: NDArray[np.intp], point: NDArray[np.intp], notes: list[str]
+    means: list[RunMeans], stream: NDArray[np.intp], point: NDArray[np.intp], notes: tuple[str, ...]
 ) -> CoefficientTable:
     count = np.bincount(point)
 
@@ -305,27 +301,7 @@ def _pooled(
     known = (np.abs(normal) > floor) & np.isfinite(error["x_cp"])
     for column, values in ((mean, 0.5 - lever), (spread, spread["x_cp"]), (error, error["x_cp"])):
         column["x_cp"] = np.where(known, values, np.nan)
-    return CoefficientTable(
-        alpha_deg=average(np.array([one.alpha_deg for one in means])),
-        reynolds=average(np.array([one.reynolds for one in means])),
-        mean=mean,
-        sd=spread,
-        se=error,
-        runs=count,
-        notes=(*notes, *_notes(means)),
+    alpha, reynolds = (
+        average(np.array([getattr(one, name) for one in means])) for name in ("alpha_deg", "reynolds")
     )
-
-
-class Variance(NamedTuple):
-    """Variance of each point's mean: the part from its samples, and the added part from scatter between repeats."""
-
-    within: NDArray[np.float64]
-    between: NDArray[np.float64]
-
-
-def _notes(means: list[RunMeans]) -> tuple[str, ...]:
-    notes = [note for one in means for note in one.notes]
-    blockage = max((one.blockage for one in means), default=0.0)
-    if blockage > _BLOCKED:
-        notes.append(f"the plate blocks up to {blockage:.1%} of the channel's width; no correction was made")
-    return tuple(notes)
+    return CoefficientTable(alpha, mean, spread, error, reynolds, count, notes)

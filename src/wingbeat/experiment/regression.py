@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 import warnings
 from dataclasses import dataclass
@@ -241,8 +242,7 @@ def fit_curve(
     left = (y - form.value(a, parameters)) / errors
     covariance = (inverse @ inverse.T) / np.outer(sizes, sizes) * float(left @ left) / (len(y) - len(parameters))
     found = CurveFit(label, form, parameters, covariance, condition, a, y, errors, sigma is not None, ())
-    notes = distrust(found)
-    return CurveFit(label, form, parameters, covariance, condition, a, y, errors, sigma is not None, notes)
+    return dataclasses.replace(found, notes=distrust(found))
 
 
 def _check_data(a: Array, y: Array, errors: Array, form: CurveForm, label: str) -> None:

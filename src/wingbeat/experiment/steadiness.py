@@ -180,9 +180,8 @@ def unsteady(runs: list[LoadCellRun], windows: list[Array], series: Array, zeroe
     count = best + 1
     step = -np.take_along_axis(sums, best[..., None], 2)[..., 0] * _BLOCKS / (count * (_BLOCKS - count))
     error = np.sqrt(stepped / (_BLOCKS - 2) * _BLOCKS / (count * (_BLOCKS - count)))
-    steps = (np.abs(step) > np.maximum(_STEP_LIMIT * error, np.maximum(_SMALL_STEP * scale, 1e-9))) & (
-        stepped < curved
-    )
+    least_step = np.maximum(_STEP_LIMIT * error, np.maximum(_SMALL_STEP * scale, 1e-9))
+    steps = (np.abs(step) > least_step) & (stepped < curved)
     notes: list[list[str]] = []
     for i, (run, time) in enumerate(zip(runs, windows, strict=True)):
         found = []
@@ -243,9 +242,8 @@ def signal_notes(run: LoadCellRun, keep: NDArray[np.bool_], raw: Array) -> list[
             at = int(np.count_nonzero(values == edge))
             next_to = int(np.count_nonzero(values == inner))
             if at >= max(_CLIPPED, _CLIPPED_SHARE * count) and at > _CLIPPED_RATIO * next_to:
-                notes.append(
-                    f"{run.name}: {name} is exactly {edge:g} in {at} samples: is the load cell overloaded?"
-                )
+                exactly = f"is exactly {edge:g} in {at} samples: is the load cell overloaded?"
+                notes.append(f"{run.name}: {name} {exactly}")
         off = np.abs(values - np.median(values))
         far = np.flatnonzero(off > _SPIKE * float(np.median(off)))
         if 0 < far.size <= _RARE * count and np.median(off) > 0:
@@ -272,9 +270,8 @@ def stated_rest(faults: FaultList, run: LoadCellRun, spans: list[tuple[float, fl
         inside = (run.time >= start) & (run.time <= end)
         where = f"{run.name}, rest {start:g}:{end:g}"
         if inside.sum() < 2 * MIN_BLOCKS:
-            rule = (
-                f"must hold at least {2 * MIN_BLOCKS} samples of the record, {run.time[0]:g} to {run.time[-1]:g} s"
-            )
+            record = f"{run.time[0]:g} to {run.time[-1]:g} s"
+            rule = f"must hold at least {2 * MIN_BLOCKS} samples of the record, {record}"
             faults.add(where, f"{int(inside.sum())} samples", rule, "state longer rest, in seconds of the record")
             continue
         part = raw[:, inside]

@@ -96,9 +96,8 @@ class CoefficientTable:
         if reynolds is not None:
             asked = f"{reynolds[0]:g} to {reynolds[1]:g}"
             if self.reynolds is None:
-                faults.add(
-                    "reynolds range", asked, "the table has no column reynolds", "add it, or leave the range out"
-                )
+                rule = "the table has no column reynolds"
+                faults.add("reynolds range", asked, rule, "add it, or leave the range out")
             else:
                 keep = keep & (self.reynolds >= reynolds[0]) & (self.reynolds <= reynolds[1])
                 if not (faults.faults or keep.any()):

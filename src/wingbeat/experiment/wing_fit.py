@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import json
 import math
@@ -411,27 +412,20 @@ def _terms(label: str, curve: FittedCurve, count: int, random: np.random.Generat
     if not curve.free:
         return [curve.terms] * count
     mean = np.array([getattr(curve.terms, name) for name in curve.free])
-    factor = _root(curve.covariance)
+    # A matrix L with L L^T equal to the covariance; negative eigenvalues from rounding count as 0.
+    spread = np.sqrt(np.diag(curve.covariance))
+    scale = np.where(spread > 0, spread, 1.0)
+    values, vectors = np.linalg.eigh(curve.covariance / np.outer(scale, scale))
+    factor = scale[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
     found: list[Any] = []
     for _ in range(_TRIES):
         for values in mean + random.normal(size=(count, len(mean))) @ factor.T:
-            try:
-                found.append(
-                    dataclasses.replace(curve.terms, **dict(zip(curve.free, values.tolist(), strict=True)))
-                )
-            except InvalidInputError:
-                continue
+            drawn = dict(zip(curve.free, values.tolist(), strict=True))
+            with contextlib.suppress(InvalidInputError):
+                found.append(dataclasses.replace(curve.terms, **drawn))
         if len(found) >= count:
             return found[:count]
     faults = FaultList()
     rule = "few random draws from it give a valid formula: the data do not determine this form"
     faults.add(f"{label}, covariance", "too wide", rule, "choose a form with fewer parameters")
     raise InvalidInputError(faults.faults)
-
-
-def _root(covariance: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return a matrix L with ``L L^T`` equal to the covariance; negative eigenvalues from rounding count as 0."""
-    spread = np.sqrt(np.diag(covariance))
-    scale = np.where(spread > 0, spread, 1.0)
-    values, vectors = np.linalg.eigh(covariance / np.outer(scale, scale))
-    return scale[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))

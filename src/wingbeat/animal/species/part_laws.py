@@ -30,11 +30,6 @@ _MUSCLE_BATS = Data({"m": (0.002, 0.9)}, "29 species of bats; the masses are tho
 _POWER, _SHARE = 533.0, 0.34
 
 
-def _curvature() -> float:
-    """Hill's relation has its largest power at ``q = sqrt(k^2 + k) - k``."""
-    return _SHARE**2 / (1.0 - 2.0 * _SHARE)
-
-
 DEPRESSOR_MASS = Law(
     "kg",
     "0.1392 m^0.996",
@@ -117,6 +112,7 @@ def muscle_numbers(mass: float, bat: bool = False) -> dict[str, Number]:
     {'mass': 0.0442, 'elevator_share': 0.11, 'strain_per_angle': 0.15, 'max_strain_rate': 19.5, \
 'isometric_stress': 250000.0, 'curvature': 0.361}
     """
+    # Hill's relation has its largest power at q = sqrt(k^2 + k) - k.
     curvature = (
         f"derived: q^2 / (1 - 2 q) at q = {_SHARE:g}, the share of the largest speed at which power is largest, "
         f"{MORRIS}"
@@ -127,7 +123,7 @@ def muscle_numbers(mass: float, bat: bool = False) -> dict[str, Number]:
         "strain_per_angle": STRAIN_PER_ANGLE.number(),
         "max_strain_rate": MAX_STRAIN_RATE.number(MUSCLE_DENSITY, _POWER, _SHARE, ISOMETRIC_STRESS()),
         "isometric_stress": ISOMETRIC_STRESS.number(),
-        "curvature": Number(_curvature(), "1", curvature, (0.15, 0.5)),
+        "curvature": Number(_SHARE**2 / (1.0 - 2.0 * _SHARE), "1", curvature, (0.15, 0.5)),
     }
     for name in ("strain_per_angle", "max_strain_rate", "isometric_stress", "curvature") if bat else ():
         numbers[name] = numbers[name]._replace(source=f"guess, the number of birds: {numbers[name].source}")
@@ -149,10 +145,6 @@ _TAIL_BIRDS = Data({"m": (0.0019, 33.6)}, "850 species of that table")
 
 def _length(mass: float) -> float:
     return 0.1364 * mass**0.2209
-
-
-def _base(mass: float) -> float:
-    return 0.088 * (mass / 0.26) ** (1 / 3)
 
 
 TAIL_LENGTH = Law(
@@ -179,7 +171,7 @@ TAIL_ARM = Law(
     "m",
     "0.088 (m / 0.26)^(1/3) + 2/3 of the tail length 0.1364 m^0.2209",
     ("m kg",),
-    lambda mass: _base(mass) + 2 / 3 * _length(mass),
+    lambda mass: 0.088 * (mass / 0.26) ** (1 / 3) + 2 / 3 * _length(mass),
     f"no law found: from the centre of mass to the root of the tail of one dissected pigeon of 0.26 kg, {HARVEY}, "
     f"scaled by isometry; then to the centre of area of the triangle, where a slender tail lifts ({THOMAS})",
     (0.7, 1.4),

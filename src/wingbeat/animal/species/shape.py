@@ -18,7 +18,6 @@ from wingbeat.animal.species.numbers import (
     NO_COLOUR,
     SHAPE,
     TRUNK,
-    Key,
     Number,
     ShapeText,
     number_from,
@@ -93,16 +92,20 @@ class Shape:
         lengths = self.body_length, self.head_length
         if all(map(is_number, lengths)) and self.head_length > self.body_length > 0:
             faults.add("shape.head_length", self.head_length, "is longer than the body", "the head is a part of it")
-        self._check_colours(faults)
+        given = self.colours if isinstance(self.colours, Mapping) else {}
+        for name in COLOURS:
+            colour = given.get(name)
+            if not isinstance(colour, str) or not re.fullmatch(COLOUR, colour):
+                faults.add(f"shape.colours.{name}", colour, *NO_COLOUR)
         faults.raise_if_any()
-        object.__setattr__(self, "numbers", {key.path: self._number(key) for key in SHAPE})
-
-    def _number(self, key: Key) -> Number:
-        """Return a number as it was given with its source; its value alone if it has none or was replaced."""
-        value, known = getattr(self, key.name), self.numbers.get(key.path)
-        if known is not None and known.value == value:
-            return known
-        return Number(value, key.unit, DEFAULT if not key.required and value == 0 else "")
+        numbers = {}
+        for key in SHAPE:
+            # As it was given with its source; its value alone if it has none or was replaced.
+            value, known = getattr(self, key.name), self.numbers.get(key.path)
+            source = DEFAULT if not key.required and value == 0 else ""
+            kept = known is not None and known.value == value
+            numbers[key.path] = known if kept else Number(value, key.unit, source)
+        object.__setattr__(self, "numbers", numbers)
 
     def _check_edges(self, faults: FaultList) -> None:
         edges = [getattr(self, name) for name in _STAND_IN]
@@ -125,13 +128,6 @@ class Shape:
             rule = f"gives, with the leading edge, a mean chord of {mean:.4g} mean chords; it must be 1"
             faults.add("shape.trailing_edge", trailing, rule, f"divide both edges by {mean:.4g}" if mean else "")
 
-    def _check_colours(self, faults: FaultList) -> None:
-        given = self.colours if isinstance(self.colours, Mapping) else {}
-        for name in COLOURS:
-            colour = given.get(name)
-            if not isinstance(colour, str) or not re.fullmatch(COLOUR, colour):
-                faults.add(f"shape.colours.{name}", colour, *NO_COLOUR)
-
     @property
     def schematic(self) -> bool:
         """Whether some of it is a guess: drawn by eye, not measured."""
@@ -146,9 +142,8 @@ class Shape:
 
 def _is_edge(where: str, edge: Any, faults: FaultList) -> bool:
     if not isinstance(edge, list | tuple) or len(edge) < 2:
-        faults.add(
-            where, edge, "must hold at least 2 numbers", "give it at equally spaced stations from root to tip"
-        )
+        fix = "give it at equally spaced stations from root to tip"
+        faults.add(where, edge, "must hold at least 2 numbers", fix)
         return False
     return all([faults.number(f"{where}[{i}]", place, at_least=-100, at_most=100) for i, place in enumerate(edge)])
 

@@ -113,18 +113,15 @@ class Wingbeat:
         faults.angle("wingbeat.tail_tilt", self.tail_tilt)
         faults.number("wingbeat.chord_retraction", self.chord_retraction, at_least=0, below=1)
         faults.angle("wingbeat.twist_mean", self.twist_mean)
-        self._check_sweep(faults)
-        sound = self._check_harmonics(faults) and not faults.faults
-        if sound and (self.span_harmonics or self.chord_harmonics or self.sweep_harmonics):
-            self._check_extremes(faults)
-        faults.raise_if_any()
-
-    def _check_sweep(self, faults: FaultList) -> None:
         mean = faults.angle("wingbeat.sweep_mean", self.sweep_mean)
         swing = faults.angle("wingbeat.sweep_amplitude", self.sweep_amplitude, at_least=0)
         if mean and swing and abs(self.sweep_mean) + self.sweep_amplitude >= 0.5 * math.pi:
             rule = "|sweep_mean| plus sweep_amplitude must stay below a right angle"
             faults.add("wingbeat.sweep_amplitude", self.sweep_amplitude, rule, "give both in rad")
+        sound = self._check_harmonics(faults) and not faults.faults
+        if sound and (self.span_harmonics or self.chord_harmonics or self.sweep_harmonics):
+            self._check_extremes(faults)
+        faults.raise_if_any()
 
     def _check_harmonics(self, faults: FaultList) -> bool:
         """Note harmonics that are not lists of pairs; return whether all are lists of numbers."""

@@ -116,7 +116,7 @@ class FlightModel:
     InvalidInputError, FileError : an `aero` that is none of these; inflow without a velocity, or with one at which
         the wings descend into their own wake.
 
-    >>> from wingbeat.animal.species.making import load_species
+    >>> from wingbeat import load_species
     >>> FlightModel(load_species("pigeon").vehicle, "dickinson").strips
     10
     """

@@ -120,7 +120,7 @@ def glide_polar(
     InvalidInputError : angles not increasing or not between 0 and 90 degrees, a flap angle beyond 90 degrees, an
         unknown trim.
 
-    >>> from wingbeat.animal.species.making import load_species
+    >>> from wingbeat import load_species
     >>> polar = glide_polar(load_species("pigeon"), angles_of_attack=np.radians([4.0, 6.0, 8.0]))
     >>> round(polar.best_ratio.glide_ratio, 2), round(polar.best_ratio.speed, 1)
     (3.27, 11.9)

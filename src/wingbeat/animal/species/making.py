@@ -121,22 +121,17 @@ def species_of(content: SpeciesText, faults: FaultList) -> Species:
         shape=shape,
         **records,
     )
-    for other in content.alternatives.values():
-        species._patched(other.numbers, faults)
+    for name in content.alternatives:
+        species.with_alternative(name)  # which refuses one that is impossible
     return species
 
 
-def _own_name(path: str) -> str:
-    """Return the keyword of a number; it includes the part's name only for a wing's mass and a tail's numbers."""
-    part, _, name = path.rpartition(".")
-    if path == "vehicle.wing.mass" or part == "vehicle.tail":
-        return f"{part.removeprefix('vehicle.')}_{name}"
-    return name
-
-
-# What may be given beside mass, span and area: every number of a species file by its own name.
+# What may be given beside mass, span and area: every number of a species file by its own name, which includes the
+# part's name only for a wing's mass and a tail's numbers.
 _MEASURED = {
-    _own_name(path): (path, key)
+    path.split(".", 1)[1].replace(".", "_")
+    if key.part == "tail" or key.path == "vehicle.wing.mass"
+    else path.rpartition(".")[2]: (path, key)
     for key in KEYS
     if key.path not in ("vehicle.mass", "vehicle.body.mass")
     for path in key.spellings
@@ -320,23 +315,18 @@ def _put(numbers: Numbers, name: str, value: Any, size: dict[str, Any], faults: 
         return
     if key.path in numbers:
         faults.add(name, shown(value), f"is given as {numbers.written[key.path][0]} too", "keep one of the two")
-    elif _possible(name, value, size, faults):
-        numbers.put(key, Number(to_si(value, path), key.unit, "given"), name, value)
-
-
-def _possible(name: str, value: Any, size: dict[str, Any], faults: FaultList) -> bool:
-    """Say whether the laws can use a measured number."""
+        return
     if name in _LIMITS:
         low, high = _LIMITS[name]
-        return faults.number(name, value, at_least=low, at_most=high)
-    if name not in _SHARES or not isinstance(size[_SHARES[name][0]], Real):
-        return True
-    whole, low, high = _SHARES[name]
-    if low * size[whole] <= value <= high * size[whole]:
-        return True
-    rule = f"must be {low:g} to {high:g} times the {whole} of {size[whole]:g}"
-    faults.add(name, value, rule, "give that of one wing, in kg or m")
-    return False
+        if not faults.number(name, value, at_least=low, at_most=high):
+            return
+    elif name in _SHARES and isinstance(size[_SHARES[name][0]], Real):
+        whole, low, high = _SHARES[name]
+        if not low * size[whole] <= value <= high * size[whole]:
+            rule = f"must be {low:g} to {high:g} times the {whole} of {size[whole]:g}"
+            faults.add(name, value, rule, "give that of one wing, in kg or m")
+            return
+    numbers.put(key, Number(to_si(value, path), key.unit, "given"), name, value)
 
 
 def _checked_range(limits: Any, faults: FaultList) -> tuple[float, float] | None:

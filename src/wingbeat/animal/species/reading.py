@@ -148,9 +148,8 @@ def _shape(raw: dict[str, Any], faults: FaultList) -> ShapeText | None:
         return None
     for key in (*LOOKS, *SHAPE):
         if key.required and _leaf(raw, key.path) is None:
-            faults.add(
-                key.path, NOTHING, "must be given", f"{key.meaning} [{key.unit}]" if key.unit else key.meaning
-            )
+            fix = f"{key.meaning} [{key.unit}]" if key.unit else key.meaning
+            faults.add(key.path, NOTHING, "must be given", fix)
     texts = {key.path: _leaf(raw, key.path) for key in LOOKS if has_shape(key.shape, _leaf(raw, key.path))}
     return ShapeText(_values(raw, SHAPE, (), faults), texts)
 

@@ -70,7 +70,7 @@ class Species(Reported):
     warnings : what looks wrong, such as a number outside its plausible range.
     shape : how it looks, for drawings alone; None if the file does not say it.
 
-    >>> from wingbeat.animal.species.making import load_species
+    >>> from wingbeat import load_species
     >>> pigeon = load_species("pigeon")
     >>> round(pigeon.vehicle.mass, 3), pigeon.vehicle.wing.semi_span
     (0.316, 0.279)
@@ -105,7 +105,7 @@ class Species(Reported):
         name : as in the record's ``plausibility``; for a parameter of the wingbeat, the species' own range applies.
         speed : of the flight [m/s].
 
-        >>> from wingbeat.animal.species.making import load_species
+        >>> from wingbeat import load_species
         >>> load_species("bat").plausible_range("strouhal", 10.0)[:2]
         (0.2, 0.4)
         >>> load_species("bat").plausible_range("strouhal", 2.0)[:2]
@@ -211,7 +211,7 @@ class Species(Reported):
         ------
         InvalidInputError : a payload that is negative, not finite, or not a number.
 
-        >>> from wingbeat.animal.species.making import load_species
+        >>> from wingbeat import load_species
         >>> round(load_species("pigeon").with_payload(0.03).vehicle.mass, 3)
         0.346
         """
@@ -229,7 +229,7 @@ class Species(Reported):
         ------
         InvalidInputError : the changed numbers do not make a valid vehicle.
 
-        >>> from wingbeat.animal.species.making import load_species
+        >>> from wingbeat import load_species
         >>> round(load_species("pigeon").with_tail().vehicle.tail.arm, 3)
         0.164
         """
@@ -244,7 +244,7 @@ class Species(Reported):
         ------
         InvalidInputError : its kind is neither bird nor bat.
 
-        >>> from wingbeat.animal.species.making import load_species
+        >>> from wingbeat import load_species
         >>> round(load_species("pigeon").with_muscle().vehicle.muscle.mass, 4)
         0.0442
         """
@@ -279,10 +279,7 @@ class Species(Reported):
             fix = suggest(str(name), self.alternatives) if self.alternatives else f"{self.name} has none"
             faults.add("alternative", name, "is unknown", fix)
             faults.raise_if_any()
-        return self._patched(self.alternatives[name].numbers, faults)
-
-    def _patched(self, patch: Numbers, faults: FaultList) -> Species:
-        numbers = dict(self.numbers)
+        numbers, patch = dict(self.numbers), self.alternatives[name].numbers
         for path, number in patch.items():
             old = numbers.get(path)
             numbers[path] = number if number.range else number._replace(range=old and old.range)

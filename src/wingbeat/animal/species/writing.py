@@ -19,7 +19,7 @@ _HEAD = "# SI units; _deg means degrees. A source that begins with derived or gu
 def species_text(species: Species) -> str:
     """Return the TOML text of a species; `load_species` makes the same species from it, to six digits.
 
-    >>> from wingbeat.animal.species.making import load_species
+    >>> from wingbeat import load_species
     >>> species_text(load_species("pigeon")).splitlines()[1]
     'name = "pigeon"'
     """

@@ -66,7 +66,7 @@ class OrbitProblem(ReportedProblem):
     ------
     InvalidInputError : an impossible speed; unknown names; bounds that are missing, crossed or not finite.
 
-    >>> from wingbeat.animal.species.making import load_species
+    >>> from wingbeat import load_species
     >>> OrbitProblem(load_species("pigeon"), speed=10.0).free[0]
     'frequency'
     """

@@ -23,7 +23,7 @@ from .animal.species.making import bird as bird
 from .animal.species.making import load_species as load_species
 from .animal.species.making import robot as robot
 from .animal.species.reading import species_names as species_names
-from .animal.species.record import Species as Species
+from .animal.species.species import Species as Species
 from .animal.vehicle import Air as Air
 from .animal.vehicle import Body as Body
 from .animal.vehicle import Motor as Motor

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from wingbeat._base import FaultList
-from wingbeat.animal.species.record import Species
 from wingbeat.animal.species.scaling import CRUISE_BY_MASS
+from wingbeat.animal.species.species import Species
 from wingbeat.models import model_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.species import Species
 from wingbeat_evidence.whole_flights import Measurement, measured_animals, read_measured_flights
 from wingbeat_evidence.whole_flights.comparison import ends_of, name_of
 

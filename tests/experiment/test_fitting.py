@@ -28,7 +28,7 @@ from wingbeat.experiment import (
     forms,
 )
 from wingbeat.experiment.campaign import true_coefficients
-from wingbeat.experiment.forms import BoxForm, value_and_slopes
+from wingbeat.experiment.curve_forms import BoxForm, value_and_slopes
 
 ALPHA = np.arange(0.0, 111.0, 2.0)
 

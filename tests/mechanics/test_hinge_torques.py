@@ -7,7 +7,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.programs import compiled
-from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.species import Species
 from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.mechanics.hinge_torques import hinge_loads, hinge_motion
 

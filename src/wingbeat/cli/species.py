@@ -17,7 +17,7 @@ from wingbeat.cli.terminal import plain_console, print_json, print_report
 if TYPE_CHECKING:
     from rich.table import Table
 
-    from wingbeat.animal.species.record import Species
+    from wingbeat.animal.species.species import Species
 
 species = App(name="species", help="Show the built-in animals or your own species file.")
 
@@ -67,7 +67,8 @@ def show(
     if json:
         print_json(chosen.as_dict())
     else:
-        from wingbeat.animal.species.record import species_report
+        from wingbeat.animal.species.species import species_report
+        from wingbeat.cli.printing import print_report
 
         print_report(species_report(chosen))
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import FaultList
+from wingbeat.experiment.coefficient_table import QUANTITIES, CoefficientTable
 from wingbeat.experiment.load_cell_run import (
     CHANNELS,
     MIN_SAMPLES,
@@ -30,7 +31,6 @@ from wingbeat.experiment.steadiness import (
     unsteady,
     zero_notes,
 )
-from wingbeat.experiment.table import QUANTITIES, CoefficientTable
 
 Intervals = Sequence[tuple[float, float]]
 LAST_SECONDS = 20.0

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from wingbeat._base import FaultList
-from wingbeat.experiment.forms import CurveForm
+from wingbeat.experiment.curve_forms import CurveForm
 
 Array = NDArray[np.float64]
 # Above this condition number, the scaled Jacobian loses half of its digits.

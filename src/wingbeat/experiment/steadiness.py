@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import FaultList
+from wingbeat.experiment.coefficient_table import QUANTITIES
 from wingbeat.experiment.load_cell_run import CHANNELS, LoadCellRun
-from wingbeat.experiment.table import QUANTITIES
 
 MIN_BLOCKS = 8
 

@@ -18,10 +18,10 @@ from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.aero.model_file import KIND, Fitted, FittedCurve, FittedModel, FittedWing, read_model
 from wingbeat.aero.polar_sheet import zero_lift
-from wingbeat.experiment.forms import BoxForm, CurveForm
+from wingbeat.experiment.coefficient_table import CoefficientTable
+from wingbeat.experiment.curve_forms import BoxForm, CurveForm
 from wingbeat.experiment.judgement import failures, judge, model_failures
 from wingbeat.experiment.regression import CurveFit, fit_curve
-from wingbeat.experiment.table import CoefficientTable
 from wingbeat.experiment.wing_forms import FORMS, DragFit, DragForm, LiftForm, WingForm, fit_drag, stall_notes
 
 # A spline through steps of one degree stays within 1e-4 of a smooth polar.

@@ -19,7 +19,7 @@ from wingbeat._base import FaultList
 from wingbeat.aero.animal_wings import WING_ESTIMATES
 from wingbeat.aero.cambered import CamberedTerms
 from wingbeat.aero.formula import CentreTerms, FormulaTerms
-from wingbeat.experiment.forms import Array, BoxForm, CurveForm, any_terms, formula_of, value_and_slopes
+from wingbeat.experiment.curve_forms import Array, BoxForm, CurveForm, any_terms, formula_of, value_and_slopes
 from wingbeat.experiment.regression import CurveFit, distrust, fit_curve
 
 # Angles beyond which lift falls off, as that of a plate does; the form has constant lift beyond its stalls.

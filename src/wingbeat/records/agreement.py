@@ -36,7 +36,7 @@ from wingbeat.records.series_agreement import ABSOLUTE, check_newton, check_seri
 if TYPE_CHECKING:
     import xarray as xr
 
-    from wingbeat.animal.species.record import Species
+    from wingbeat.animal.species.species import Species
 
 # Quantities of an orbit keep to their limits to this share.
 _OF_LIMIT = 1e-3

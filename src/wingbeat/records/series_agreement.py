@@ -16,9 +16,7 @@ from wingbeat.records.forms import from_json
 from wingbeat.records.inputs import vehicle_from, vehicle_record, wingbeat_record
 
 if TYPE_CHECKING:
-    import xarray as xr
-
-    from wingbeat.animal.species.record import Species
+    from wingbeat.animal.species.species import Species
 
 # Record and series come of two compiled programs, which may differ in a number's last digits.
 _RELATIVE, ABSOLUTE = 1e-6, 1e-9

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from wingbeat._base import KIND, NOMENCLATURE, FaultList, __version__, attributes_of
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat
-from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.species import Species
 from wingbeat.mechanics.beat_by_beat import Controller, check_samples, check_wind, fly_beats
 from wingbeat.mechanics.flight_model import FlightModel, State, state_of
 from wingbeat.mechanics.flights import fly_torque_driven

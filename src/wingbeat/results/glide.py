@@ -14,7 +14,7 @@ import numpy as np
 from wingbeat._base import KIND, NOMENCLATURE, FaultList, __version__
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.aero.blade_element import blade_element_of
-from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.species import Species
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.mechanics.glide import TRIMS, Glide, GlideSolver
 from wingbeat.records.inputs import aero_record, vehicle_record

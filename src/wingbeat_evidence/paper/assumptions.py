@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS
-from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.species import Species
 
 # Parameters that the paper calls free, and the mean angles: it does not say whether they are free.
 _FREE = ("frequency", "flap_amplitude", "pitch_amplitude")

@@ -9,7 +9,7 @@ from typing import Any
 from wingbeat._base import NOMENCLATURE, InvalidInputError, for_people
 from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, INFLOWS, LIBRARY, UNSTEADY
 from wingbeat.animal.species.reading import species_names
-from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.species import Species
 from wingbeat.models import model_of
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.studies.recipe import OF_ELEMENTS

@@ -10,7 +10,7 @@ from wingbeat._base import NOMENCLATURE, for_people
 from wingbeat.animal.kinematics import ANGLES
 from wingbeat.animal.species.numbers import PARTS, TAIL_PATHS, Number
 from wingbeat.animal.species.part_laws import muscle_numbers, tail_numbers
-from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.species import Species
 from wingbeat_explorer.app.formatting import from_shown, not_a_number, range_text, shown_text, spoken_path
 from wingbeat_explorer.app.scenario import TAIL_TILT, Scenario
 from wingbeat_explorer.app.widgets import Field, button, folded, number_field, tag

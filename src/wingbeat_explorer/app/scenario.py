@@ -25,7 +25,7 @@ from wingbeat.aero import (
 from wingbeat.aero.blade_element import load_hand
 from wingbeat.animal.species.making import load_species, species_of
 from wingbeat.animal.species.reading import read_species_text, species_names
-from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.species import Species
 from wingbeat.models import MODELS, model_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, FASTEST, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.problem.quantities import QUANTITIES

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from wingbeat.animal.species.making import load_species
-from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.species import Species
 
 
 @pytest.fixture

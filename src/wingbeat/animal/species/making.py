@@ -38,8 +38,8 @@ from wingbeat.animal.species.numbers import (
 )
 from wingbeat.animal.species.part_laws import tail_numbers
 from wingbeat.animal.species.reading import packaged_text, read_species_text, species_names
-from wingbeat.animal.species.record import Species
 from wingbeat.animal.species.shape import shape_of
+from wingbeat.animal.species.species import Species
 
 # Nose straight up or down: the limit where a file sets none.
 _UPRIGHT = (-math.pi / 2, math.pi / 2)

@@ -10,8 +10,8 @@ from collections.abc import Iterator, Mapping
 
 from wingbeat.animal.species.building import BODY, WHOLE
 from wingbeat.animal.species.numbers import COLOURS, Number, Range, display
-from wingbeat.animal.species.record import Species
 from wingbeat.animal.species.shape import Shape
+from wingbeat.animal.species.species import Species
 
 _HEAD = "# SI units; _deg means degrees. A source that begins with derived or guess was not measured."
 

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any, Protocol
 
 from wingbeat.animal.kinematics import Wingbeat
-from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.orbits.problem.problem import OrbitProblem
 

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from wingbeat._base import harmonic_place, plain_unit
 from wingbeat.aero import CoefficientModel
 from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat, in_use, parameter, with_parameters
-from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.species import Species
 from wingbeat.orbits.problem.problem import OrbitProblem
 
 CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms", "wing": "terms"}

@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from wingbeat._base import FaultList
 from wingbeat.animal.kinematics import FREE_NAMES, parameter
 from wingbeat.animal.species.numbers import JUDGED, Range
-from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Air
 from wingbeat.orbits.problem.limits import Constraint
 from wingbeat.orbits.problem.quantities import QUANTITIES

@@ -81,31 +81,25 @@ class Wing:
     def __post_init__(self) -> None:
         faults = FaultList()
         faults.number("wing.semi_span", self.semi_span, above=0, unit="m")
-        self._check_chord(faults)
+        fix = "give one chord, or the chords at two or more stations from root to tip"
+        if isinstance(self.chord, list | tuple):
+            object.__setattr__(self, "chord", tuple(self.chord))
+            if len(self.chord) < 2:
+                faults.add("wing.chord", self.chord, "has fewer than two stations", fix)
+            for i, chord in enumerate(self.chord):
+                faults.number(f"wing.chord[{i}]", chord, above=0, unit="m")
+        else:
+            faults.number("wing.chord", self.chord, above=0, unit="m", fix=fix)
         faults.number("wing.mass", self.mass, above=0, unit="kg", fix="give the mass of one wing")
         faults.number("wing.mass_exponent", self.mass_exponent, at_least=0, fix="0 is a uniform wing")
-        self._check_shoulder(faults)
-        faults.angle("wing.stroke_plane_angle", self.stroke_plane_angle)
-        faults.raise_if_any()
-
-    def _check_chord(self, faults: FaultList) -> None:
-        fix = "give one chord, or the chords at two or more stations from root to tip"
-        if not isinstance(self.chord, list | tuple):
-            faults.number("wing.chord", self.chord, above=0, unit="m", fix=fix)
-            return
-        object.__setattr__(self, "chord", tuple(self.chord))
-        if len(self.chord) < 2:
-            faults.add("wing.chord", self.chord, "has fewer than two stations", fix)
-        for i, chord in enumerate(self.chord):
-            faults.number(f"wing.chord[{i}]", chord, above=0, unit="m")
-
-    def _check_shoulder(self, faults: FaultList) -> None:
         if not isinstance(self.shoulder, list | tuple) or len(self.shoulder) != 3:
             faults.add("wing.shoulder", self.shoulder, "must be three numbers", "forward, left, up, in m")
-            return
-        object.__setattr__(self, "shoulder", tuple(self.shoulder))
-        for axis, value in zip("xyz", self.shoulder, strict=True):
-            faults.number(f"wing.shoulder.{axis}", value, unit="m")
+        else:
+            object.__setattr__(self, "shoulder", tuple(self.shoulder))
+            for axis, value in zip("xyz", self.shoulder, strict=True):
+                faults.number(f"wing.shoulder.{axis}", value, unit="m")
+        faults.angle("wing.stroke_plane_angle", self.stroke_plane_angle)
+        faults.raise_if_any()
 
     @property
     def mean_chord(self) -> float:

@@ -55,7 +55,11 @@ def judge(curve: CurveFit, reynolds: Array | None) -> tuple[str, ...]:
     least = LEAST_SHARE * float(np.ptp(curve.values))
     if least <= 0:
         return ()
-    groups = _groups(reynolds)
+    groups = reynolds_groups(reynolds)
+    if reynolds is not None and len(groups) == 1 and groups[0][1] >= _WIDE * groups[0][0]:
+        # A wide range without gaps is cut in thirds.
+        thirds = np.array_split(np.unique(reynolds[np.isfinite(reynolds)]), 3)
+        groups = [(float(part[0]), float(part[-1])) for part in thirds if len(part)]
     notes: list[str] = []
     parts = [np.arange(len(curve.values))]
     if reynolds is not None and len(groups) > 1:
@@ -65,19 +69,17 @@ def judge(curve: CurveFit, reynolds: Array | None) -> tuple[str, ...]:
     for rows in parts:
         found = _branches(curve, rows, least)
         if found is not None:
-            notes.append(_branch_words(curve, found))
+            middle = float(curve.form.value(np.array([found.at_deg]), curve.parameters)[0])
+            upper, lower = middle + found.upper, middle + found.lower
+            notes.append(
+                f"{curve.label}: the rows form two branches from {found.from_deg:.3g} to {found.to_deg:.3g} deg: "
+                f"{upper:.2g} and {lower:.2g} at {found.at_deg:.3g} deg, and the curve lies between them; are they "
+                "sweeps up and down, two wings or two Reynolds numbers? Keep the rows of one branch and fit them "
+                "alone"
+            )
             break
     doubts = doubtful_drag(curve.values, reynolds) if curve.label == "C_D" else ()
     return (*notes, *_wrong_rows(curve, least), *doubts)
-
-
-def _groups(reynolds: Array | None) -> list[tuple[float, float]]:
-    """Return the lowest and highest Reynolds number of each group; a wide range without gaps is cut in thirds."""
-    groups = reynolds_groups(reynolds)
-    if reynolds is None or len(groups) != 1 or groups[0][1] < _WIDE * groups[0][0]:
-        return groups
-    known = np.unique(reynolds[np.isfinite(reynolds)])
-    return [(float(part[0]), float(part[-1])) for part in np.array_split(known, 3) if len(part)]
 
 
 def _of_reynolds(
@@ -186,16 +188,6 @@ def _sweeps(a: Array) -> list[NDArray[np.intp]]:
                 sweeps.append(part)
             first = i
     return sweeps
-
-
-def _branch_words(curve: CurveFit, found: Branches) -> str:
-    middle = float(curve.form.value(np.array([found.at_deg]), curve.parameters)[0])
-    upper, lower = middle + found.upper, middle + found.lower
-    return (
-        f"{curve.label}: the rows form two branches from {found.from_deg:.3g} to {found.to_deg:.3g} deg: "
-        f"{upper:.2g} and {lower:.2g} at {found.at_deg:.3g} deg, and the curve lies between them; are they sweeps "
-        "up and down, two wings or two Reynolds numbers? Keep the rows of one branch and fit them alone"
-    )
 
 
 def _wrong_rows(curve: CurveFit, least: float) -> list[str]:

@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from wingbeat._base import FaultList, InvalidInputError, plain_unit
 from wingbeat._base.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
 from wingbeat.aero.coefficient_model import MAX_DRAG, MAX_LIFT
-from wingbeat.aero.polar_sheet import check_radians
 
 MIN_SAMPLES = 32
 # If the angle spreads more than this within one record, the plate was still turning.
@@ -237,13 +236,6 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
         if not any(_SPELLINGS.get(same_name(key)) == name for key in sheet.constants):
             faults.add(f"{sheet.file}, {name}", "", "is missing", f"add the line '# {name} [{unit}] = ...'")
     return found
-
-
-def refuse_radians(where: str, angles: NDArray[np.float64]) -> None:
-    """Refuse a sweep of four angles or more that does not go beyond pi and is not zero: it is in radians."""
-    faults = FaultList()
-    check_radians(faults, where, angles)
-    faults.raise_if_any()
 
 
 class RunMeans(NamedTuple):

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import FaultList
+from wingbeat.aero.polar_sheet import check_radians
 from wingbeat.experiment.coefficient_table import QUANTITIES, CoefficientTable
 from wingbeat.experiment.load_cell_run import (
     CHANNELS,
@@ -20,7 +21,6 @@ from wingbeat.experiment.load_cell_run import (
     check_coefficients,
     coefficient_notes,
     constant_notes,
-    refuse_radians,
 )
 from wingbeat.experiment.steadiness import (
     added_variance,
@@ -232,13 +232,14 @@ def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS, rest: I
     ------
     InvalidInputError : no runs, a sweep of angles in radians, and inputs that `reduce_run` refuses.
     """
+    faults = FaultList()
     if not runs:
-        faults = FaultList()
         faults.add("runs", "none", "there is nothing to reduce", "name at least one run")
-        faults.raise_if_any()
+    faults.raise_if_any()
     means = _reduced(runs, last, rest)
     alpha = np.array([one.alpha_deg for one in means])
-    refuse_radians("alpha_deg of the runs", alpha)
+    check_radians(faults, "alpha_deg of the runs", alpha)
+    faults.raise_if_any()
     stream = _clusters(np.log([one.reynolds for one in means]), math.log(SAME_REYNOLDS))
     point = np.zeros(len(means), dtype=np.intp)
     for k in range(stream.max() + 1):

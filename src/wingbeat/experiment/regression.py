@@ -230,7 +230,15 @@ def fit_curve(
     errors = np.ones_like(y) if sigma is None else np.asarray(sigma, dtype=np.float64)
     _check_data(a, y, errors, form, label)
     best = _least_squares(a, y, errors, form, label)
-    parameters = _tidy(dict(zip(form.names, best.x.tolist(), strict=True)))
+    parameters = dict(zip(form.names, best.x.tolist(), strict=True))
+    if "phase_deg" in parameters and "amplitude" in parameters:
+        # The same sine with a positive amplitude and a phase within half a turn.
+        if parameters["amplitude"] < 0:
+            parameters["amplitude"], parameters["phase_deg"] = (
+                -parameters["amplitude"],
+                parameters["phase_deg"] + 180.0,
+            )
+        parameters["phase_deg"] = (parameters["phase_deg"] + 180.0) % 360.0 - 180.0
     slopes = form.slopes(a, parameters) / errors[:, None]
     sizes = np.linalg.norm(slopes, axis=0)
     sizes = np.where(sizes > 0, sizes, 1.0)
@@ -303,17 +311,6 @@ def _least_squares(a: Array, y: Array, errors: Array, form: CurveForm, label: st
         if best is None or found.cost < best.cost:
             best = found
     return best
-
-
-def _tidy(parameters: dict[str, float]) -> dict[str, float]:
-    """Return the same sine with a positive amplitude and a phase within half a turn."""
-    if "phase_deg" not in parameters or "amplitude" not in parameters:
-        return parameters
-    tidy = dict(parameters)
-    if tidy["amplitude"] < 0:
-        tidy["amplitude"], tidy["phase_deg"] = -tidy["amplitude"], tidy["phase_deg"] + 180.0
-    tidy["phase_deg"] = (tidy["phase_deg"] + 180.0) % 360.0 - 180.0
-    return tidy
 
 
 def distrust(fit: CurveFit) -> tuple[str, ...]:

@@ -348,9 +348,23 @@ def species_report(animal: Species) -> Report:
     sources: dict[str, int] = {}
     blocks: list[Block] = [Line(f"{animal.name}{': ' if names else ''}{names}")]
     blocks += [*_titled("numbers"), _numbers(animal.numbers, sources)]
-    blocks += [*_titled("free parameters, and limits that hold throughout the wingbeat"), _free(animal)]
-    if animal.plausible:
-        blocks += [*_titled("plausible ranges"), _plausible(animal, sources)]
+    rows = []
+    bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()}
+    for path, limits in (bounds | animal.path_bounds).items():
+        short = path.removeprefix("wingbeat.")
+        guess = "guess: " if short in animal.guessed_bounds else ""
+        rows.append(Row((*bound_cells(path, limits), guess + animal.reasons[short].removeprefix("guess: "))))
+    blocks += _titled("free parameters, and limits that hold throughout the wingbeat")
+    blocks.append(Table(tuple(rows), ("quantity", "bounds", "unit", "reason"), "nrll"))
+    rows = []
+    for name, known in animal.plausible.items():  # those of parameters are in the table above
+        factor, unit = for_people(cf(known.unit))
+        low, high = ("" if end is None else f"{factor * end:g}" for end in known[:2])
+        speeds = "{:g} to {:g}".format(*known.speeds) if known.speeds else ""
+        rows.append(Row((name, low, high, unit, speeds, _mark(known.source, sources))))
+    if rows:
+        head = ("quantity", "minimum", "maximum", "unit", "at [m/s]", "source")
+        blocks += [*_titled("plausible ranges"), Table(tuple(rows), head, "nrrlrr")]
     for name, other in animal.alternatives.items():
         blocks += [*_titled(f"alternative {name}: {other.reason}"), _numbers(other.numbers, sources)]
     if animal.shape:
@@ -379,24 +393,3 @@ def _numbers(numbers: Mapping[str, Number], sources: dict[str, int]) -> Table:
         told = ", ".join(f"{each:g}" for each in value) if len(value) < 6 else f"{len(value)} stations"
         rows.append(Row((name, told, unit, limits, _mark(shown.source, sources))))
     return Table(tuple(rows), ("number", "value", "unit", "plausible", "source"), "nrlrr")
-
-
-def _free(animal: Species) -> Table:
-    rows = []
-    bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()}
-    for path, limits in (bounds | animal.path_bounds).items():
-        short = path.removeprefix("wingbeat.")
-        guess = "guess: " if short in animal.guessed_bounds else ""
-        rows.append(Row((*bound_cells(path, limits), guess + animal.reasons[short].removeprefix("guess: "))))
-    return Table(tuple(rows), ("quantity", "bounds", "unit", "reason"), "nrll")
-
-
-def _plausible(animal: Species, sources: dict[str, int]) -> Table:
-    """Return the plausible ranges of a beat's quantities; those of parameters are in the other table."""
-    rows = []
-    for name, known in animal.plausible.items():
-        factor, unit = for_people(cf(known.unit))
-        low, high = ("" if end is None else f"{factor * end:g}" for end in known[:2])
-        speeds = "{:g} to {:g}".format(*known.speeds) if known.speeds else ""
-        rows.append(Row((name, low, high, unit, speeds, _mark(known.source, sources))))
-    return Table(tuple(rows), ("quantity", "minimum", "maximum", "unit", "at [m/s]", "source"), "nrrlrr")

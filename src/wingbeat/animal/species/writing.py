@@ -10,7 +10,6 @@ from collections.abc import Iterator, Mapping
 
 from wingbeat.animal.species.building import BODY, WHOLE
 from wingbeat.animal.species.numbers import COLOURS, Number, Range, display
-from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.species.species import Species
 
 _HEAD = "# SI units; _deg means degrees. A source that begins with derived or guess was not measured."
@@ -29,11 +28,8 @@ def species_text(species: Species) -> str:
     if species.kind:
         lines.append(f"kind = {_quoted(species.kind)}")
     lines += _tables(species.numbers, "", BODY)
-    lines += [
-        "",
-        "# Free parameters of an orbit. A warning names a bound that is a guess if an orbit is at it.",
-        "[free]",
-    ]
+    free = "# Free parameters of an orbit. A warning names a bound that is a guess if an orbit is at it."
+    lines += ["", free, "[free]"]
     lines += [_bound(species, name) for name in species.free]
     lines += ["", "# Limits along the whole path, not only at its start.", "[path]"]
     lines += [_bound(species, name) for name in species.path_bounds]
@@ -41,7 +37,11 @@ def species_text(species: Species) -> str:
         lines += ["", "# Plausible ranges, with which every orbit is compared."]
     for name, known in species.plausible.items():
         lines += _plausible(name, known)
-    lines += _shape(species.shape)
+    if species.shape is not None:
+        cover, colours = species.shape.cover, species.shape.colours
+        lines += ["", "# How it looks. Only drawings use it.", "[shape]", f"cover = {_quoted(cover)}"]
+        lines += _tables(species.shape.numbers, "", "")
+        lines += ["", "[shape.colours]", *(f"{name} = {_quoted(colours[name])}" for name in COLOURS)]
     for name, other in species.alternatives.items():
         table = f"alternatives.{name if re.fullmatch('[A-Za-z0-9_-]+', name) else _quoted(name)}"
         lines += ["", f"[{table}]", f"reason = {_quoted(other.reason)}"]
@@ -62,14 +62,6 @@ def _tables(numbers: Mapping[str, Number], prefix: str, left_out: str) -> Iterat
             yield f"range = [{_digits(shown.range[0])}, {_digits(shown.range[1])}]"
         if shown.source:
             yield f"source = {_text(shown.source)}"
-
-
-def _shape(shape: Shape | None) -> Iterator[str]:
-    if shape is None:
-        return
-    yield from ("", "# How it looks. Only drawings use it.", "[shape]", f"cover = {_quoted(shape.cover)}")
-    yield from _tables(shape.numbers, "", "")
-    yield from ("", "[shape.colours]", *(f"{name} = {_quoted(shape.colours[name])}" for name in COLOURS))
 
 
 def _plausible(name: str, known: Range) -> Iterator[str]:

@@ -11,7 +11,7 @@ import pytest
 from tests.helpers.places import ROOT
 from wingbeat.aero import load_coefficients
 from wingbeat.cli import main
-from wingbeat.experiment.table import load_measurements
+from wingbeat.experiment.coefficient_table import load_measurements
 
 CASES = ROOT / "tests/cases/polars"
 WHOLE = [(a, 1.1 * np.sin(2 * np.deg2rad(a)), 1.06 - np.cos(2 * np.deg2rad(a))) for a in range(0, 91, 5)]

@@ -22,10 +22,10 @@ from wingbeat.experiment import (
     CurveForm,
     FitRangeWarning,
     WingForm,
+    curve_forms,
     draw,
     fit_curve,
     fit_wing,
-    forms,
 )
 from wingbeat.experiment.campaign import true_coefficients
 from wingbeat.experiment.curve_forms import BoxForm, value_and_slopes
@@ -83,9 +83,9 @@ def test_a_form_of_the_box_is_the_formula_that_a_model_flies_with(name):
 
 
 def test_fits_of_one_form_compile_their_slopes_once(fit):
-    compiled = forms._value_and_slopes._cache_size()
+    compiled = curve_forms._value_and_slopes._cache_size()
     fit_wing(noisy(seed=1))
-    assert forms._value_and_slopes._cache_size() == compiled
+    assert curve_forms._value_and_slopes._cache_size() == compiled
 
 
 def test_scipy_finds_the_same_parameters_and_covariance(fit):

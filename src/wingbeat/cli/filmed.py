@@ -13,7 +13,7 @@ from cyclopts import Parameter
 
 from wingbeat._base import NOMENCLATURE, FaultList, for_people, plain_unit, written
 from wingbeat.aero import BladeElement
-from wingbeat.animal.species.record import Species
+from wingbeat.animal.species.species import Species
 from wingbeat.experiment.film import WHOLE
 from wingbeat.experiment.film_file import read_film
 from wingbeat.experiment.film_fit import BodyPath, FilmedBeat, fit_body_path, fit_film

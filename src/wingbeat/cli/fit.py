@@ -14,7 +14,7 @@ from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.cli.arguments import check_files, check_outputs, figure, flag, written_to
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import answer
-from wingbeat.experiment.table import load_measurements
+from wingbeat.experiment.coefficient_table import load_measurements
 from wingbeat.experiment.wing_fit import WingFit, fit_wing
 from wingbeat.plots import fit_page
 

@@ -10,8 +10,17 @@ from cyclopts import Parameter
 
 from wingbeat._base import FaultList, Line
 from wingbeat.animal.species.species import Species
-from wingbeat.cli.answer import answer
-from wingbeat.cli.app import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.arguments import (
+    Output,
+    Seed,
+    Whole,
+    check_outputs,
+    check_result,
+    figure,
+    flag,
+    given_beside,
+    several,
+)
 from wingbeat.cli.filmed import (
     DRAWS,
     Kinematics,

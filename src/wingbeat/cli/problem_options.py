@@ -19,8 +19,9 @@ from wingbeat.aero.blade_element import load_hand
 from wingbeat.aero.model_file import Fitted, read_model
 from wingbeat.aero.winds import LEVELS, CosineGust, DrydenTurbulence, Wind
 from wingbeat.animal.species.making import load_species
+from wingbeat.animal.species.reading import parse_setting
 from wingbeat.animal.species.species import Species
-from wingbeat.cli.options import Whole, with_settings
+from wingbeat.cli.arguments import Whole, flag, named_numbers, several
 from wingbeat.models import Model, model_of
 from wingbeat.orbits.problem.limits import Constraint
 from wingbeat.orbits.problem.map_quantities import STABLE_RADIUS

@@ -68,7 +68,6 @@ def show(
         print_json(chosen.as_dict())
     else:
         from wingbeat.animal.species.species import species_report
-        from wingbeat.cli.printing import print_report
 
         print_report(species_report(chosen))
 

@@ -53,7 +53,7 @@ def reduce_run(run: LoadCellRun, last: float = LAST_SECONDS, rest: Intervals = (
     ``C_M = M/(q c^2 h)`` with ``q = rho U^2 / 2``, and ``x_cp = 1/2 - M/(F_N c)`` from the means. From each channel
     we subtract a zero that drifts linearly from the still-fluid reading before the run to that after it, or from
     the mean in one stated interval of rest to that in the next. Standard errors come from block means
-    (`wingbeat.experiment.statistics`), in the window and in the rest; the error of the ratio x_cp is to first
+    (`wingbeat.experiment.steadiness`), in the window and in the rest; the error of the ratio x_cp is to first
     order.
 
     Su, Fan, Onoue, Vejdani and Breuer 2023, doi 10.48550/arXiv.2302.09602.

@@ -29,8 +29,8 @@ from wingbeat.aero import (
 )
 from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.animal.species.numbers import Range, number_from
-from wingbeat.animal.species.record import Species
 from wingbeat.animal.species.shape import shape_from, shape_record
+from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Air, Body, Motor, Muscle, Springs, Tail, Vehicle, Wing
 from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.limits import Constraint

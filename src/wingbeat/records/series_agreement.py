@@ -16,6 +16,8 @@ from wingbeat.records.forms import from_json
 from wingbeat.records.inputs import vehicle_from, vehicle_record, wingbeat_record
 
 if TYPE_CHECKING:
+    import xarray as xr
+
     from wingbeat.animal.species.species import Species
 
 # Record and series come of two compiled programs, which may differ in a number's last digits.

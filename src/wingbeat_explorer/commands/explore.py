@@ -13,10 +13,9 @@ from wingbeat._base import FaultList, make_folder
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.reading import species_names
 from wingbeat.animal.species.species import Species
-from wingbeat.cli.app import EXIT_GOOD
-from wingbeat.cli.options import Seed, Whole, check_outputs
-from wingbeat.cli.progress import progress_bar
-from wingbeat.cli.ranges import parse_range
+from wingbeat.cli.arguments import Seed, Whole, check_outputs, parse_range
+from wingbeat.cli.process import EXIT_GOOD
+from wingbeat.cli.terminal import progress_bar
 from wingbeat_explorer import LATTICE_MODELS, default_speeds, solve_lattice, write_explorer
 from wingbeat_explorer.folder import check_names
 from wingbeat_explorer.lattice import check_lattice

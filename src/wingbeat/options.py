@@ -15,7 +15,7 @@ from wingbeat.orbits.options.least_squares import LeastSquaresOptions as LeastSq
 from wingbeat.orbits.options.search import SearchOptions as SearchOptions
 from wingbeat.orbits.options.solver import SolverOptions as SolverOptions
 from wingbeat.orbits.options.start_families import StartFamily as StartFamily
-from wingbeat.stability.feedback_options import FeedbackOptions as FeedbackOptions
-from wingbeat.stability.manoeuvre_options import ManoeuvreOptions as ManoeuvreOptions
-from wingbeat.stability.many_options import ManyOptions as ManyOptions
+from wingbeat.stability.options import FeedbackOptions as FeedbackOptions
 from wingbeat.stability.options import LinearOptions as LinearOptions
+from wingbeat.stability.options import ManoeuvreOptions as ManoeuvreOptions
+from wingbeat.stability.options import ManyOptions as ManyOptions

@@ -7,7 +7,7 @@ from typing import Any
 from wingbeat._base import InvalidInputError, first_line
 from wingbeat.orbits.status import Status
 from wingbeat.results.orbit import Orbit
-from wingbeat.stability.pushes import fly_pushes
+from wingbeat.stability.gust_flights import fly_pushes
 from wingbeat.viewer import scene
 from wingbeat_explorer.thinning import thinned_pushes
 

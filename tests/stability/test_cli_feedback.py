@@ -9,7 +9,7 @@ import pytest
 import wingbeat as wb
 from wingbeat.cli import main
 from wingbeat.plots import gust_page
-from wingbeat.stability.gust_flight import fly_gust
+from wingbeat.stability.gust_flights import fly_gust
 
 
 @pytest.fixture(scope="module")

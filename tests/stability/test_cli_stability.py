@@ -9,7 +9,7 @@ import wingbeat as wb
 from wingbeat._jax.arrays import jnp
 from wingbeat.cli import main
 from wingbeat.plots import stability_page
-from wingbeat.stability.linear_report import headline
+from wingbeat.stability.reports import headline
 
 
 @pytest.fixture(scope="module")

@@ -17,9 +17,7 @@ from wingbeat.mechanics.flights import state_rates
 from wingbeat.mechanics.glide import held_still
 from wingbeat.orbits.flight.certify import certify
 from wingbeat.orbits.flight.stroke_map import stroke_map
-from wingbeat.stability.averaged import averaged_jacobian
-from wingbeat.stability.linear_flight import averaged_modes
-from wingbeat.stability.modes import modes_of
+from wingbeat.stability.modes import averaged_jacobian, averaged_modes, modes_of
 
 # Steps of differences of flights by SciPy: (z, body_pitch, u, w, pitch_rate), and of the wingbeat's parameters.
 STEPS = np.array([1e-3, 1e-5, 1e-4, 1e-4, 1e-4])

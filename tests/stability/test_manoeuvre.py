@@ -11,9 +11,9 @@ from wingbeat._base import InvalidInputError
 from wingbeat.cli import main
 from wingbeat.orbits.problem.problem import PITCH_STATE
 from wingbeat.plots import manoeuvre_page
-from wingbeat.stability.beat_map import BeatMap
+from wingbeat.stability.inputs import top_of
+from wingbeat.stability.manoeuvre_search import BeatMap
 from wingbeat.stability.riccati import closed_loop
-from wingbeat.stability.smooth_commands import top_of
 
 SCALES = np.array([0.2, 0.1, 1.0, 1.0, 2.0])
 

@@ -6,8 +6,7 @@ import pytest
 import wingbeat as wb
 from tests.stability.test_inputs import BEATS, MORE, STOCK, at_top
 from wingbeat.animal.kinematics import parameter, with_parameters
-from wingbeat.stability.inputs import compensation
-from wingbeat.stability.smooth_commands import changed_wingbeat, parameters_of, smoother
+from wingbeat.stability.inputs import changed_wingbeat, compensation, parameters_of, smoother
 
 LARGE = {"frequency": 2.0, "span_retraction": 0.1, "twist_ratio": 0.2, "downstroke_fraction": 0.05}
 

@@ -9,7 +9,7 @@ import pytest
 import wingbeat as wb
 from tests.helpers.browsers import until
 from tests.viewer.test_browser import VIEWER
-from wingbeat.viewer.wake import wake_of
+from wingbeat.viewer.scene import wake_of
 
 ANIMAL = f"{VIEWER}.stage.animals[0]"
 GROUND = f"{VIEWER}.stage.ground"

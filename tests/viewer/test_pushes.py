@@ -9,7 +9,7 @@ import wingbeat as wb
 from tests.helpers.browsers import AXE, until
 from wingbeat._base import InvalidInputError
 from wingbeat.cli import main
-from wingbeat.stability.pushes import DIRECTIONS, SIZES
+from wingbeat.stability.gust_flights import DIRECTIONS, SIZES
 from wingbeat.viewer.scene import scene
 
 BEATS = 10

@@ -14,13 +14,12 @@ from wingbeat.cli.arguments import Whole, check_files, check_outputs, figure, fl
 from wingbeat.cli.problem_options import Gust, Turbulence, WindSeed, saved_orbit, wind_of
 from wingbeat.cli.terminal import deliver, plain_console, print_report, progress_bar
 from wingbeat.plots import gust_page
-from wingbeat.stability.feedback import Feedback
-from wingbeat.stability.feedback import feedback as compute
-from wingbeat.stability.feedback_checks import check_delay, check_late, check_noise
-from wingbeat.stability.feedback_report import STATE_UNITS, beats_of, feedback_report, survey_report
-from wingbeat.stability.gust_flight import GustFlight, fly_gust
-from wingbeat.stability.gust_survey import MOST_FLIGHTS, GustSurvey, survey_gusts
-from wingbeat.stability.inputs import check_inputs
+from wingbeat.stability.beat_feedback import Feedback
+from wingbeat.stability.beat_feedback import feedback as compute
+from wingbeat.stability.checks import check_delay, check_inputs, check_late, check_noise
+from wingbeat.stability.gust_flights import GustFlight, fly_gust
+from wingbeat.stability.many_flights import MOST_FLIGHTS, GustSurvey, survey_gusts
+from wingbeat.stability.reports import STATE_UNITS, beats_of, feedback_report, survey_report
 
 FREE, HELD = "no feedback", "feedback"
 # The gust that is flown if none is given: upward at 2 m/s, for 0.3 s.

@@ -14,9 +14,9 @@ from wingbeat.cli.terminal import deliver, plain_console, print_report, progress
 from wingbeat.orbits.status import Status
 from wingbeat.results.flight import Flight
 from wingbeat.results.orbit import solve_orbit
-from wingbeat.stability.manoeuvre import Manoeuvre, check_manoeuvre
-from wingbeat.stability.manoeuvre import manoeuvre as find
-from wingbeat.stability.manoeuvre_report import manoeuvre_report
+from wingbeat.stability.manoeuvres import Manoeuvre, check_manoeuvre
+from wingbeat.stability.manoeuvres import manoeuvre as find
+from wingbeat.stability.reports import manoeuvre_report
 
 
 def manoeuvre(

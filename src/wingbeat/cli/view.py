@@ -13,7 +13,7 @@ from wingbeat.cli.arguments import Whole, check_outputs, flag, written_to
 from wingbeat.cli.problem_options import saved_orbit
 from wingbeat.cli.terminal import progress_bar
 from wingbeat.records.result_files import load_dataset
-from wingbeat.stability.feedback_checks import MOST_DELAY
+from wingbeat.stability.checks import MOST_DELAY
 from wingbeat.viewer import Push, animate, write_page
 
 _SUFFIXES = (".html", ".gif")
@@ -62,7 +62,7 @@ def view(
 
 def _pushes(file: Path, delay: int) -> tuple[Push, ...]:
     """Return the disturbed flights of a saved orbit; without feedback if no feedback holds the orbit."""
-    from wingbeat.stability.pushes import fly_pushes
+    from wingbeat.stability.gust_flights import fly_pushes
 
     orbit = saved_orbit(file)
     try:

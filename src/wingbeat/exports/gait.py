@@ -1,14 +1,23 @@
-"""The gait of an orbit: what one wing does at equal phases of the beat, and what drives it."""
+"""The gait of an orbit, and how other tools take it.
+
+A gait is what one wing does at equal phases of the beat, and what drives it. It is written as a table for a robot's
+controller (CSV), as structures with time for MATLAB and Simulink, or as points of body and wings for motion
+laboratories (C3D).
+"""
 
 from __future__ import annotations
 
+import csv
 import functools
+import io
+import json
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from os import PathLike
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base import NOMENCLATURE, FaultList, Term
+from wingbeat._base import NOMENCLATURE, FaultList, FileError, Term, install_extra, writing
 from wingbeat._jax.arrays import jnp
 from wingbeat._jax.exported import jit_soon
 from wingbeat.animal.kinematics import (
@@ -21,15 +30,17 @@ from wingbeat.animal.kinematics import (
     sweep_angle,
     tip_twist,
 )
+from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.wing_motion import time_rates
+from wingbeat.mechanics.wing_points import surface_points
 from wingbeat.orbits.status import Status
 from wingbeat.results.flight import simulate
-from wingbeat.results.orbit import Orbit
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from wingbeat._jax.arrays import Phases
+    from wingbeat.results.orbit import Orbit
 
 # The laws of a wing, by their names in data sets.
 _LAWS = {
@@ -65,10 +76,7 @@ Laws = tuple[np.ndarray, np.ndarray, np.ndarray]
 def laws_at(wingbeat: Wingbeat, phase: np.ndarray) -> Laws:
     """Return three arrays of shape (..., laws): the laws of `LAW_NAMES`, their first and second time derivatives.
 
-    Parameters
-    ----------
-    wingbeat : gives the laws; a law that is off is constant.
-    phase : phases, shape (...).
+    A law that is off is constant.
     """
     value, rate, acceleration = _laws(wingbeat, np.asarray(phase, dtype=float))
     return np.asarray(value), np.asarray(rate), np.asarray(acceleration)
@@ -155,12 +163,117 @@ def check_certified(faults: FaultList, orbit: Orbit) -> None:
 
 
 def gait_of(orbit: Orbit, samples: int) -> Gait:
-    """Return the gait of a certified orbit, flown from its initial state.
-
-    Parameters
-    ----------
-    orbit : a certified orbit.
-    samples : number of equal phases of the beat.
-    """
+    """Return the gait of a certified orbit at so many equal phases of the beat, flown from its initial state."""
     flight = simulate(orbit.problem.model, orbit.wingbeat, orbit.initial_state, beats=1, samples=samples)
     return Gait(orbit, samples, flight.dataset)
+
+
+def _about(gait: Gait) -> str:
+    what = gait.orbit.inputs
+    return f"{what['species']['name']} at {what['speed']:g} m/s"
+
+
+def gait_csv(gait: Gait) -> bytes:
+    """Return a CSV table: a header of comment lines with units, then one row for each equal phase of the beat.
+
+    The beat repeats: one time step after the last row, the first row follows again. The table therefore leaves out
+    the end of the beat.
+    """
+    out = io.StringIO()
+    out.write(f"# gait of one wing of {_about(gait)}, written by the package wingbeat; SI units, radians\n")
+    out.write("# the wings move alike; the beat repeats after the last row\n")
+    for name, (value, unit) in gait.constants.items():
+        out.write(f"# {name} = {json.dumps(value)}{_bracket(unit)}\n")
+    out.write("#\n# columns: name [unit] meaning\n")
+    for term, _ in gait.columns:
+        out.write(f"# {term.name}{_bracket(term.unit)} {term.label}\n")
+    table = csv.writer(out, lineterminator="\n")
+    table.writerow(term.name for term, _ in gait.columns)
+    table.writerows(zip(*(map(repr, values[:-1].tolist()) for _, values in gait.columns), strict=True))
+    return out.getvalue().encode()
+
+
+def _bracket(unit: str) -> str:
+    return f" [{unit}]" if unit else ""
+
+
+def gait_mat(gait: Gait) -> bytes:
+    """Return a MATLAB file, version 5, with a structure with time for each series of the gait.
+
+    Simulink's block From Workspace takes such structures: `time`, and `signals` with `values` and `dimensions`.
+    The last value belongs to the next top of the stroke, so that interpolation covers the whole beat.
+    """
+    from scipy.io import savemat
+
+    time, *series = gait.columns
+    content: dict[str, Any] = {
+        "gait": {column.term.name: _with_time(time.values, column) for column in series},
+        "units": {term.name: term.unit for term, _ in gait.columns},
+        "meaning": {term.name: term.label for term, _ in gait.columns},
+        "constants": {name: value for name, (value, _) in gait.constants.items()},
+        "constants_units": {name: unit for name, (_, unit) in gait.constants.items()},
+        "about": _about(gait),
+    }
+    held = io.BytesIO()
+    savemat(held, content, long_field_names=True, do_compression=True, oned_as="column")
+    return held.getvalue()
+
+
+def _with_time(time: np.ndarray, column: Column) -> dict[str, Any]:
+    signals = {"values": column.values[:, None], "dimensions": 1.0, "label": column.term.name}
+    return {"time": time[:, None], "signals": signals}
+
+
+class Points(NamedTuple):
+    """Points of a vehicle in the world: labels, and positions (x forward, y left, z up) [m], shape (K, P, 3)."""
+
+    labels: list[str]
+    positions: np.ndarray
+
+
+def check_c3d() -> None:
+    """Refuse to write a C3D file without the library that writes it."""
+    try:
+        import ezc3d  # noqa: F401
+    except ImportError:
+        raise FileError(f"ezc3d, which writes .c3d, is not installed here: {install_extra('c3d')}") from None
+
+
+def points_of(gait: Gait) -> Points:
+    """Return the points of the beat's K equal phases: body, shoulders, wing tips, and edges at the strips' centres.
+
+    A wing's tip is on its quarter-chord line. Strips are counted from 1 at the root.
+    """
+    problem, strips = gait.orbit.problem, gait.orbit.problem.model.strips
+    stations = np.concatenate([[0.0], (np.arange(strips) + 0.5) / strips, [1.0]])
+    states, phase = gait.states[:-1], gait.phase[:-1]
+    given = problem.vehicle.passive, gait.orbit.wingbeat, State(*states.T), phase
+    surface = np.asarray(surface_points(*given, stations, np.array([0.0, 0.25, 1.0])))
+    leading, quarter, trailing = (surface[:, row] for row in range(3))
+    body = np.stack([states[:, 0], np.zeros(len(states)), states[:, 1]], axis=-1)[:, None]
+    left = np.concatenate([quarter[:, [0, -1]], leading[:, 1:-1], trailing[:, 1:-1]], axis=1)
+    numbers = range(1, strips + 1)
+    names = ["shoulder", "tip", *(f"{edge}_{i}" for edge in ("leading", "trailing") for i in numbers)]
+    labels = ["body", *(f"{side}_{name}" for side in ("left", "right") for name in names)]
+    return Points(labels, np.concatenate([body, left, left * [1.0, -1.0, 1.0]], axis=1))
+
+
+def write_c3d(gait: Gait, path: str | PathLike[str]) -> None:
+    """Write the points of the beat as a C3D file; its frames are the equal phases, its unit is the metre.
+
+    C3D stores numbers in single precision.
+    """
+    import ezc3d
+
+    points = points_of(gait)
+    file = ezc3d.c3d()
+    about = file["parameters"]["POINT"]
+    about["RATE"]["value"] = [gait.samples * gait.orbit.wingbeat.frequency]
+    about["LABELS"]["value"] = points.labels
+    about["DESCRIPTIONS"]["value"] = [label.replace("_", " ") for label in points.labels]
+    about["UNITS"]["value"] = ["m"]
+    data = np.ones((4, len(points.labels), gait.samples))
+    data[:3] = points.positions.transpose(2, 1, 0)
+    file["data"]["points"] = data
+    with writing(path) as beside:
+        file.write(str(beside))

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from wingbeat._base import FaultList, FileError, install_extra
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.exports.gait import Laws, check_certified, gait_of, laws_at
-from wingbeat.exports.mujoco_joints import BODY_JOINTS, SIDES, WingJoints, wing_parts
-from wingbeat.exports.mujoco_model import KEY, mujoco_xml
+from wingbeat.exports.mujoco_model import BODY_JOINTS, KEY, SIDES, WingJoints, mujoco_xml, wing_parts
 from wingbeat.mechanics.beat_by_beat import Controller, commanded
 from wingbeat.mechanics.equations_of_motion import air_forces
 from wingbeat.mechanics.flight_model import State
-from wingbeat.results.orbit import Orbit
+
+if TYPE_CHECKING:
+    from wingbeat.results.orbit import Orbit
 
 _BODY = slice(0, len(BODY_JOINTS))
 _WINGS = slice(len(BODY_JOINTS), None)

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import os
 from os import PathLike
+from typing import TYPE_CHECKING
 
 from wingbeat._base import FaultList, write_atomically
-from wingbeat.exports.gait import check_certified, gait_of
-from wingbeat.exports.motion_capture import check_c3d, write_c3d
+from wingbeat.exports.gait import check_c3d, check_certified, gait_csv, gait_mat, gait_of, write_c3d
 from wingbeat.exports.mujoco_model import mujoco_xml
-from wingbeat.exports.trajectory import gait_csv, gait_mat
-from wingbeat.results.orbit import Orbit
+
+if TYPE_CHECKING:
+    from wingbeat.results.orbit import Orbit
 
 SAMPLES = 256
 _WRITERS = {".csv": gait_csv, ".mat": gait_mat, ".xml": mujoco_xml}
@@ -21,15 +22,7 @@ _MOST = 4096
 
 
 def check_export(faults: FaultList, where: str, path: str | PathLike[str], samples: int) -> None:
-    """Note a fault unless the suffix of a file name is that of a format for gaits, which can hold the samples.
-
-    Parameters
-    ----------
-    faults : takes the faults.
-    where : what to call the path in a fault.
-    path : of the file to write.
-    samples : number of equal phases of the beat.
-    """
+    """Note a fault unless the suffix of a file name is that of a format for gaits, which can hold the samples."""
     suffix = _suffix(path)
     faults.whole("samples", samples, 2, _MOST_SAMPLES.get(suffix, _MOST), "equal phases of one beat")
     if suffix not in EXPORT_SUFFIXES:

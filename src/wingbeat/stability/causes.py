@@ -11,17 +11,19 @@ import numpy as np
 
 from wingbeat._base import Report, Reported
 from wingbeat.orbits.flight.floquet import multipliers_of
-from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
+from wingbeat.orbits.options.solver import DEFAULTS as SOLVER
+from wingbeat.orbits.options.solver import SolverOptions
 from wingbeat.orbits.problem.map_quantities import MAP_QUANTITIES, MapQuantity
 from wingbeat.plots.draw_influences import tornado_page
 from wingbeat.records.tables import table_of
-from wingbeat.results.orbit import Orbit
 from wingbeat.results.sensitivities import Sensitivities, sensitivities
-from wingbeat.stability.causes_report import causes_report
+from wingbeat.stability.reports import causes_report
 
 if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
+
+    from wingbeat.results.orbit import Orbit
 
 _RADIUS = MAP_QUANTITIES["spectral_radius"]
 
@@ -98,7 +100,7 @@ class StabilitySensitivities(Reported):
         }
 
 
-def stability_sensitivities(orbit: Orbit, options: SolverOptions = DEFAULTS) -> StabilitySensitivities:
+def stability_sensitivities(orbit: Orbit, options: SolverOptions = SOLVER) -> StabilitySensitivities:
     """Differentiate the multipliers of an orbit with respect to every number the orbit depends on.
 
     Parameters
@@ -134,14 +136,9 @@ def stability_sensitivities(orbit: Orbit, options: SolverOptions = DEFAULTS) -> 
 
 
 def multiplier_slopes(stroke_map: np.ndarray, change: np.ndarray) -> np.ndarray:
-    """Return how fast the eigenvalues of a matrix move, in the order of `multipliers_of`, shape (4,).
+    """Return how fast the multipliers move when the map does, in the order of `multipliers_of`, shape (4,).
 
     Theory: equation ``multiplier-slope``.
-
-    Parameters
-    ----------
-    stroke_map : the matrix, shape (4, 4).
-    change : its derivative, shape (4, 4).
     """
     values, right = np.linalg.eig(stroke_map)
     moved = np.diag(np.linalg.solve(right, change @ right))

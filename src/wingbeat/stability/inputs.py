@@ -1,7 +1,9 @@
 """Inputs that change the wingbeat from beat to beat without a jump of the wing where one beat follows another.
 
 A jump would be an impulse on the body, which a map from beat to beat would not contain. So each input comes with
-harmonics that keep the wing's position and velocity at the top of the stroke.
+harmonics that keep the wing's position and velocity at the top of the stroke: to first order in `compensation`, and
+exactly for changes of any size in `parameters_of`. The product of a new frequency and a new amplitude, for example,
+would still make the wing jump in speed with the shares of the former.
 """
 
 from __future__ import annotations
@@ -11,11 +13,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base import FIRST_ORDER, HIGHEST_ORDER, FaultList, suggest
+from wingbeat._base import FIRST_ORDER, HIGHEST_ORDER, FaultList
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import (
-    FREE_NAMES,
     Wingbeat,
     flap_angle,
     fold_angle,
@@ -25,17 +26,31 @@ from wingbeat.animal.kinematics import (
     sweep_angle,
     tip_twist,
     unpack,
+    with_parameters,
 )
-from wingbeat.animal.vehicle import Vehicle
 
 if TYPE_CHECKING:
-    from wingbeat._jax.arrays import Free, LawJumps, Phases
+    from wingbeat._jax.arrays import (
+        AllParameters,
+        Commands,
+        Free,
+        InputChanges,
+        LawJumps,
+        LawRates,
+        Parameters,
+        ParameterSlopes,
+        Phases,
+    )
 
 # The laws that move mass. The chord law does not: the mass stays distributed over the full chord, and the unsteady
 # loads leave out the rate of the chord.
 LAWS = ("flap", "pitch", "span", "sweep", "twist", "fold", "stroke plane")
 # A smaller change of a law per unit of an input is rounding [rad, rad/s; shares of the span].
 _NOTHING = 1e-12
+# The harmonics enter position and speed linearly. Where an input changes how much they do so, corrections are
+# repeated: each leaves less than a fifth of the jump.
+_CORRECTIONS = 12
+_BEND = {"downstroke_fraction", "twist_ratio"}
 
 
 class Compensation(NamedTuple):
@@ -51,34 +66,8 @@ class Compensation(NamedTuple):
     shares: np.ndarray
 
 
-def check_inputs(faults: FaultList, inputs: Any, vehicle: Vehicle | None = None) -> None:
-    """Note inputs that are no list of different parameters of a wingbeat, or that change nothing on a vehicle."""
-    named = isinstance(inputs, list | tuple) and len(inputs) > 0 and all(isinstance(name, str) for name in inputs)
-    if not named:
-        fix = "for example ['frequency', 'pitch_mean']"
-        faults.add("inputs", inputs, "must be a list of at least one name", fix)
-        return
-    for name in inputs:
-        if name not in FREE_NAMES:
-            fix = "give a parameter of the wingbeat such as frequency, or a harmonic such as flap_cos_2"
-            fix = suggest(name, FREE_NAMES, most=1, otherwise=fix)
-            faults.add("inputs", name, "is not a parameter of the wingbeat", fix)
-    if len(set(inputs)) < len(inputs):
-        faults.add("inputs", list(inputs), "has a name twice", "give each input once")
-    if vehicle is not None and vehicle.tail is None and "tail_tilt" in inputs:
-        faults.add(
-            "inputs", "tail_tilt", "changes nothing, because there is no tail", "leave it out, or give a tail"
-        )
-
-
 def laws_at(wingbeat: Wingbeat, phase: Phases) -> Phases:
-    """Return all laws at a phase, in the order of `LAWS`; the twist law is the whole pitch at the tip.
-
-    Parameters
-    ----------
-    wingbeat : one wingbeat, or one for each phase.
-    phase : phases, shape (...).
-    """
+    """Return all laws at phases, in the order of `LAWS`; the twist law is the whole pitch at the tip."""
     nothing = jnp.zeros_like(phase)
     pitch, sweep, twist = pitch_angle(wingbeat, phase), sweep_angle(wingbeat, phase), tip_twist(wingbeat, phase)
     tip = wingbeat.twist_ratio * pitch + (nothing if twist is None else twist)
@@ -107,13 +96,7 @@ def _jumps(wingbeat: Wingbeat, values: Free, *, names: tuple[str, ...]) -> LawJu
 
 
 def law_jumps(wingbeat: Wingbeat, names: tuple[str, ...]) -> np.ndarray:
-    """Return how far laws and their rates [1/s] jump at phase 0 per unit of parameters, shape (laws, 2, names).
-
-    Parameters
-    ----------
-    wingbeat : the wingbeat.
-    names : of the parameters, at least one.
-    """
+    """Return how far laws and their rates [1/s] jump at phase 0 per unit of parameters, shape (laws, 2, names)."""
     values = np.array([parameter(wingbeat, name) for name in names], dtype=float)
     return np.array(_jumps.bind(wingbeat, names=names)(values))
 
@@ -135,17 +118,10 @@ def smooth_ones(wingbeat: Wingbeat, names: Sequence[str]) -> tuple[str, ...]:
 def compensation(wingbeat: Wingbeat, inputs: Sequence[str]) -> Compensation:
     """Return the harmonics that keep the wing's position and velocity at phase 0 while inputs change.
 
+    Inputs that move the hand or the stroke plane at phase 0 are refused, which no harmonic can undo, and so are
+    inputs that contain the harmonics of all orders.
+
     Theory: equation ``compensation``.
-
-    Parameters
-    ----------
-    wingbeat : the wingbeat.
-    inputs : names of parameters of the wingbeat.
-
-    Raises
-    ------
-    InvalidInputError : inputs that move the hand or the stroke plane at phase 0, which no harmonic can undo; inputs
-        that contain the harmonics of all orders.
     """
     if not inputs:
         return Compensation((), np.zeros((0, 0)))
@@ -181,3 +157,101 @@ def _harmonics(faults: FaultList, law: str, inputs: Sequence[str]) -> list[str]:
     rule = f"contain all orders of the {law} harmonics, and one must be left to keep the wing from jumping"
     faults.add("inputs", list(inputs), rule, f"leave out one order up to {HIGHEST_ORDER}")
     return []
+
+
+class Smoother(NamedTuple):
+    """What keeps the wing from jumping, as arrays.
+
+    Attributes
+    ----------
+    numbers : of the inputs, then of their harmonics, in the undisturbed wingbeat, shape (inputs + harmonics,).
+    top : all laws at phase 0, and their derivatives by the phase times the frequency, shape (laws, 2).
+    corrections : changes of the harmonics that undo a unit of each of these, by phase, shape (harmonics, laws, 2).
+    """
+
+    numbers: np.ndarray
+    top: np.ndarray
+    corrections: np.ndarray
+
+
+def smoother(wingbeat: Wingbeat, inputs: tuple[str, ...], harmonics: Compensation) -> Smoother:
+    """Return what keeps the wing from jumping when inputs change."""
+    numbers = [float(parameter(wingbeat, name)) for name in (*inputs, *harmonics.names)]
+    top = top_of(wingbeat)
+    if not harmonics.names:
+        return Smoother(np.array(numbers), top, np.zeros((0, *top.shape)))
+    held = np.array([law in FIRST_ORDER for law in LAWS])[:, None, None]
+    own = np.where(held, law_jumps(wingbeat, harmonics.names), 0.0) / np.array([1.0, wingbeat.frequency])[:, None]
+    inverse = np.linalg.pinv(own.reshape(-1, len(harmonics.names)), rcond=1e-9)
+    return Smoother(np.array(numbers), top, inverse.reshape(-1, *top.shape))
+
+
+def top_of(wingbeat: Wingbeat) -> np.ndarray:
+    """Return all laws at the top of the stroke and their rates, (laws, 2) [rad, rad/s; shares of the span]."""
+    return np.asarray(_top(wingbeat))
+
+
+@exported
+def _top(wingbeat: Wingbeat) -> LawRates:
+    place, by_phase = _place_and_slope(wingbeat, jnp.array(0.0))
+    return jnp.stack([place, wingbeat.frequency * by_phase], axis=-1)
+
+
+def _place_and_slope(wingbeat: Wingbeat, phase: Any) -> tuple[Any, Any]:
+    return jax.jvp(lambda at: laws_at(wingbeat, at), (phase,), (jnp.ones_like(phase),))
+
+
+def parameters_of(
+    wingbeat: Wingbeat, smooth: Smoother, changes: Commands, *, inputs: tuple[str, ...], harmonics: tuple[str, ...]
+) -> Parameters:
+    """Return inputs and harmonics of a changed wingbeat, shape (inputs + harmonics, ...).
+
+    Theory: equation ``exact-compensation``.
+    """
+    several = changes.shape[1:]
+    numbers = smooth.numbers.reshape(-1, *[1] * len(several))
+    given = numbers[: len(inputs)] + changes
+    waves = jnp.broadcast_to(numbers[len(inputs) :], (len(harmonics), *several))
+    phase = jnp.zeros(several)
+    top = jnp.reshape(smooth.top, (*smooth.top.shape, *[1] * len(several)))
+    count = _CORRECTIONS if _BEND & set(inputs) else 1
+    for _ in range(count if harmonics else 0):
+        beat = unpack((*inputs, *harmonics), wingbeat, jnp.concatenate([given, waves]))
+        place, slope = _place_and_slope(beat, phase)
+        away = jnp.stack([place - top[:, 0], slope - top[:, 1] / beat.frequency], axis=1)
+        waves = waves - jnp.tensordot(smooth.corrections, away, 2)
+    return jnp.concatenate([given, waves])
+
+
+@exported(static=("inputs", "harmonics"))
+def _parameters_of(
+    wingbeat: Wingbeat, smooth: Smoother, changes: Commands, *, inputs: tuple[str, ...], harmonics: tuple[str, ...]
+) -> Parameters:
+    return parameters_of(wingbeat, smooth, changes, inputs=inputs, harmonics=harmonics)
+
+
+@exported(static=("inputs", "harmonics"))
+def parameters_and_slopes(
+    wingbeat: Wingbeat,
+    smooth: Smoother,
+    changes: InputChanges,
+    *,
+    inputs: tuple[str, ...],
+    harmonics: tuple[str, ...],
+) -> tuple[AllParameters, ParameterSlopes]:
+    """Return what `parameters_of` returns for one wingbeat, and its derivatives by the changes."""
+
+    def at(changes: Any) -> tuple[Any, Any]:
+        found = parameters_of(wingbeat, smooth, changes, inputs=inputs, harmonics=harmonics)
+        return found, found
+
+    slopes, found = jax.jacfwd(at, has_aux=True)(changes)
+    return found, slopes
+
+
+def changed_wingbeat(
+    wingbeat: Wingbeat, smooth: Smoother, inputs: tuple[str, ...], harmonics: tuple[str, ...], changes: np.ndarray
+) -> Wingbeat:
+    """Return the wingbeat with changed inputs [Hz, rad or shares], whose wing does not jump."""
+    numbers = _parameters_of(wingbeat, smooth, np.asarray(changes, float), inputs=inputs, harmonics=harmonics)
+    return with_parameters(wingbeat, dict(zip((*inputs, *harmonics), numbers.tolist(), strict=True)))

@@ -17,16 +17,17 @@ from wingbeat.orbits.problem.problem import PITCH_STATE, OrbitProblem
 from wingbeat.orbits.status import Status
 from wingbeat.plots.draw_stability import stability_page
 from wingbeat.results.flight import Flight, simulate
-from wingbeat.results.orbit import Orbit
-from wingbeat.stability.averaged import averaged_jacobian
-from wingbeat.stability.inputs import Compensation, check_inputs, compensation, smooth_ones
-from wingbeat.stability.linear_report import linear_report
-from wingbeat.stability.modes import Mode, modes_of
-from wingbeat.stability.options import DEFAULTS, LinearOptions
+from wingbeat.stability.checks import check_inputs
+from wingbeat.stability.inputs import Compensation, compensation, smooth_ones
+from wingbeat.stability.modes import Mode, averaged_jacobian, averaged_modes, modes_of
+from wingbeat.stability.options import LINEAR, LinearOptions
+from wingbeat.stability.reports import linear_report
 
 if TYPE_CHECKING:
     import control
     from matplotlib.figure import Figure
+
+    from wingbeat.results.orbit import Orbit
 
 GUSTS = ("gust_u", "gust_w")
 
@@ -174,7 +175,7 @@ def linearise(
     *,
     height: bool = False,
     smooth: bool = True,
-    options: LinearOptions = DEFAULTS,
+    options: LinearOptions = LINEAR,
 ) -> LinearFlight:
     """Linearise a certified orbit from one beat to the next.
 
@@ -270,17 +271,6 @@ def _matrices(
     by_gust[0, 1] += dt  # the air lifts the body
     rows = slice(0 if height else 1, None)
     return flown.by_state[rows, rows], by_inputs[rows], by_gust[rows]
-
-
-def averaged_modes(rates: np.ndarray, frequency: float, samples: int, scales: np.ndarray) -> list[Mode]:
-    """Return the modes of steady rates whose derivatives by the state are `rates`, shape (4, 4) [per s].
-
-    Theory: equation ``averaged-model``.
-    """
-    from scipy.linalg import expm
-
-    transition = np.stack([expm(rates * phase / frequency) for phase in np.linspace(0.0, 1.0, samples)])
-    return modes_of(transition[-1], frequency, transition, scales)
 
 
 def _scales(problem: OrbitProblem, wingbeat: Wingbeat) -> np.ndarray:

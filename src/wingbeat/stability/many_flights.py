@@ -1,34 +1,41 @@
-"""Many flights through moving air at once, with or without feedback: `simulate_many`."""
+"""Many flights through moving air at once, with or without feedback: `simulate_many` and `survey_gusts`."""
 
 from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList
-from wingbeat.aero.winds import Wind
-from wingbeat.animal.kinematics import parameter
+from wingbeat._base import FaultList, Report, Reported
+from wingbeat.aero.winds import CosineGust, Wind
 from wingbeat.mechanics.beat_by_beat import air_at, check_wind
 from wingbeat.mechanics.flights import fly_through
 from wingbeat.orbits.problem.problem import PITCH_STATE
 from wingbeat.orbits.status import Status
-from wingbeat.results.flight import simulate
-from wingbeat.results.orbit import Orbit
-from wingbeat.stability.feedback import Feedback
-from wingbeat.stability.feedback_checks import check_late, noise_of
-from wingbeat.stability.held_beats import Course, Hold, fly_held_beats
-from wingbeat.stability.held_segments import SegmentHold, fly_held_segments
-from wingbeat.stability.inputs import Compensation
-from wingbeat.stability.many_options import DEFAULTS, ManyOptions
+from wingbeat.plots.draw_stability import survey_page
+from wingbeat.stability.beat_feedback import Feedback, feedback
+from wingbeat.stability.checks import check_late, noise_of
+from wingbeat.stability.held_flights import Hold, fly_held
+from wingbeat.stability.inputs import Compensation, smoother
+from wingbeat.stability.options import MANY, ManyOptions
+from wingbeat.stability.reports import survey_report
 from wingbeat.stability.segment_feedback import SegmentFeedback, bump_parameters
-from wingbeat.stability.smooth_commands import smoother
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from matplotlib.figure import Figure
+
+    from wingbeat.results.orbit import Orbit
 
 _STATE = ("z", *PITCH_STATE)
+# Shortest and longest gust, and the time in which it may begin [beats].
+_DURATION = (1.0, 8.0)
+_BEGIN = 1.0
+MOST_FLIGHTS = 100_000
 
 
 @dataclass(frozen=True)
@@ -71,7 +78,7 @@ def simulate_many(
     late: int = 0,
     noise: Mapping[str, float] | None = None,
     seed: int = 0,
-    options: ManyOptions = DEFAULTS,
+    options: ManyOptions = MANY,
 ) -> ManyFlights:
     """Fly an orbit through many winds at once, the whole equations of motion in fixed steps.
 
@@ -112,107 +119,61 @@ def simulate_many(
     else:
         for wind in winds:
             check_wind(faults, wind)
-    if feedback is not None and not _is_of(_own(feedback), orbit):
-        faults.add("feedback", _own(feedback).inputs["speed"], "is that of another orbit", "compute its own")
+    if feedback is not None:
+        own = feedback.orbit if isinstance(feedback, SegmentFeedback) else feedback.flight.orbit
+        if own is not orbit and (own.wingbeat != orbit.wingbeat or own.initial_state != orbit.initial_state):
+            faults.add("feedback", own.inputs["speed"], "is that of another orbit", "compute its own")
     if isinstance(feedback, SegmentFeedback) and late:
         faults.add("late", late, "is not known to feedback within a beat", "give 0, or feedback from beat to beat")
     faults.raise_if_any()
     deviations = noise_of(noise, _STATE, seed)
     lanes = min(options.lanes, len(winds)) if len(winds) < 8 else options.lanes
-    if isinstance(feedback, SegmentFeedback):
-        fly, slower, measurements = _within_beats(feedback, options.steps), 0.0, (beats, len(feedback.gains))
-    else:
-        fly, slower = _from_beat_to_beat(orbit, feedback, late, options.steps)
-        measurements = (beats,)
+    hold, names = _hold(orbit, feedback, options.steps)
+    place = np.array(orbit.initial_state, dtype=float), np.array(float(orbit.inputs["climb"]))
+    fly = fly_held.bind(orbit.problem.model, orbit.wingbeat, hold, *place, **names, late=late)
+    slower = 0.0 if isinstance(feedback, SegmentFeedback) else min([0.0, *hold.lower.tolist()])
     random, found = np.random.default_rng(seed), []
     for air in _tables(orbit, winds, beats, slower, lanes, options.air_samples):
-        measured = deviations[:, None] * random.standard_normal((*measurements, len(_STATE), lanes))
+        measured = deviations[:, None] * random.standard_normal((beats, len(hold.gains), len(_STATE), lanes))
         found.append(fly(air, 1.0 / (options.air_samples * orbit.wingbeat.frequency), measured))
     states, time, changes, pitch = (
         np.concatenate([np.moveaxis(part[i], -1, 0) for part in found])[: len(winds)] for i in range(4)
     )
-    if changes.ndim > 3:
-        changes = changes.reshape(len(changes), -1, changes.shape[-1])
+    changes = changes.reshape(len(winds), beats * len(hold.gains), changes.shape[-1])
     states = np.concatenate([np.broadcast_to(orbit.initial_state, (len(winds), 1, 6)), states], axis=1)
     time = np.concatenate([np.zeros((len(winds), 1)), time], axis=1)
-    return _judged(orbit, states, time, changes, pitch, options)
-
-
-def _judged(
-    orbit: Orbit,
-    states: np.ndarray,
-    time: np.ndarray,
-    changes: np.ndarray,
-    pitch: np.ndarray,
-    options: ManyOptions,
-) -> ManyFlights:
     height = states[:, :, 1] - float(orbit.initial_state.z) - float(orbit.inputs["climb"]) * time
     lowest = height.min(axis=1)
     survived = np.isfinite(states).all(axis=(1, 2)) & options.keeps(pitch, lowest)
     return ManyFlights(states, time, changes, pitch, lowest, survived)
 
 
-def _own(feedback: Feedback | SegmentFeedback) -> Orbit:
-    return feedback.orbit if isinstance(feedback, SegmentFeedback) else feedback.flight.orbit
+def _hold(orbit: Orbit, feedback: Feedback | SegmentFeedback | None, steps: int) -> tuple[Hold, dict[str, Any]]:
+    """Return a feedback as arrays, with its inputs, harmonics and delay; no feedback has no inputs.
 
-
-def _is_of(own: Orbit, orbit: Orbit) -> bool:
-    return own is orbit or (own.wingbeat == orbit.wingbeat and own.initial_state == orbit.initial_state)
-
-
-def _from_beat_to_beat(
-    orbit: Orbit, feedback: Feedback | None, late: int, steps: int
-) -> tuple[Callable[..., Any], float]:
-    """Return the program that flies so, and the least change of an input."""
-    hold, inputs, harmonics = _hold(orbit, feedback)
-    fly = fly_held_beats.bind(
-        orbit.problem.model,
-        orbit.wingbeat,
-        hold,
-        _course(orbit, steps),
-        inputs=inputs,
-        harmonics=harmonics,
-        delay=0 if feedback is None else feedback.delay,
-        late=late,
-    )
-    return fly, min([0.0, *hold.lower.tolist()])
-
-
-def _within_beats(feedback: SegmentFeedback, steps: int) -> Callable[..., Any]:
-    """Return the program that flies with feedback within the beat, in steps no longer than those of a beat."""
-    orbit, ends = feedback.orbit, feedback.phases
-    names, shares = bump_parameters(len(feedback.gains))
-    own = math.ceil(steps * np.diff(ends).max() - 1e-6)
-    phases = np.concatenate([np.linspace(*pair, own + 1)[:-1] for pair in itertools.pairwise(ends)] + [ends[-1:]])
+    Steps within a beat are no longer than those of a whole beat.
+    """
+    start, ends, path = np.array(orbit.initial_state, dtype=float), np.array([0.0, 1.0]), np.zeros((1, 5))
+    path[0, 1:] = start[2:]
+    inputs: tuple[str, ...] = ()
+    harmonics, delay = Compensation((), np.zeros((0, 0))), 0
+    gains, limits, shares = np.zeros((1, 0, len(_STATE))), (np.zeros(0), np.zeros(0)), np.zeros((0, 0))
+    if isinstance(feedback, SegmentFeedback):
+        gains, ends, path = feedback.gains, feedback.phases, feedback.path[:-1]
+        inputs, shares = bump_parameters(len(gains))
+        limits = np.full(shares.shape[1], -feedback.limit), np.full(shares.shape[1], feedback.limit)
+    elif feedback is not None:
+        gains, limits, delay = feedback.gains[None], (feedback.lower, feedback.upper), feedback.delay
+        inputs, harmonics, shares = feedback.inputs, feedback.flight.compensation, np.eye(len(feedback.inputs))
+    count = math.ceil(steps * np.diff(ends).max() - 1e-6)
+    phases = np.concatenate([np.linspace(*pair, count + 1)[:-1] for pair in itertools.pairwise(ends)] + [ends[-1:]])
     flown, _ = fly_through(orbit.problem.model, orbit.wingbeat, orbit.initial_state, phases)
-    pitch = np.stack([flown[j * own : (j + 1) * own + 1, 2] for j in range(len(feedback.gains))])
-    hold = SegmentHold(
-        feedback.gains,
-        np.array(feedback.limit),
-        np.array([float(parameter(orbit.wingbeat, name)) for name in names]),
-        shares,
-        ends,
-        feedback.path,
-        pitch,
+    pitch = np.stack([flown[j * count : (j + 1) * count + 1, 2] for j in range(len(gains))])
+    smooth = smoother(orbit.wingbeat, inputs, harmonics)
+    return (
+        Hold(gains, *limits, shares, smooth, ends, path, pitch),
+        {"inputs": inputs, "harmonics": harmonics.names, "delay": delay},
     )
-    course = np.array(orbit.initial_state, dtype=float), np.array(float(orbit.inputs["climb"]))
-    return fly_held_segments.bind(orbit.problem.model, orbit.wingbeat, hold, *course, names=names)
-
-
-def _hold(orbit: Orbit, feedback: Feedback | None) -> tuple[Hold, tuple[str, ...], tuple[str, ...]]:
-    """Return what holds the flights, and the names of its inputs and harmonics; nothing without feedback."""
-    if feedback is None:
-        alone = Compensation((), np.zeros((0, 0)))
-        nothing = np.zeros(0)
-        return Hold(np.zeros((0, len(_STATE))), nothing, nothing, smoother(orbit.wingbeat, (), alone)), (), ()
-    hold = Hold(feedback.gains, feedback.lower, feedback.upper, feedback.smoother)
-    return hold, feedback.inputs, feedback.flight.compensation.names
-
-
-def _course(orbit: Orbit, steps: int) -> Course:
-    flown = simulate(orbit.problem.model, orbit.wingbeat, orbit.initial_state, 1, steps)
-    start = np.array(orbit.initial_state, dtype=float)
-    return Course(start, flown.states[:, 2], np.array(float(orbit.inputs["climb"])))
 
 
 def _tables(
@@ -226,3 +187,170 @@ def _tables(
     for first in range(0, len(winds), lanes):
         tables = [air_at(wind, times) for wind in winds[first : first + lanes]]
         yield np.stack(tables + [tables[-1]] * (lanes - len(tables)))
+
+
+@dataclass(frozen=True)
+class GustSurvey(Reported):
+    """Which of many random gusts were survived; made by `survey_gusts`.
+
+    Attributes
+    ----------
+    size : largest velocity of each gust [m/s], shape (flights,).
+    direction : into which it blows, from forward to up [rad], shape (flights,).
+    start, duration : time at which it begins, and from its begin to its end [s], shape (flights,).
+    survived : by the name of the feedback, shape (flights,) each.
+    largest_pitch : largest deviation of the body pitch [rad], likewise.
+    beats : of each flight.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
+    >>> found = wb.survey_gusts(orbit, {"open": None, "held": wb.feedback(orbit)}, flights=20, size=3.0, seed=1)
+    >>> found.share("held"), found.size.shape
+    (1.0, (20,))
+    """
+
+    size: np.ndarray
+    direction: np.ndarray
+    start: np.ndarray
+    duration: np.ndarray
+    survived: dict[str, np.ndarray]
+    largest_pitch: dict[str, np.ndarray]
+    beats: int
+
+    def share(self, name: str) -> float:
+        """Return the share of gusts that were survived.
+
+        Parameters
+        ----------
+        name : of the feedback.
+        """
+        return float(self.survived[name].mean())
+
+    def by_size(self, name: str, bins: int = 10) -> tuple[np.ndarray, np.ndarray]:
+        """Return the edges of equal bins of the gusts' size [m/s], and the share survived in each.
+
+        Parameters
+        ----------
+        name : of the feedback.
+        bins : number of bins.
+        """
+        return _shares(self.size, self.survived[name], np.linspace(0.0, float(self.size.max()), bins + 1))
+
+    def by_direction(self, name: str, bins: int = 12) -> tuple[np.ndarray, np.ndarray]:
+        """Return the edges of equal bins of the direction from 0 to 2 pi [rad], and the share survived in each.
+
+        Parameters
+        ----------
+        name : of the feedback.
+        bins : number of bins.
+        """
+        return _shares(self.direction, self.survived[name], np.linspace(0.0, 2 * math.pi, bins + 1))
+
+    def _report(self) -> Report:
+        return survey_report(self.record())
+
+    def plot(self) -> Figure:
+        """Return a figure of the share of gusts survived, by their size and by their direction."""
+        return survey_page(self)
+
+    def to_dataframe(self) -> pd.DataFrame:
+        """Return a row for each gust: size [m/s], direction [rad], start and duration [s], then how it ended.
+
+        For each feedback there are two more columns: ``survived.NAME`` and ``largest_pitch.NAME`` [rad].
+        """
+        import pandas as pd
+
+        gust = {name: getattr(self, name) for name in ("size", "direction", "start", "duration")}
+        for kind in ("survived", "largest_pitch"):
+            gust |= {f"{kind}.{name}": values for name, values in getattr(self, kind).items()}
+        return pd.DataFrame(gust)
+
+    def record(self) -> dict[str, Any]:
+        """Return the shares as a JSON-able dictionary in SI units and radians; an empty bin is None."""
+        return {
+            "flights": len(self.size),
+            "beats": self.beats,
+            "largest_gust": float(self.size.max()),
+            "survived": {name: self.share(name) for name in self.survived},
+            "by_size": {name: _record(*self.by_size(name)) for name in self.survived},
+            "by_direction": {name: _record(*self.by_direction(name)) for name in self.survived},
+        }
+
+
+def _shares(values: np.ndarray, survived: np.ndarray, edges: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    count, _ = np.histogram(values, edges)
+    alive, _ = np.histogram(values[survived], edges)
+    return edges, np.where(count > 0, alive / np.maximum(count, 1), np.nan)
+
+
+def _record(edges: np.ndarray, shares: np.ndarray) -> dict[str, list[float | None]]:
+    return {
+        "edges": edges.tolist(),
+        "shares": [share if math.isfinite(share) else None for share in shares.tolist()],
+    }
+
+
+def survey_gusts(
+    orbit: Orbit,
+    feedbacks: Mapping[str, Feedback | SegmentFeedback | None] | None = None,
+    flights: int = 1000,
+    *,
+    size: float = 5.0,
+    beats: int = 30,
+    late: int = 0,
+    noise: Mapping[str, float] | None = None,
+    seed: int = 0,
+    options: ManyOptions = MANY,
+) -> GustSurvey:
+    """Fly an orbit through random gusts, with each of several feedbacks through the same ones.
+
+    Parameters
+    ----------
+    orbit : a certified orbit.
+    feedbacks : of this orbit, by names, from `feedback` or `feedback_in_beat`; None flies without feedback.
+        Default: without feedback, with that of `feedback`, and with that for one beat of delay.
+    flights : number of gusts.
+    size : of the largest gust [m/s].
+    beats : number of wingbeats of a flight.
+    late, noise : of all feedbacks, as in `simulate_many` [m, rad, m/s, rad/s].
+    seed : of the random numbers.
+    options : of `simulate_many`; they say when a flight is lost.
+
+    Raises
+    ------
+    InvalidInputError : a number of flights that is not from 1 to 100000, a size that is not positive, and what
+        `simulate_many` refuses.
+
+    A gust is a `CosineGust`. Its size is uniform from 0 to `size`, its direction uniform around the circle, its
+    duration uniform from 1 to 8 beats, and it begins uniformly within the first beat.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
+    >>> found = wb.survey_gusts(orbit, {"open": None, "held": wb.feedback(orbit)}, flights=20, size=3.0, seed=1)
+    >>> found.share("held") > found.share("open")
+    True
+    """
+    faults = FaultList()
+    faults.whole("flights", flights, 1, MOST_FLIGHTS)
+    faults.number("size", size, above=0.0, unit="m/s")
+    faults.whole("seed", seed, 0, 2**31)
+    if feedbacks is not None and (not isinstance(feedbacks, Mapping) or not feedbacks):
+        faults.add("feedbacks", feedbacks, "must be feedbacks by name", "for example {'held': wb.feedback(orbit)}")
+    faults.raise_if_any()
+    if feedbacks is None:
+        feedbacks = {
+            "no feedback": None,
+            "feedback": feedback(orbit),
+            "feedback, one beat late": feedback(orbit, delay=1),
+        }
+    random, period = np.random.default_rng(seed), 1.0 / orbit.wingbeat.frequency
+    sizes, turns, starts, lengths = random.random((4, flights))
+    sizes, turns, starts = size * sizes, 2 * math.pi * turns, _BEGIN * period * starts
+    lengths = period * (_DURATION[0] + (_DURATION[1] - _DURATION[0]) * lengths)
+    numbers = np.stack([sizes * np.cos(turns), sizes * np.sin(turns), starts, lengths], axis=-1)
+    gusts = [CosineGust(*row) for row in numbers.tolist()]
+    asked: dict[str, Any] = {"late": late, "noise": noise, "seed": seed, "options": options}
+    flown = {name: simulate_many(orbit, gusts, beats, feedback=held, **asked) for name, held in feedbacks.items()}
+    survived = {name: found.survived for name, found in flown.items()}
+    largest = {name: found.largest_pitch for name, found in flown.items()}
+    return GustSurvey(sizes, turns, starts, lengths, survived, largest, beats)

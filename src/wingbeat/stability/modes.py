@@ -1,17 +1,28 @@
-"""Modes of a disturbed flight: what grows or decays from beat to beat, how fast, and what moves in it."""
+"""Modes of a disturbed flight: what grows or decays from beat to beat, how fast, and what moves in each.
+
+The disturbances are of (body_pitch, u, w, pitch_rate). Modes are those of the map over a beat, or those of the
+averaged model, whose rates are linear with the mean over the beat of their derivatives.
+"""
 
 from __future__ import annotations
 
 import cmath
 import math
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from wingbeat._base import Report, Reported
+from wingbeat._jax.arrays import jax, jnp
+from wingbeat._jax.exported import exported
+from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
 from wingbeat.orbits.problem.problem import PITCH_STATE
-from wingbeat.stability.linear_report import mode_report
+from wingbeat.stability.reports import mode_report
+
+if TYPE_CHECKING:
+    from wingbeat._jax.arrays import PitchState, RatesByState, Samples
 
 # A multiplier whose imaginary part is below this share of its modulus is real.
 _REAL = 1e-9
@@ -71,14 +82,10 @@ class Mode(Reported):
 def modes_of(monodromy: np.ndarray, frequency: float, transition: np.ndarray, scales: np.ndarray) -> list[Mode]:
     """Return the modes of a map from beat to beat, the fastest growing first.
 
-    Theory: equation ``mode-rates``.
+    `monodromy` is the derivative of the state after a beat by that before it, `transition` the same at equal
+    phases from 0 to 1, shape (K, 4, 4); `scales` are disturbances that count as equally large.
 
-    Parameters
-    ----------
-    monodromy : derivative of (body_pitch, u, w, pitch_rate) after a beat by the same four before it, shape (4, 4).
-    frequency : [Hz].
-    transition : the same derivative at equal phases from 0 to 1, shape (K, 4, 4).
-    scales : disturbances of the four numbers that count as equally large, shape (4,) [rad, m/s, m/s, rad/s].
+    Theory: equation ``mode-rates``.
     """
     multipliers, vectors = np.linalg.eig(monodromy)
     order = np.lexsort((-np.imag(multipliers), -np.round(np.abs(multipliers), 12)))
@@ -125,3 +132,37 @@ def _shares(multiplier: complex, path: np.ndarray, scales: np.ndarray) -> dict[s
     steady = path * np.exp(-decay * np.linspace(0.0, 1.0, len(path)))[:, None]
     sizes = np.abs(steady / scales)[:-1].mean(axis=0)
     return dict(zip(PITCH_STATE, (sizes / sizes.sum()).tolist(), strict=True))
+
+
+@exported
+def _rates_by_state(model: FlightModel, wingbeat: Wingbeat, phase: Samples, path: PitchState) -> RatesByState:
+    """Return the derivatives of the four rates by the four states at each phase, shape (4 states, 4 rates, K)."""
+    motion = motion_table(model, wingbeat, phase)
+
+    def by_state(seed: Any) -> Any:
+        tangent = jnp.broadcast_to(seed[:, None], path.shape)
+        return jax.jvp(lambda state: body_rates(model, motion, state), (path,), (tangent,))[1]
+
+    return jax.vmap(by_state)(jnp.eye(4))
+
+
+def averaged_jacobian(model: FlightModel, wingbeat: Wingbeat, path: np.ndarray) -> np.ndarray:
+    """Return the mean over the beat of the derivatives of the four rates (rows) by the four states, shape (4, 4).
+
+    `path` holds the states at equal phases from 0 to 1, shape (K, 4).
+
+    Theory: equation ``averaged-model``.
+    """
+    phase = np.linspace(0.0, 1.0, len(path))[:-1]
+    return np.asarray(_rates_by_state.bind(model, wingbeat)(phase, path[:-1].T)).mean(axis=-1).T
+
+
+def averaged_modes(rates: np.ndarray, frequency: float, samples: int, scales: np.ndarray) -> list[Mode]:
+    """Return the modes of steady rates whose derivatives by the state are `rates`, shape (4, 4) [per s].
+
+    Theory: equation ``averaged-model``.
+    """
+    from scipy.linalg import expm
+
+    transition = np.stack([expm(rates * phase / frequency) for phase in np.linspace(0.0, 1.0, samples)])
+    return modes_of(transition[-1], frequency, transition, scales)

@@ -1,9 +1,15 @@
-"""Options of the linearisation of a flight."""
+"""All options of stability: of the linearisation, of feedback, of manoeuvres and of many flights at once."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from typing import Any
 
+import numpy as np
+
+from wingbeat._base import SHARES
+from wingbeat.animal.kinematics import ANGLES
 from wingbeat.orbits.options.checks import check_options
 
 
@@ -37,4 +43,166 @@ class LinearOptions:
         check_options(self)
 
 
-DEFAULTS = LinearOptions()
+LINEAR = LinearOptions()
+
+
+@dataclass(frozen=True)
+class FeedbackOptions:
+    """Options of feedback from beat to beat.
+
+    A deviation of the state by its scale costs as much as a change of an input by its unit.
+
+    Parameters
+    ----------
+    z : scale of the height [m].
+    body_pitch : scale [rad].
+    u, w : scales of the velocity, forward and up [m/s].
+    pitch_rate : scale [rad/s].
+    angle : unit of inputs that are angles [rad].
+    frequency : unit of the frequency [Hz].
+    ratio : unit of inputs that are shares or ratios, such as the twist ratio [-].
+    reach : inputs change by at most so many units, if no limits are given [-].
+    least_effect : an input reaches a mode if its unit moves the mode by more than this share of a unit [-].
+    linear : options of the linearisation.
+
+    >>> import wingbeat as wb
+    >>> options = wb.FeedbackOptions(z=0.5)  # pass them on: wb.feedback(orbit, options=options)
+    >>> options.z, options.body_pitch
+    (0.5, 0.1)
+    """
+
+    z: float = 0.2
+    body_pitch: float = 0.1
+    u: float = 1.0
+    w: float = 1.0
+    pitch_rate: float = 2.0
+    angle: float = math.radians(3.0)
+    frequency: float = 0.5
+    ratio: float = 0.05
+    reach: float = 4.0
+    least_effect: float = 1e-6
+    linear: LinearOptions = LINEAR
+
+    def __post_init__(self) -> None:
+        check_options(self)
+
+    def scale(self, state: str) -> float:
+        """Return the scale of a state [m, rad, m/s, rad/s].
+
+        Parameters
+        ----------
+        state : its name.
+        """
+        return getattr(self, state)
+
+    def unit(self, name: str) -> float:
+        """Return the unit of an input [Hz, rad or shares].
+
+        Parameters
+        ----------
+        name : of the input.
+        """
+        if name == "frequency":
+            return self.frequency
+        return self.angle if name in ANGLES and not name.startswith(SHARES) else self.ratio
+
+
+FEEDBACK = FeedbackOptions()
+
+
+@dataclass(frozen=True)
+class ManoeuvreOptions:
+    """Options of manoeuvres from one speed to another.
+
+    Parameters
+    ----------
+    acceleration : mean acceleration for which the number of beats is chosen, if it is not given [m/s2]. From 12 to
+        14 m/s a pigeon can do with 1 m/s2, but not with 2: its frequency would exceed its limit.
+    doublings : if the number of beats is not given and does not suffice, it is doubled at most so many times. From
+        12 to 14 m/s, beats for 2 m/s2 must be doubled once.
+    speed_step : largest step of speed between the steady flights that make the schedule [m/s].
+    iterations : largest number of Gauss-Newton steps of a steady flight and of a transition. Pigeons took 4 to 9.
+    free_steps, caution : after so many steps of a transition, the cost of a step over that of the deviation grows
+        by this factor with each step. Without it, a pigeon from 6 to 16 m/s was not through in 30 steps.
+    largest_step : no step changes an input by more than this many of its units [-].
+    step_tolerance : a search ends when no input changes by more than this many of its units [-].
+    blocks : a beat is flown in this many times 32 steps; the adaptive integrator corrects the end of the beat.
+    corrections : how often the ends of all beats are corrected; each time the misses fall by a factor of 10 or
+        more.
+    defect : a manoeuvre is certified if no beat, flown by the adaptive integrator, misses its end by more than this
+        share of the scales of the state [-].
+    jump : nor is it certified if the wing jumps from beat to beat by more than this [rad or rad/s]. Rounding leaves
+        some 1e-13.
+    smoothness : cost of a change of an input from beat to beat, over the cost of its deviation from the schedule.
+    reach : commands exceed the inputs of the steady flights by at most so many of their units [-]. A pigeon that
+        flies from 6 to 16 m/s and back needs 4.0 with 2 m/s2, and 3.0 with 1 m/s2.
+    feedback : scales of the state and units of the inputs.
+
+    >>> import wingbeat as wb
+    >>> options = wb.ManoeuvreOptions(acceleration=0.5)  # pass them on: wb.manoeuvre(..., options=options)
+    >>> options.acceleration, options.feedback.z
+    (0.5, 0.2)
+    """
+
+    acceleration: float = 1.0
+    doublings: int = 3
+    speed_step: float = 1.0
+    iterations: int = 30
+    free_steps: int = 3
+    caution: float = 3.0
+    largest_step: float = 4.0
+    step_tolerance: float = 1e-8
+    blocks: int = 2
+    corrections: int = 4
+    defect: float = 1e-6
+    jump: float = 1e-9
+    smoothness: float = 10.0
+    reach: float = 6.0
+    feedback: FeedbackOptions = FEEDBACK
+
+    def __post_init__(self) -> None:
+        check_options(self)
+
+
+MANOEUVRE = ManoeuvreOptions()
+
+
+@dataclass(frozen=True)
+class ManyOptions:
+    """Options of many flights at once.
+
+    Parameters
+    ----------
+    steps : Runge-Kutta steps of a beat.
+    air_samples : places in a beat at which the velocity of the air is tabulated; cubics give it between.
+    lanes : flights that are computed at once.
+    tilt : a flight is lost if its body pitch differs by more than this from the orbit's at the same phase [rad].
+    loss : a flight is lost if it is more than this below the orbit's path at a top of the stroke [m].
+
+    >>> import math, wingbeat as wb
+    >>> options = wb.ManyOptions(tilt=math.radians(45))  # pass them on: wb.simulate_many(..., options=options)
+    >>> round(options.tilt, 3), options.loss
+    (0.785, 5.0)
+    """
+
+    steps: int = 64
+    air_samples: int = 64
+    lanes: int = 256
+    tilt: float = math.radians(60.0)
+    loss: float = 5.0
+
+    def __post_init__(self) -> None:
+        check_options(self)
+
+    def keeps(self, largest_pitch: float | np.ndarray, lowest: float | np.ndarray) -> Any:
+        """Return whether flights are not lost; False for numbers that are not finite.
+
+        Parameters
+        ----------
+        largest_pitch : largest deviations of the body pitch from the orbit's [rad].
+        lowest : least heights above the orbit's path [m].
+        """
+        return np.less_equal(largest_pitch, self.tilt) & np.greater_equal(lowest, -self.loss)
+
+
+MANY = ManyOptions()

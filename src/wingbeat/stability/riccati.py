@@ -191,6 +191,15 @@ def gains_along(
     return np.array(gains[::-1])
 
 
+def multipliers_over(maps: Sequence[np.ndarray]) -> np.ndarray:
+    """Return the multipliers of maps that follow each other in a beat, the largest first."""
+    whole = np.eye(len(maps[0]))
+    for one in maps:
+        whole = one @ whole
+    found = np.linalg.eigvals(whole)
+    return found[np.argsort(-np.abs(found), kind="stable")]
+
+
 def closed_loop(A: np.ndarray, B: np.ndarray, gains: np.ndarray, delay: int, late: int = 0) -> np.ndarray:
     """Return the map of the state and all pending inputs with feedback.
 

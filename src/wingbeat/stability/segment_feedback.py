@@ -8,6 +8,7 @@ is a change of the mean by b/2 and of the cosine of order M by -b/2, so it needs
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,14 +19,16 @@ from wingbeat.mechanics.beat_by_beat import air_at, check_wind
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import air_phases, fly_through
 from wingbeat.orbits.flight.shooting import flier
+from wingbeat.orbits.problem.problem import PITCH_STATE
 from wingbeat.orbits.status import Status
-from wingbeat.results.orbit import Orbit
-from wingbeat.stability.feedback_options import DEFAULTS, FeedbackOptions
-from wingbeat.stability.riccati import periodic_linear_quadratic
+from wingbeat.stability.options import FEEDBACK, FeedbackOptions
+from wingbeat.stability.riccati import multipliers_over, periodic_linear_quadratic
+
+if TYPE_CHECKING:
+    from wingbeat.results.orbit import Orbit
 
 _LAWS = ("flap", "pitch")
-_STATE = ("z", "body_pitch", "u", "w", "pitch_rate")
-_SAMPLES = 8
+_SAMPLES = 8  # of a segment, between which the adaptive integrator flies
 
 
 @dataclass(frozen=True)
@@ -81,11 +84,7 @@ class SegmentFeedback:
     @property
     def multipliers(self) -> np.ndarray:
         """Multipliers of a beat with feedback, the largest first."""
-        whole = np.eye(len(_STATE))
-        for by_state, by_bumps, gains in zip(self.A, self.B, self.gains, strict=True):
-            whole = (by_state - by_bumps @ gains) @ whole
-        found = np.linalg.eigvals(whole)
-        return found[np.argsort(-np.abs(found), kind="stable")]
+        return multipliers_over([A - B @ K for A, B, K in zip(self.A, self.B, self.gains, strict=True)])
 
     @property
     def spectral_radius(self) -> float:
@@ -123,7 +122,7 @@ class SegmentFeedback:
         model, period = self.orbit.problem.model, 1.0 / self.orbit.wingbeat.frequency
         state, start = np.array(self.orbit.initial_state, dtype=float), self.orbit.initial_state
         climb, count = float(self.orbit.inputs["climb"]) * period, len(self.gains)
-        states, deviations, bumps = [state], [np.zeros(len(_STATE))], []
+        states, deviations, bumps = [state], [np.zeros(5)], []
         for beat in range(beats):
             table = air_at(wind, period * (beat + air_phases()))
             raised = np.array([float(start.z) + climb * beat, 0.0, 0.0, 0.0, 0.0])
@@ -139,7 +138,7 @@ class SegmentFeedback:
         return SegmentFlight(np.stack(states), np.stack(deviations), np.stack(bumps))
 
 
-def feedback_in_beat(orbit: Orbit, segments: int = 4, *, options: FeedbackOptions = DEFAULTS) -> SegmentFeedback:
+def feedback_in_beat(orbit: Orbit, segments: int = 4, *, options: FeedbackOptions = FEEDBACK) -> SegmentFeedback:
     """Compute the linear feedback that holds an orbit by bumps of flap and pitch several times a beat.
 
     Parameters
@@ -166,7 +165,7 @@ def feedback_in_beat(orbit: Orbit, segments: int = 4, *, options: FeedbackOption
     faults.whole("segments", segments, 2, HIGHEST_ORDER, "4 for example")
     faults.raise_if_any()
     phases, path, by_state, by_bumps = _segment_maps(orbit, segments, options.linear.blocks)
-    scales = np.array([options.scale(name) for name in _STATE])
+    scales = np.array([options.scale(name) for name in ("z", *PITCH_STATE)])
     costs = np.diag(1.0 / scales**2), np.eye(len(_LAWS)) / options.angle**2
     gains = periodic_linear_quadratic(by_state, by_bumps, *costs)
     return SegmentFeedback(orbit, phases, path, by_state, by_bumps, gains, options.reach * options.angle)
@@ -176,10 +175,6 @@ def bump_parameters(segments: int) -> tuple[tuple[str, ...], np.ndarray]:
     """Return the parameters that make bumps, and the change of each by bumps of flap and pitch, (names, 2).
 
     Theory: equation ``bump``.
-
-    Parameters
-    ----------
-    segments : of a beat.
     """
     names = tuple(name for law in _LAWS for name in (f"{law}_mean", f"{law}_cos_{segments}"))
     return names, np.kron(np.eye(len(_LAWS)), [[0.5], [-0.5]])

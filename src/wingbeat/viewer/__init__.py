@@ -9,10 +9,8 @@
 1
 """
 
-from wingbeat.viewer.animation import animate
-from wingbeat.viewer.page import bundle_path, write_page
-from wingbeat.viewer.pushes import Push
-from wingbeat.viewer.scene import scene
+from wingbeat.viewer.page import animate, bundle_path, write_page
+from wingbeat.viewer.scene import Push, scene
 
 __all__ = ["Push", "animate", "bundle_path", "scene", "write_page"]
 

@@ -1,8 +1,12 @@
-"""How the animal of a flight looks: outline of the wing, body and colours, for the drawings alone."""
+"""How the animal of a flight looks: outline of the wing, body and colours, for the drawings alone.
+
+The model has no shape of body and tail: drawn are an ellipsoid and a triangle.
+"""
 
 from __future__ import annotations
 
 import json
+import math
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -11,7 +15,6 @@ from wingbeat._base import SHAPE
 from wingbeat._base.style import SCHEMATIC
 from wingbeat.animal.species.numbers import COLOURS, EXTREMITIES, TRUNK
 from wingbeat.animal.vehicle import Body, Tail, Wing
-from wingbeat.viewer.shape import body_axes, tail_corners
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -43,18 +46,6 @@ def look_of(dataset: xr.Dataset) -> dict[str, Any]:
     ``leading`` is the distance of the leading edge ahead of the pitch axis, ``trailing`` that of the trailing edge
     behind it; a swept tip lies behind the axis, where ``leading`` is negative. A flight that does not carry the
     shape of its species gets a schematic one from the numbers of its vehicle.
-
-    Parameters
-    ----------
-    dataset : of an orbit or a flight.
-
-    >>> import wingbeat as wb
-    >>> pigeon = wb.load_species("pigeon")
-    >>> model = wb.FlightModel(pigeon.vehicle, "su-fan")
-    >>> flight = wb.simulate(model, pigeon.wingbeat, wb.State(u=10.0), species=pigeon)
-    >>> shape = look_of(flight.dataset)
-    >>> shape["kind"], shape["cover"], round(shape["body"]["tail_length"], 3)
-    ('bird', 'feathers', 0.105)
     """
     vehicle, beat = (json.loads(dataset.attrs[name]) for name in ("vehicle", "wingbeat"))
     known = json.loads(dataset.attrs.get(SHAPE, "{}"))
@@ -116,3 +107,42 @@ def _chord(plan: _Plan, wing: Wing) -> np.ndarray:
         return np.interp(place, np.linspace(0.0, 1.0, len(wing.chord)), wing.chord)
     outline = (1.0 - plan.taper * place) * np.sqrt(1.0 - place**plan.rounding)
     return wing.mean_chord / float(np.trapezoid(outline, place)) * outline
+
+
+_WATER = 1000.0  # kg/m3, the density that makes an ellipsoid of the body's mass and inertia
+
+
+def body_axes(body: Body) -> tuple[float, float]:
+    """Return half length and half depth [m] of a spheroid of water with the body's mass and pitch inertia.
+
+    The model contains no shape of the body; this is a guess for drawings. If the body is too compact for such a
+    spheroid, it is drawn as a sphere.
+
+    >>> half_length, half_depth = body_axes(Body(mass=0.276, pitch_inertia=3.6e-4))
+    >>> round(half_length, 3), round(half_depth, 3)
+    (0.075, 0.03)
+    """
+    volume = 3 * body.mass / (4 * math.pi * _WATER)
+    squares = 5 * body.pitch_inertia / body.mass
+    # The half length a solves a^2 + volume/a = squares; the largest root is that of a long body.
+    roots = np.roots([1.0, 0.0, -squares, volume])
+    long = max((r.real for r in roots if abs(r.imag) < 1e-12 and r.real > 0), default=volume ** (1 / 3))
+    return float(long), math.sqrt(volume / float(long))
+
+
+def tail_corners(tail: Tail, tilt: float = 0.0) -> np.ndarray:
+    """Return root, left and right corner of a tail in body axes (forward, left, up), shape (3, 3) [m].
+
+    The triangle has the tail's area and incidence, and its centre of area is the tail's aerodynamic centre. Its
+    aspect ratio is that of a slender tail with the same lift slope: ``2/pi`` times the slope.
+
+    >>> corners = tail_corners(Tail(area=0.0064, arm=0.16, lift_slope=math.pi))
+    >>> [round(float(x), 3) for x in corners[:, 0]], round(float(corners[1, 1]), 3)
+    ([-0.085, -0.198, -0.198], 0.057)
+    """
+    half_width = 0.5 * math.sqrt(2.0 / math.pi * tail.lift_slope * tail.area)
+    length, lifted = tail.area / half_width, tail.incidence + tilt
+    chord = np.array([math.cos(lifted), 0.0, math.sin(lifted)])
+    centre, left = np.array([-tail.arm, 0.0, tail.height]), np.array([0.0, half_width, 0.0])
+    back = centre - length / 3.0 * chord
+    return np.stack([centre + 2.0 * length / 3.0 * chord, back + left, back - left])

@@ -5,17 +5,15 @@ from __future__ import annotations
 import base64
 import json
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from wingbeat._base import KIND, NOMENCLATURE, FaultList, FileError, climb_text, for_people
 from wingbeat._base.datasets import downstrokes, flown
+from wingbeat.aero.closed_forms import body_drag, disc_area, induced_flow
 from wingbeat.animal.vehicle import Tail
-from wingbeat.viewer.look import look_of
-from wingbeat.viewer.pushes import Push
-from wingbeat.viewer.shape import tail_corners
-from wingbeat.viewer.wake import wake_of
+from wingbeat.viewer.look import look_of, tail_corners
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -193,11 +191,7 @@ def strip_loads(dataset: xr.Dataset) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _arrays(dataset: xr.Dataset) -> dict[str, tuple[np.ndarray, str]]:
-    """Return the moving arrays with their number types, in SI units.
-
-    Single precision suffices for positions about the body and for series. The body's place is double: positions
-    in the world are sums with it.
-    """
+    """Return the moving arrays with their number types, in SI units."""
     known = dataset.variables
     place = np.stack([known["x"].values, np.zeros(dataset.sizes["phase"]), known["z"].values], axis=-1)
     lift, drag = strip_loads(dataset)
@@ -215,14 +209,60 @@ def _arrays(dataset: xr.Dataset) -> dict[str, tuple[np.ndarray, str]]:
 
 
 def packed(values: np.ndarray, kind: str) -> dict[str, str]:
-    """Return an array as a scene holds it.
-
-    Parameters
-    ----------
-    values : flat in the page, in the order of their memory.
-    kind : ``"f4"`` or ``"f8"``, the bytes of each number.
+    """Return an array as a scene holds it, flat in the order of memory; its numbers are ``"f4"`` or ``"f8"``.
 
     >>> packed(np.array([1.0]), "f4")
     {'kind': 'f4', 'data': 'AACAPw=='}
     """
     return {"kind": kind, "data": base64.b64encode(values.astype(f"<{kind}").tobytes()).decode()}
+
+
+def wake_of(dataset: xr.Dataset) -> dict[str, list[float]] | None:
+    """Return the induced velocity that the air loads of a saved orbit contain; None if they contain none.
+
+    A simulated flight has None too: its file does not say which air loads it was flown with. The values of
+    ``induced`` are forward and up [m/s], as at the wings; the far wake of an ideal disc moves twice as fast.
+
+    >>> import xarray as xr
+    >>> wake_of(xr.Dataset(attrs={"aero": '{"coefficients": "su-fan"}'})) is None
+    True
+    """
+    aero = json.loads(dataset.attrs.get("aero", "{}"))
+    if aero.get("inflow", "none") == "none":
+        return None
+    vehicle, air = (json.loads(dataset.attrs[name]) for name in ("vehicle", "air"))
+    body, wing = vehicle["body"], vehicle["wing"]
+    velocity = dataset.attrs["speed"], dataset.attrs["climb"]
+    drag = body_drag(body["drag_area"], air["density"], velocity, np)
+    force = -drag[0], (body["mass"] + 2 * wing["mass"]) * air["gravity"] - drag[1]
+    factor = aero.get("share", 1.0) * aero["induced_factor"]
+    flow = induced_flow(air["density"], disc_area(wing["semi_span"]), factor, force, velocity)
+    return {"induced": [float(part) for part in flow]}
+
+
+class Push(NamedTuple):
+    """A flight that begins on an orbit and meets a gust.
+
+    Attributes
+    ----------
+    direction : of the gust, in words.
+    size : largest velocity of the gust [m/s].
+    feedback : whether feedback changes the wingbeat.
+    outcome : how the flight ends, in words.
+    dataset : time series of the flight, until it is lost.
+    pitch : body pitch less that of the orbit at the same phase [rad], shape (K,).
+    height : height above the path of the orbit [m], shape (K,).
+    """
+
+    direction: str
+    size: float
+    feedback: bool
+    outcome: str
+    dataset: xr.Dataset
+    pitch: np.ndarray
+    height: np.ndarray
+
+    @property
+    def label(self) -> str:
+        """What is flown, in words."""
+        return f"{self.direction} gust of {self.size:g} m/s, {'with' if self.feedback else 'without'} feedback"

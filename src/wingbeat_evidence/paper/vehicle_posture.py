@@ -16,7 +16,7 @@ from wingbeat.mechanics.wing_motion import air_chord, strips_of, twist_factors
 from wingbeat.mechanics.wing_points import corners_of, wing_points
 from wingbeat.records.flight_dataset import evaluate
 from wingbeat.results.orbit import Orbit
-from wingbeat.viewer.shape import body_axes
+from wingbeat.viewer.look import body_axes
 from wingbeat_evidence.paper.treatments import MODELS, SAMPLE_SPEED
 
 

@@ -1,22 +1,28 @@
-"""Flights through gusts from four sides, with and without feedback, for the viewer: `fly_pushes`."""
+"""Single flights through a gust, with and without feedback: `fly_gust`, and `fly_pushes` for the viewer."""
 
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from wingbeat._base import FaultList
-from wingbeat.aero.winds import CosineGust
-from wingbeat.orbits.solve import Progress
+from wingbeat.aero.winds import CosineGust, Wind
+from wingbeat.orbits.problem.problem import PITCH_STATE
 from wingbeat.orbits.status import Status
-from wingbeat.results.orbit import Orbit
-from wingbeat.stability.feedback import Feedback, feedback
-from wingbeat.stability.gust_flight import SAMPLES, GustFlight, fly_gust
-from wingbeat.stability.many_options import DEFAULTS, ManyOptions
-from wingbeat.viewer.pushes import Push
+from wingbeat.results.flight import Flight, simulate
+from wingbeat.stability.beat_feedback import Feedback, feedback
+from wingbeat.stability.options import FEEDBACK, MANY, ManyOptions
+from wingbeat.viewer.scene import Push
 
+if TYPE_CHECKING:
+    from wingbeat.orbits.solve import Progress
+    from wingbeat.results.orbit import Orbit
+
+SAMPLES = 64  # in each beat
 # The air's velocity of each gust, forward and up, over the size of the gust.
 DIRECTIONS = {"upward": (0.0, 1.0), "downward": (0.0, -1.0), "head": (-1.0, 0.0), "tail": (1.0, 0.0)}
 SIZES = (1.0, 3.0)  # [m/s]
@@ -24,11 +30,83 @@ _LASTS = 2  # beats that a gust lasts
 _EVERY = 4  # of the samples of a flight, the page gets each fourth one: 16 in a beat
 
 
+@dataclass(frozen=True)
+class GustFlight:
+    """A flight through a wind, and the orbit on which it began.
+
+    Attributes
+    ----------
+    flight : the flight.
+    pitch : deviation of the body pitch from the orbit's at the same phase [rad], shape (K,).
+    height : height above the orbit's path at the tops of the stroke [m], shape (beats + 1,).
+    changes : of the inputs in each beat, shape (beats, inputs) [Hz, rad or shares].
+    survived : as in `ManyFlights`.
+    settled : beats after which attitude and velocities at the top of the stroke stay within half a scale of
+        `FeedbackOptions`; None if they do not.
+    """
+
+    flight: Flight
+    pitch: np.ndarray
+    height: np.ndarray
+    changes: np.ndarray
+    survived: bool
+    settled: int | None
+
+    def record(self) -> dict[str, Any]:
+        """Return the numbers as a JSON-able dictionary [m, rad]; None after the integrator gave up."""
+
+        def finite(value: float) -> float | None:
+            return float(value) if np.isfinite(value) else None
+
+        return {
+            "completed": self.flight.completed,
+            "survived": self.survived,
+            "largest_pitch": finite(np.abs(self.pitch).max()),
+            "lowest": finite(self.height.min()),
+            "highest": finite(self.height.max()),
+            "settled_beats": self.settled,
+        }
+
+
+def fly_gust(
+    orbit: Orbit,
+    wind: Wind | tuple[float, float],
+    beats: int = 30,
+    *,
+    feedback: Feedback | None = None,
+    late: int = 0,
+    noise: Mapping[str, float] | None = None,
+    seed: int = 0,
+    options: ManyOptions = MANY,
+) -> GustFlight:
+    """Fly an orbit through a wind with the adaptive integrator; arguments are those of `simulate_many`."""
+    controller = None if feedback is None else feedback.controller(noise, seed, late=late)
+    model, beat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
+    species = orbit.problem.species
+    flown = simulate(model, beat, start, beats, SAMPLES, wind=wind, controller=controller, species=species)
+    path = simulate(model, beat, start, 1, SAMPLES).states[:-1, 2]
+    pitch = flown.states[:, 2] - np.append(np.tile(path, beats), path[0])
+    tops = flown.states[::SAMPLES]
+    height = tops[:, 1] - float(start.z) - float(orbit.inputs["climb"]) * flown.time[::SAMPLES]
+    kept = bool(options.keeps(np.abs(pitch).max(), height.min()))
+    changes = np.zeros((beats, 0)) if controller is None else np.array(controller.commands)
+    return GustFlight(flown, pitch, height, changes, flown.completed and kept, _settled(tops, orbit))
+
+
+def _settled(tops: np.ndarray, orbit: Orbit) -> int | None:
+    scales = np.array([FEEDBACK.scale(name) for name in PITCH_STATE])
+    away = np.abs((tops[:, 2:] - np.array(orbit.initial_state, dtype=float)[2:]) / scales).max(axis=1)
+    unsettled = np.flatnonzero(~(away < 0.5))
+    if not len(unsettled):
+        return 0
+    return int(unsettled[-1]) + 1 if unsettled[-1] + 1 < len(tops) else None
+
+
 def fly_pushes(
     orbit: Orbit,
     delay: int | None = 0,
     beats: int = 16,
-    options: ManyOptions = DEFAULTS,
+    options: ManyOptions = MANY,
     directions: Sequence[str] = tuple(DIRECTIONS),
     sizes: Sequence[float] = SIZES,
     progress: Progress | None = None,

@@ -1,40 +1,52 @@
-"""Manoeuvres from one speed to others: `manoeuvre` and the class `Manoeuvre`."""
+"""Manoeuvres from one speed to others, and the controller that flies them: `manoeuvre`."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, __version__
+from wingbeat._base import FaultList, Report, Reported, __version__
 from wingbeat.aero.winds import Wind
-from wingbeat.animal.kinematics import parameter
+from wingbeat.animal.kinematics import Wingbeat, parameter
+from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.problem.problem import SPEED_LIMITS
 from wingbeat.orbits.status import Status
+from wingbeat.plots.draw_stability import manoeuvre_page
 from wingbeat.records.tables import finite_or_none
 from wingbeat.results.flight import Flight, simulate
-from wingbeat.results.orbit import Orbit
-from wingbeat.stability.beat_map import BeatMap
-from wingbeat.stability.command_limits import ALLOWED
-from wingbeat.stability.feedback_checks import check_delay
-from wingbeat.stability.manoeuvre_controller import ManoeuvreController
-from wingbeat.stability.manoeuvre_options import DEFAULTS, ManoeuvreOptions
-from wingbeat.stability.manoeuvre_report import ReportedManoeuvre
+from wingbeat.stability.checks import ALLOWED, check_delay
+from wingbeat.stability.inputs import top_of
+from wingbeat.stability.manoeuvre_search import (
+    BeatMap,
+    Road,
+    SteadyFlight,
+    Transition,
+    road_back,
+    road_to,
+    scales_of,
+    schedule,
+    steady_start,
+    transition,
+)
+from wingbeat.stability.options import MANOEUVRE, ManoeuvreOptions
+from wingbeat.stability.reports import manoeuvre_report
 from wingbeat.stability.riccati import gains_along
-from wingbeat.stability.smooth_commands import top_of
-from wingbeat.stability.speed_schedule import Road, road_back, road_to, schedule, steady_start
-from wingbeat.stability.steady_flight import SteadyFlight, scales_of
-from wingbeat.stability.transition import Transition, transition
 
-Progress = Callable[[int, int], None]
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from wingbeat.orbits.solve import Progress
+    from wingbeat.results.orbit import Orbit
+
 _MOST_BEATS = 300  # the matrix of more takes a gigabyte
 
 
 @dataclass(frozen=True)
-class Manoeuvre(ReportedManoeuvre):
+class Manoeuvre(Reported):
     """A flight from an orbit to steady flights at other speeds, beat by beat; made by `manoeuvre`.
 
     Attributes
@@ -117,16 +129,22 @@ class Manoeuvre(ReportedManoeuvre):
         feedback : whether the wingbeat reacts to the state.
         after : number of beats after the manoeuvre.
         """
-        orbit = self.beat_map.orbit
-        return simulate(
-            orbit.problem.model,
-            orbit.wingbeat,
-            orbit.initial_state,
-            len(self.changes) + after,
-            wind=wind,
-            controller=self.controller(feedback),
-            species=orbit.problem.species,
-        )
+        orbit, beats = self.beat_map.orbit, len(self.changes) + after
+        start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
+        hold, species = self.controller(feedback), orbit.problem.species
+        return simulate(*start, beats, wind=wind, controller=hold, species=species)
+
+    def _report(self) -> Report:
+        return manoeuvre_report(self.record())
+
+    def plot(self, flights: Mapping[str, Flight] | None = None) -> Figure:
+        """Return a figure of the plan and of flights of it.
+
+        Parameters
+        ----------
+        flights : of `fly`, by names, at most three. Default: the flight with feedback in still air.
+        """
+        return manoeuvre_page(self, {"with feedback": self.fly()} if flights is None else flights)
 
     def record(self) -> dict[str, Any]:
         """Return the numbers as a JSON-able dictionary in SI units and radians; None for missing values."""
@@ -168,6 +186,61 @@ class Manoeuvre(ReportedManoeuvre):
         )
 
 
+class ManoeuvreController:
+    """A function of the beats flown and the state at the top of the stroke that returns the next wingbeat.
+
+    It may fly one flight after another. After the last beat of the manoeuvre it holds the last steady flight.
+
+    Theory: equation ``manoeuvre-law``.
+
+    Attributes
+    ----------
+    manoeuvre : the manoeuvre that it flies.
+    feedback : whether it reacts to the state; if not, it plays the commands.
+    commands : changes of the inputs in each beat so far, each of shape (inputs,) [Hz, rad or shares].
+    """
+
+    def __init__(self, manoeuvre: Manoeuvre, feedback: bool) -> None:
+        self.manoeuvre, self.feedback = manoeuvre, feedback
+        self.commands: list[np.ndarray] = []
+        self._ground = self._time = 0.0
+        self._waiting: list[np.ndarray] = []  # corrections that do not act yet, the oldest first
+
+    def __call__(self, beats: int, state: State) -> Wingbeat:
+        """Return the wingbeat of the next beat.
+
+        Parameters
+        ----------
+        beats : number of beats flown.
+        state : at the top of the stroke [m, rad, m/s, rad/s].
+        """
+        plan = self.manoeuvre
+        if beats == 0:
+            self.commands, self._ground, self._time = [], float(state.z), 0.0
+            self._waiting = [np.zeros(len(plan.inputs))] * plan.delay
+        at = min(beats, len(plan.changes))
+        planned = self._planned(beats)
+        if self.feedback:
+            height = float(state.z) - self._ground - plan.beat_map.climb * self._time
+            deviation = np.concatenate([[height], np.array(state, dtype=float)[2:]]) - plan.states[at]
+            correction = -plan.gains[at] @ np.concatenate([deviation, *self._waiting])
+            then = self._planned(beats + plan.delay)
+            correction = np.clip(then + correction, plan.lower, plan.upper) - then
+            if not np.isfinite(correction).all():  # the vehicle has tumbled
+                correction = np.zeros_like(then)
+            self._waiting.append(correction)
+            planned = planned + self._waiting.pop(0)
+        self.commands.append(planned)
+        wingbeat = plan.beat_map.wingbeat(planned)
+        self._time += 1.0 / wingbeat.frequency
+        return wingbeat
+
+    def _planned(self, beats: int) -> np.ndarray:
+        """Return the planned changes of a beat."""
+        plan = self.manoeuvre
+        return plan.changes[beats] if beats < len(plan.changes) else plan.ends[-1].changes
+
+
 def manoeuvre(
     orbit: Orbit,
     speeds: Sequence[float],
@@ -176,7 +249,7 @@ def manoeuvre(
     inputs: Sequence[str] | None = None,
     delay: int = 0,
     progress: Progress | None = None,
-    options: ManoeuvreOptions = DEFAULTS,
+    options: ManoeuvreOptions = MANOEUVRE,
 ) -> Manoeuvre:
     """Find the beats that lead from an orbit to steady flights at other speeds, one after the other.
 
@@ -262,7 +335,10 @@ def _leg(
     """Return the beats along a road; if their number is not given, twice as many as long as they do not suffice."""
     units = scales_of(beat_map, options)[1]
     lower, upper = _limits(beat_map, tuple(ends), units, options)
-    count = beats or _first_count(road, options)
+    first, last = road.flights[0], road.flights[-1]
+    seconds = abs(last.speed - first.speed) / options.acceleration
+    count = min(max(math.ceil(seconds * 0.5 * (first.frequency + last.frequency)), 5), _MOST_BEATS)
+    count = beats or count
     for _ in range(options.doublings):
         chain = transition(beat_map, *schedule(road.flights, count), options)
         enough = chain.converged and chain.defect <= options.defect
@@ -270,12 +346,6 @@ def _leg(
             return chain
         count = min(2 * count, _MOST_BEATS)
     return transition(beat_map, *schedule(road.flights, count), options)
-
-
-def _first_count(road: Road, options: ManoeuvreOptions) -> int:
-    here, there = road.flights[0], road.flights[-1]
-    seconds = abs(there.speed - here.speed) / options.acceleration
-    return min(max(math.ceil(seconds * 0.5 * (here.frequency + there.frequency)), 5), _MOST_BEATS)
 
 
 def _joined(

@@ -1,33 +1,35 @@
-"""Feedback from beat to beat that holds an orbit: `feedback`."""
+"""Feedback from beat to beat that holds an orbit, and the controller that flies it: `feedback`."""
 
 from __future__ import annotations
 
 import functools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from wingbeat._base import FaultList, Report, Reported, __version__
 from wingbeat.animal.kinematics import Wingbeat, parameter
-from wingbeat.results.orbit import Orbit
-from wingbeat.stability.command_limits import command_limits
-from wingbeat.stability.feedback_checks import check_delay, check_late, noise_of, weights_of
-from wingbeat.stability.feedback_controller import FeedbackController
-from wingbeat.stability.feedback_options import DEFAULTS, FeedbackOptions
-from wingbeat.stability.feedback_report import feedback_report
+from wingbeat.mechanics.flight_model import State
+from wingbeat.stability.checks import check_delay, check_late, command_limits, noise_of, weights_of
+from wingbeat.stability.inputs import Smoother, changed_wingbeat, smoother
 from wingbeat.stability.linear_flight import LinearFlight, linearise
+from wingbeat.stability.options import FEEDBACK, FeedbackOptions
+from wingbeat.stability.reports import feedback_report
 from wingbeat.stability.riccati import (
     Reach,
     check_reach,
     closed_loop,
     delayed,
     linear_quadratic,
+    multipliers_over,
     reaches,
     sufficient,
 )
-from wingbeat.stability.smooth_commands import Smoother, changed_wingbeat, smoother
+
+if TYPE_CHECKING:
+    from wingbeat.results.orbit import Orbit
 
 
 @dataclass(frozen=True)
@@ -103,9 +105,7 @@ class Feedback(Reported):
         faults = FaultList()
         check_late(faults, late)
         faults.raise_if_any()
-        held = closed_loop(*_deviation_map(self.flight), self.gains, self.delay, late)
-        found = np.linalg.eigvals(held)
-        return found[np.argsort(-np.abs(found), kind="stable")]
+        return multipliers_over([closed_loop(*_deviation_map(self.flight), self.gains, self.delay, late)])
 
     @functools.cached_property
     def smoother(self) -> Smoother:
@@ -180,16 +180,78 @@ class Feedback(Reported):
                 "spectral_radius": flight.spectral_radius,
             },
             "controllability": [
-                {
-                    "kind": mode.kind,
-                    "multiplier": [mode.multiplier.real, mode.multiplier.imag],
-                    "effects": mode.effects,
-                }
-                for mode in self.controllability
+                {"kind": m.kind, "multiplier": [m.multiplier.real, m.multiplier.imag], "effects": m.effects}
+                for m in self.controllability
             ],
             "sufficient": list(self.sufficient),
             "version": __version__,
         }
+
+
+class FeedbackController:
+    """A function of the beats flown and the state at the top of the stroke that returns the next wingbeat.
+
+    It may fly one flight after another: at its first beat it forgets the flight before. The height is measured
+    from the start, relative to the path that climbs as the orbit does; the distance x is not used.
+
+    Theory: equation ``feedback-law``.
+
+    Attributes
+    ----------
+    feedback : the feedback that it flies.
+    late : beats of delay in addition to the delay for which the feedback was computed.
+    noise : standard deviations of what is measured of the state, shape (5,) [m, rad, m/s, m/s, rad/s].
+    seed : of the noise.
+    commands : inputs of each beat so far, as they act, each of shape (inputs,) [Hz, rad or shares].
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> hold = wb.feedback(orbit).controller()
+    >>> flown = wb.simulate(orbit.problem.model, orbit.wingbeat, orbit.initial_state, beats=3, controller=hold)
+    >>> flown.completed, len(hold.commands)
+    (True, 3)
+    """
+
+    def __init__(self, feedback: Feedback, late: int, noise: np.ndarray, seed: int) -> None:
+        self.feedback, self.late, self.noise, self.seed = feedback, late, noise, seed
+        self.commands: list[np.ndarray] = []
+        self._begin(State())
+
+    def _begin(self, state: State) -> None:
+        self.commands = []
+        waiting = self.feedback.delay + self.late
+        self._waiting = [np.zeros(len(self.feedback.inputs)) for _ in range(waiting)]  # the oldest first
+        self._random = np.random.default_rng(self.seed)
+        self._ground, self._time = float(state.z), 0.0
+
+    def __call__(self, beats: int, state: State) -> Wingbeat:
+        """Return the wingbeat of the next beat.
+
+        Parameters
+        ----------
+        beats : number of beats flown.
+        state : at the top of the stroke [m, rad, m/s, rad/s].
+        """
+        if beats == 0:
+            self._begin(state)
+        feedback = self.feedback
+        deviation = self._deviation(state) + self.noise * self._random.standard_normal(len(self.noise))
+        known = np.concatenate([deviation, *self._waiting[self.late :]])
+        command = np.clip(-feedback.gains @ known, feedback.lower, feedback.upper)
+        if not np.isfinite(command).all():  # the vehicle has tumbled
+            command = np.zeros_like(command)
+        self._waiting.append(command)
+        acting = self._waiting.pop(0)
+        self.commands.append(acting)
+        wingbeat = feedback.wingbeat(acting)
+        self._time += 1.0 / wingbeat.frequency
+        return wingbeat
+
+    def _deviation(self, state: State) -> np.ndarray:
+        orbit = self.feedback.flight.orbit
+        height = float(state.z) - self._ground - float(orbit.inputs["climb"]) * self._time
+        pitch_state = np.array(state, dtype=float)[2:] - np.array(orbit.initial_state, dtype=float)[2:]
+        return np.concatenate([[height], pitch_state])
 
 
 def feedback(
@@ -199,7 +261,7 @@ def feedback(
     delay: int = 0,
     weights: Mapping[str, float] | None = None,
     limits: Mapping[str, float] | None = None,
-    options: FeedbackOptions = DEFAULTS,
+    options: FeedbackOptions = FEEDBACK,
 ) -> Feedback:
     """Compute the linear feedback that holds an orbit by changes of the wingbeat from beat to beat.
 
@@ -249,7 +311,8 @@ def feedback(
     scales = np.array([options.scale(name) for name in flight.state])
     units = np.array([options.unit(name) for name in names])
     A, B = _deviation_map(flight)
-    modes = reaches(A * scales / scales[:, None], B * units / scales[:, None], names, _kinds(flight))
+    kinds = {1.0 + 0.0j: "height"} | {mode.multiplier: mode.kind for mode in flight.modes}
+    modes = reaches(A * scales / scales[:, None], B * units / scales[:, None], names, kinds)
     check_reach(faults, modes, names, options.least_effect)
     faults.raise_if_any()
     order, count = len(scales), len(names)
@@ -268,7 +331,3 @@ def _deviation_map(flight: LinearFlight) -> tuple[np.ndarray, np.ndarray]:
             float(flight.orbit.inputs["climb"]) / float(parameter(flight.orbit.wingbeat, "frequency")) ** 2
         )
     return flight.A, by_inputs
-
-
-def _kinds(flight: LinearFlight) -> dict[complex, str]:
-    return {1.0 + 0.0j: "height"} | {mode.multiplier: mode.kind for mode in flight.modes}

@@ -1,0 +1,176 @@
+"""What the results of stability say to a reader: blocks of reports, each from the `record` of a result."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from wingbeat._base import Line, Report, Row, Table, grouped
+from wingbeat.animal.kinematics import ANGLES
+
+# What moves in a mode, as pages and screens name it.
+MOVING = {"body_pitch": "body pitch", "u": "u", "w": "w", "pitch_rate": "pitch rate"}
+# How the state is shown: label, and the size of the unit in SI units.
+STATE_UNITS = {
+    "z": ("z [m]", 1.0),
+    "body_pitch": ("pitch [deg]", math.radians(1.0)),
+    "u": ("u [m/s]", 1.0),
+    "w": ("w [m/s]", 1.0),
+    "pitch_rate": ("rate [deg/s]", math.radians(1.0)),
+}
+# Parameters of `causes_report`.
+_MOST = 10
+
+
+def linear_report(record: dict[str, Any]) -> Report:
+    """Return the verdict, the numbers of each mode, and the verdict of the averaged model."""
+    modes = [block for mode in record["modes"] for block in mode_report(mode)]
+    return [Line(headline(record), wraps=False), *modes, Line(""), Line(_averaged(record), wraps=False)]
+
+
+def mode_report(mode: dict[str, Any]) -> Report:
+    """Return the numbers of a mode under its kind."""
+    return [grouped({mode["kind"]: _rows(mode)})._replace(label_width=0)]
+
+
+def headline(record: dict[str, Any]) -> str:
+    """Return the verdict on one orbit in a line."""
+    where = f"{record['species']} at {record['speed']:g} m/s, {record['frequency']:.4g} Hz"
+    seconds = record["modes"][0]["time_to_double"]
+    if record["stable"] or seconds is None:
+        verdict = "stable" if record["stable"] else "unstable"
+        return f"{where}: {verdict}, spectral radius {record['spectral_radius']:.3f}"
+    return f"{where}: unstable, disturbances double in {seconds:.3g} s ({seconds / record['dt']:.3g} beats)"
+
+
+def _averaged(record: dict[str, Any]) -> str:
+    averaged = record["averaged"]
+    kind = averaged["modes"][0]["kind"]
+    return (
+        f"averaged over the beat, spectral radius {averaged['spectral_radius']:.3f} ({kind}) in place of "
+        f"{record['spectral_radius']:.3f} ({record['modes'][0]['kind']})"
+    )
+
+
+def _rows(mode: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return what is said of a mode."""
+    real, imaginary = mode["multiplier"]
+    rows = [("multiplier", f"{real:.3f}" + (f" ± {imaginary:.3f}i" if mode["kind"] == "oscillation" else ""))]
+    for label, name in (("doubles in", "time_to_double"), ("halves in", "time_to_half")):
+        if mode[name] is not None:
+            # A multiplier of 0 ends a disturbance within the beat.
+            beats = math.log(2) / abs(math.log(mode["modulus"])) if mode["modulus"] > 0 else 0.0
+            rows.append((label, f"{mode[name]:.3g} s ({beats:.3g} beats)"))
+    if mode["period"] is not None:
+        rows.append(("period", f"{mode['period']:.3g} s"))
+        rows.append(("damping ratio", "-" if mode["damping"] is None else f"{mode['damping']:.2g}"))
+    parts = sorted(mode["shares"].items(), key=lambda part: -part[1])
+    rows.append(("what moves", ", ".join(f"{MOVING[name]} {share:.0%}" for name, share in parts)))
+    return rows
+
+
+def causes_report(record: dict[str, Any]) -> Report:
+    """Return the numbers that move the spectral radius most over their plausible ranges."""
+    rows = tuple(Row(_cause(parameter)) for parameter in record["parameters"][:_MOST])
+    return [
+        Line(f"what moves the spectral radius {record['spectral_radius']:.3f} most", tone="title"),
+        Table(rows, ("parameter", "value", "derivative", "plausible", "change at both ends"), "nrrrr"),
+        Line("the changes are extrapolated linearly: for ranking only"),
+        Line("for the share of stable orbits run `wingbeat uncertainty`"),
+    ]
+
+
+def _cause(parameter: dict[str, Any]) -> tuple[str, ...]:
+    factor, unit = _shown(parameter["unit"])
+    ends = parameter["plausible"]
+    low, high = parameter["change_to_ends"]
+    per = f" per{unit}" if unit else ""
+    return (
+        parameter["parameter"],
+        f"{factor * parameter['value']:.4g}{unit}",
+        f"{parameter['spectral_radius'] / factor:+.3g}{per}",
+        "+-1 %" if ends is None else f"{factor * ends[0]:.3g} to {factor * ends[1]:.3g}{unit}",
+        f"{low + 0.0:+.2g}, {high + 0.0:+.2g}",
+    )
+
+
+def _shown(unit: str) -> tuple[float, str]:
+    """Return the factor and the unit in which a parameter is shown: angles in degrees."""
+    if unit == "rad":
+        return math.degrees(1.0), " deg"
+    return 1.0, "" if unit == "1" else f" {unit}"
+
+
+def feedback_report(record: dict[str, Any]) -> Report:
+    """Return what the feedback does, its gains, and the multipliers with it and without."""
+    rows = tuple(Row(_gains(name, row)) for name, row in zip(record["inputs"], record["gains"], strict=True))
+    headings = ("", *(label for label, _ in STATE_UNITS.values()))
+    delay = record["delay"]
+    beats = "beat" if delay == 1 else beats_of(delay)
+    last = [
+        Line(f"and of the inputs of the last {beats}: see --json, whose `gains`"),
+        Line("have the opposite sign (inputs = -gains x deviations), SI units and radians"),
+    ]
+    return [
+        Line(_held_headline(record), wraps=False),
+        Line(""),
+        Line("change of the inputs per unit of"),
+        Table(rows, headings, "n" + "r" * len(STATE_UNITS)),
+        *(last if delay else []),
+        Line(""),
+        Line("multipliers without feedback: " + _numbers(record["open_loop"]["multipliers"]), wraps=False),
+        Line("multipliers with feedback:    " + _numbers(record["multipliers"]), wraps=False),
+        Line("inputs that suffice alone:    " + (", ".join(record["sufficient"]) or "none"), wraps=False),
+    ]
+
+
+def survey_report(record: dict[str, Any]) -> Report:
+    """Return the share of random gusts that were survived with each feedback."""
+    shares = tuple(Row((f"  {name}", f"{share:.1%}")) for name, share in record["survived"].items())
+    gusts = f"{record['flights']} gusts of up to {record['largest_gust']:.2g} m/s, {beats_of(record['beats'])} each"
+    return [Line(f"share survived of {gusts}"), Table(shares, align="lr")]
+
+
+def _held_headline(record: dict[str, Any]) -> str:
+    """Return what a feedback does to an orbit in a line."""
+    where = f"{record['species']} at {record['speed']:g} m/s, {record['frequency']:.4g} Hz"
+    acting = "in the same beat" if not record["delay"] else f"{beats_of(record['delay'])} later"
+    return (
+        f"{where}: spectral radius {record['open_loop']['spectral_radius']:.3f} without feedback, "
+        f"{record['spectral_radius']:.3f} with feedback that acts {acting}"
+    )
+
+
+def beats_of(count: int) -> str:
+    """Return a number of beats in words."""
+    return f"{count} beat" if count == 1 else f"{count} beats"
+
+
+def _gains(name: str, row: list[float]) -> tuple[str, ...]:
+    """Return the change of an input per unit of each state; the gains of pending inputs follow in the record."""
+    unit, size = ("deg", math.radians(1.0)) if name in ANGLES else ("Hz" if name == "frequency" else "-", 1.0)
+    changes = [f"{-gain * one / size:.3g}" for gain, (_, one) in zip(row, STATE_UNITS.values(), strict=False)]
+    return f"{name} [{unit}]", *changes
+
+
+def _numbers(pairs: list[list[float]]) -> str:
+    """Return the multipliers, one of each complex pair, without those near 0, which belong to pending inputs."""
+    shown = [
+        (real, imaginary) for real, imaginary in pairs if imaginary >= 0 and math.hypot(real, imaginary) > 5e-4
+    ]
+    return ", ".join(f"{real:.3f}" + (f" ± {imaginary:.3f}i" if imaginary > 0 else "") for real, imaginary in shown)
+
+
+def manoeuvre_report(record: dict[str, Any]) -> Report:
+    """Return how the search ended, the steady flights, and time and distance."""
+    rows = tuple(Row(_end(end)) for end in record["ends"])
+    return [
+        Line(f"{record['species']} from {record['speed']:g} m/s: {record['message']}", wraps=False),
+        Table(rows, ("to [m/s]", "beats", "f [Hz]", "least f [Hz]"), "rrrr"),
+        *([Line(f"{record['time'][-1]:.2f} s, {record['distance']:.1f} m")] if len(record["time"]) > 1 else []),
+    ]
+
+
+def _end(end: dict[str, Any]) -> tuple[str, ...]:
+    free = end["free_frequency"]
+    return f"{end['speed']:g}", f"{end['beats']}", f"{end['frequency']:.4g}", "" if free is None else f"{free:.4g}"

@@ -14,11 +14,9 @@ from typing import Any
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.orbits.nlp.local_search import Candidate, search
-from wingbeat.orbits.nlp.transcription import Transcription
-from wingbeat.orbits.options.solver import DEFAULTS
-from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import certified_optimum, search_near
+from wingbeat.orbits.nlp.transcription import Candidate, Transcription, search
+from wingbeat.orbits.options import DEFAULTS
+from wingbeat.orbits.solution import Solution, certified_optimum, search_near
 from wingbeat.orbits.starts import start_point
 
 sys.path.append(str(Path(__file__).parent / "peers"))

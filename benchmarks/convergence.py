@@ -12,8 +12,8 @@ from pathlib import Path
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.orbits.flight.shooting import STEPS, flier
-from wingbeat.orbits.solve import find_orbit
+from wingbeat.orbits.flight.period import STEPS, flier
+from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat_evidence.markdown import markdown_table
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "evidence" / "convergence.md"
@@ -55,7 +55,7 @@ def choices() -> dict[str, object]:
 
 def steps(name: str, speed: float) -> dict[str, str]:
     """Fly one certified orbit with fixed steps: the largest difference from the certifier's end."""
-    solution = find_orbit(wb.OrbitProblem(wb.load_species(name), speed=speed), starts=1)
+    solution = find_orbit(wb.OrbitProblem(wb.load_species(name), speed=speed), Settings(1))
     start, end = solution.certificate.states[0][2:], solution.certificate.end
     fly = flier(solution.problem.model, solution.wingbeat, solution.problem.free)
     values = np.array([getattr(solution.wingbeat, name) for name in solution.problem.free])

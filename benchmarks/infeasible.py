@@ -18,9 +18,9 @@ from typing import Any
 from infeasible_cases import Case, cases, drawn
 
 import wingbeat as wb
-from wingbeat.orbits.infeasible.relaxation import Relaxation, with_change
+from wingbeat.orbits.changes import Relaxation, with_change
 from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import find_orbit
+from wingbeat.orbits.solve import Settings, find_orbit
 
 # Searches for an orbit that is not expected.
 _FEW = 12
@@ -36,14 +36,14 @@ def named_right(case: Case, found: Solution) -> bool:
 
 def flies(case: Case, change: Relaxation) -> bool:
     """Solve the problem with the change made, from nothing and with another seed."""
-    return find_orbit(change.apply(case.problem), seed=1, advise=False).status is wb.Status.CONVERGED
+    return find_orbit(change.apply(case.problem), Settings(seed=1, advise=False)).status is wb.Status.CONVERGED
 
 
 def less_flies(case: Case, change: Relaxation) -> bool:
     """Solve the problem with a part of the change made."""
     value = change.old + _SHARE * (change.new - change.old)
     problem = with_change(case.problem, change.name, change.sign, value)
-    return find_orbit(problem, seed=1, most_starts=_FEW, advise=False).status is wb.Status.CONVERGED
+    return find_orbit(problem, Settings(seed=1, most_starts=_FEW, advise=False)).status is wb.Status.CONVERGED
 
 
 def row_of(case: Case) -> tuple[tuple[Any, ...], Solution]:
@@ -67,7 +67,7 @@ def name_drawn(count: int) -> None:
     """Print what is named for problems drawn at random, and how often it is what their kind is made to fail by."""
     right = infeasible = 0
     for case in drawn(count, SEED):
-        found = find_orbit(case.problem, 2, most_starts=_FEW, advise=False)
+        found = find_orbit(case.problem, Settings(2, most_starts=_FEW, advise=False))
         if found.status is wb.Status.INFEASIBLE:
             infeasible += 1
             right += named_right(case, found)

@@ -20,10 +20,10 @@ from pathlib import Path
 import numpy as np
 
 import wingbeat as wb
-from wingbeat.orbits.multistart import search_from_starts
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.solve import certified_optimum, find_orbit
+from wingbeat.orbits.solution import certified_optimum
+from wingbeat.orbits.solve import Settings, find_orbit, search_from_starts
 from wingbeat.orbits.starts import structured_starts
 from wingbeat.orbits.status import Status
 
@@ -132,7 +132,7 @@ def main() -> None:
             best, ratios = known[name], []
             for seed in range(asked.seeds):
                 begun = time.process_time()
-                found = find_orbit(problem, seed=seed, threads=1, advise=False)
+                found = find_orbit(problem, Settings(seed=seed, advise=False), threads=1)
                 seconds += time.process_time() - begun
                 answers += 1
                 flies = found.status is Status.CONVERGED

@@ -21,7 +21,7 @@ from bettering import Ipopt, by_restarts
 import wingbeat as wb
 from wingbeat.orbits.problem.quantities import QUANTITIES, named_quantity
 from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import find_orbit
+from wingbeat.orbits.solve import Settings, find_orbit
 
 # More starts, tried where something else found less.
 MORE_STARTS = (12, 24, 48)
@@ -42,7 +42,7 @@ class Solver:
         if asked not in self._known:
             limits = [limit] if limit else []
             problem = wb.OrbitProblem(wb.load_species(animal), speed=speed, minimise=minimise, subject_to=limits)
-            self._known[asked] = find_orbit(problem, self.starts, threads=1, advise=False)
+            self._known[asked] = find_orbit(problem, Settings(self.starts, advise=False), threads=1)
         return self._known[asked]
 
 

@@ -19,7 +19,7 @@ import numpy as np
 import wingbeat as wb
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat.mechanics.flight_model import body_rates, motion_table
-from wingbeat.orbits.flight.shooting import STEPS, _march, _tabulate, fly_part
+from wingbeat.orbits.flight.period import STEPS, _march, _tabulate, fly_part
 from wingbeat.orbits.starts import start_point
 
 BASELINE = Path(__file__).with_name("operations.json")

@@ -16,7 +16,7 @@ import numpy as np
 import wingbeat as wb
 from wingbeat._base.style import BLUE, PAGE, VERMILION, drawing, legend_below, letter_panels, new_figure
 from wingbeat.bench import median_seconds, right_hand_side
-from wingbeat.orbits.flight.shooting import STEPS, flier
+from wingbeat.orbits.flight.period import STEPS, flier
 from wingbeat.plots import save_figure
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -25,7 +25,7 @@ from certify_grid import vehicles
 
 import wingbeat as wb
 from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import find_orbit
+from wingbeat.orbits.solve import Settings, find_orbit
 
 LIMIT, COUNT = "spectral_radius<=0.995", 200
 
@@ -53,7 +53,7 @@ class Pair(NamedTuple):
 def solved(problem: wb.OrbitProblem) -> tuple[Solution, float]:
     """Return the orbit of a problem and the processor's seconds of its search."""
     begun = time.process_time()
-    found = find_orbit(problem, threads=1, explain=False)
+    found = find_orbit(problem, Settings(explain=False), threads=1)
     return found, time.process_time() - begun
 
 

@@ -24,8 +24,8 @@ import numpy as np
 from misses import MISS, MODELS, SPEEDS, animals
 
 import wingbeat as wb
-from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import find_orbit, search_near
+from wingbeat.orbits.solution import Solution, search_near
+from wingbeat.orbits.solve import Settings, find_orbit
 
 FINE = np.arange(3.0, 17.01, 0.25)
 STUDY = """species = ["bat", "pigeon"]
@@ -40,7 +40,7 @@ def sweep() -> None:
     for animal in ("bat", "pigeon"):
         for name, model in MODELS.items():
             problems = [wb.OrbitProblem(wb.load_species(animal), float(speed), aero=model()) for speed in FINE]
-            answers = [find_orbit(problem, threads=1, advise=False) for problem in problems]
+            answers = [find_orbit(problem, Settings(advise=False), threads=1) for problem in problems]
             best = [answer if answer.status is wb.Status.CONVERGED else None for answer in answers]
             handed_on(problems, best, range(1, len(FINE)), -1)
             handed_on(problems, best, range(len(FINE) - 2, -1, -1), 1)

@@ -16,7 +16,7 @@ from tests.helpers.memory import MOST, forget_programs, resident
 from tests.helpers.reflight import Reflight, refly
 from wingbeat._workers.tuning import collect_seldom
 from wingbeat.cli import terminal
-from wingbeat.orbits.flight.certify import Certificate, certify
+from wingbeat.orbits.flight.certificate import Certificate, certify
 
 # For the processes that pytest and the tests start. Those that share two cores wait for each other's threads: least
 # squares of 1080 rows and 307 columns then take fifty times as long (2.2 in place of 0.04 s).

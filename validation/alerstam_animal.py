@@ -25,8 +25,8 @@ from numpy.typing import NDArray
 import wingbeat as wb
 from wingbeat._base import read_text, write_atomically
 from wingbeat.animal.species.scaling import BIRD_FREQUENCY
-from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import Progress, find_orbit, search_near
+from wingbeat.orbits.solution import Solution, search_near
+from wingbeat.orbits.solve import Progress, Settings, find_orbit
 from wingbeat.results.orbit import Orbit
 
 # Of the speed at which a wing at lift coefficient 1 carries the bird; measured airspeeds play no part in them. The
@@ -159,7 +159,7 @@ def _is_orbit(found: Solution) -> bool:
 
 def _from_stock(problem: wb.OrbitProblem, most: int = MOST_STARTS) -> Solution:
     """Solve a problem from the stock wingbeat; further starts follow only until one leads to an orbit."""
-    return find_orbit(problem, 1, threads=1, most_starts=most, advise=False)
+    return find_orbit(problem, Settings(1, most_starts=most, advise=False), threads=1)
 
 
 def _first(problem: wb.OrbitProblem, name: str, before: Flown | None, law: float) -> Solution | None:

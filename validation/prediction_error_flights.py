@@ -15,7 +15,7 @@ from wingbeat._base import write_atomically
 from wingbeat._workers.pool import in_processes
 from wingbeat.cli.terminal import progress_bar
 from wingbeat.orbits.problem.parameters import parameters_of
-from wingbeat.orbits.solve import search_near
+from wingbeat.orbits.solution import search_near
 from wingbeat_evidence.whole_flights import read_measured_flights
 
 ANIMALS = ("pigeon", "cockatiel")

@@ -13,7 +13,7 @@ from scipy.integrate import solve_ivp
 import wingbeat as wb
 from wingbeat._jax.arrays import jax
 from wingbeat.mechanics.flights import state_rates
-from wingbeat.orbits.flight.beat import flown_beat
+from wingbeat.orbits.flight.time_series import flown_beat
 
 _rates = jax.jit(state_rates)
 OURS = "u_rate", "w_rate", "pitch_acceleration", *HingeWork._fields

@@ -17,11 +17,11 @@ from wingbeat._jax.arrays import jax, jnp
 from wingbeat.aero import Dickinson, SuFan
 from wingbeat.animal.species.making import load_species
 from wingbeat.mechanics.flight_model import body_rates, motion_table
-from wingbeat.orbits.flight.shooting import flier
-from wingbeat.orbits.many.batch import find_orbits
+from wingbeat.orbits.batch import find_orbits
+from wingbeat.orbits.flight.period import flier
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import Progress, find_orbit
+from wingbeat.orbits.solve import Progress, Settings, find_orbit
 from wingbeat.orbits.starts import start_point
 
 ANIMALS = ("pigeon", "bat")
@@ -75,7 +75,7 @@ def orbits(animal: str) -> list[Solution]:
     species = load_species(animal)
     speeds = np.random.default_rng(0).permutation(_SPEEDS)
     problems = [OrbitProblem(species, speed=float(speed)) for speed in (10.0, *speeds)]
-    return [find_orbit(problem, starts=1, threads=1) for problem in problems][1:]
+    return [find_orbit(problem, Settings(1), threads=1) for problem in problems][1:]
 
 
 def mixed_problems(count: int, seed: int = 0) -> Iterator[OrbitProblem]:
@@ -171,7 +171,7 @@ def _measure(batch: int, progress: Progress | None) -> dict[str, Any]:
     result |= {"solve_ms": solve, "certify_ms": certify}
     problems = list(mixed_problems(batch))
     begun, certified = time.perf_counter(), 0
-    for solution in find_orbits(problems, starts=1):
+    for solution in find_orbits(problems, Settings(1, advise=False)):
         certified += solution.status.value == "converged"
         told()
     result["batch_ms"] = 1e3 * (time.perf_counter() - begun) / batch

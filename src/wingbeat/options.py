@@ -5,16 +5,16 @@
 True
 """
 
-from wingbeat.orbits.options.certificate import CertificateOptions as CertificateOptions
-from wingbeat.orbits.options.certificate import NewtonOptions as NewtonOptions
-from wingbeat.orbits.options.continuation import ContinuationOptions as ContinuationOptions
-from wingbeat.orbits.options.continuation import SensitivityOptions as SensitivityOptions
-from wingbeat.orbits.options.diagnosis import ChangeOptions as ChangeOptions
-from wingbeat.orbits.options.diagnosis import DiagnosisOptions as DiagnosisOptions
-from wingbeat.orbits.options.least_squares import LeastSquaresOptions as LeastSquaresOptions
-from wingbeat.orbits.options.search import SearchOptions as SearchOptions
-from wingbeat.orbits.options.solver import SolverOptions as SolverOptions
-from wingbeat.orbits.options.start_families import StartFamily as StartFamily
+from wingbeat.orbits.search_options import CertificateOptions as CertificateOptions
+from wingbeat.orbits.search_options import NewtonOptions as NewtonOptions
+from wingbeat.orbits.options import ContinuationOptions as ContinuationOptions
+from wingbeat.orbits.options import SensitivityOptions as SensitivityOptions
+from wingbeat.orbits.options import ChangeOptions as ChangeOptions
+from wingbeat.orbits.options import DiagnosisOptions as DiagnosisOptions
+from wingbeat.orbits.search_options import LeastSquaresOptions as LeastSquaresOptions
+from wingbeat.orbits.search_options import SearchOptions as SearchOptions
+from wingbeat.orbits.options import SolverOptions as SolverOptions
+from wingbeat.orbits.search_options import StartFamily as StartFamily
 from wingbeat.stability.options import FeedbackOptions as FeedbackOptions
 from wingbeat.stability.options import LinearOptions as LinearOptions
 from wingbeat.stability.options import ManoeuvreOptions as ManoeuvreOptions

@@ -22,7 +22,7 @@ from wingbeat._jax.exported import StoredFunction
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
 from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.orbits import flight
-from wingbeat.orbits.problem.traced import ALL_FIELDS
+from wingbeat.orbits.problem.outputs import ALL_FIELDS
 
 PIGEON = wb.load_species("pigeon")
 # What is no array, such as a user's function, or an array of any shape.
@@ -184,16 +184,23 @@ def test_every_kernel_gets_and_gives_the_shapes_it_says(flown, calls):
 
     free = ("frequency", "flap_mean")
     step = np.zeros(2), np.zeros(4), np.array(0.0), np.array(1.0)
-    traced("wingbeat.orbits.flight.shooting.fly_part", model, wingbeat, *step, free=free, components=1, stroke=True)
+    traced("wingbeat.orbits.flight.period.fly_part", model, wingbeat, *step, free=free, components=1, stroke=True)
     path, tangents = np.zeros((4, 33)), np.zeros((6, 4, 33))
     part = np.zeros(2), path, tangents, np.zeros(2), np.zeros(2)
-    traced("wingbeat.orbits.flight.beat._part", model, wingbeat, *part, free=free, fields=ALL_FIELDS)
-    traced("wingbeat.orbits.flight.beat.flown_beat", model, wingbeat, np.linspace(0, 1, 33), path.T, np.zeros(2))
+    traced("wingbeat.orbits.flight.time_series._part", model, wingbeat, *part, free=free, fields=ALL_FIELDS)
     traced(
-        "wingbeat.orbits.flight.floquet._state_maps", model, wingbeat, np.zeros(64), np.ones(64), np.zeros((64, 4))
+        "wingbeat.orbits.flight.time_series.flown_beat", model, wingbeat, np.linspace(0, 1, 33), path.T, np.zeros(2)
+    )
+    traced(
+        "wingbeat.orbits.flight.certificate._state_maps",
+        model,
+        wingbeat,
+        np.zeros(64),
+        np.ones(64),
+        np.zeros((64, 4)),
     )
     for kernel in ("highest", "peaks"):
-        traced(f"wingbeat.orbits.flight.path_maxima.{kernel}", np.zeros((33, 7)))
+        traced(f"wingbeat.orbits.flight.beat.{kernel}", np.zeros((33, 7)))
 
     for name in (
         "wingbeat.aero.blade_element.strip_forces",
@@ -205,8 +212,8 @@ def test_every_kernel_gets_and_gives_the_shapes_it_says(flown, calls):
         "wingbeat.mechanics.wing_motion.wing_motion",
         "wingbeat.mechanics.wing_points.point_motion",
         "wingbeat.orbits.flight.beat.mean_positive",
-        "wingbeat.orbits.flight.shooting._chain",
-        "wingbeat.orbits.flight.stroke_distances.least_distances",
+        "wingbeat.orbits.flight.period._chain",
+        "wingbeat.orbits.flight.period.least_distances",
     ):
         assert name == "wingbeat.orbits.flight.beat.mean_positive" or name in calls, name
     assert len(calls) > 60

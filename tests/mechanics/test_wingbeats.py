@@ -32,7 +32,7 @@ from wingbeat.animal.species.reading import template
 from wingbeat.mechanics.clearance import lateral_corners
 from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.mechanics.wing_points import strip_corners
-from wingbeat.orbits.flight.shooting import flier
+from wingbeat.orbits.flight.period import flier
 from wingbeat.records.flight_dataset import evaluate
 
 PLAIN = wb.Wingbeat(8.0, 0.15, 0.85, 0.20, 0.50, 0.3, 1.6, 0.4, 0.45)

@@ -1,6 +1,5 @@
 """Many problems at once: the answers of one by one, whoever computes them."""
 
-import dataclasses
 import math
 
 import numpy as np
@@ -8,14 +7,14 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.bench import mixed_problems
-from wingbeat.orbits.many import batch
-from wingbeat.orbits.many.batch import find_orbits
+from wingbeat.orbits import batch
+from wingbeat.orbits.batch import find_beside, find_orbits
+from wingbeat.orbits.branches import find_optima
 from wingbeat.orbits.nlp import defect_correction
 from wingbeat.orbits.nlp.defect_correction import correct
-from wingbeat.orbits.nlp.local_search import optimise, search
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace
-from wingbeat.orbits.nlp.transcription import Transcription
-from wingbeat.orbits.solve import find_beside, find_optima, find_orbit
+from wingbeat.orbits.nlp.transcription import Transcription, search
+from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.orbits.starts import start_point, usual_starts
 
 
@@ -46,7 +45,7 @@ def test_a_batch_gives_the_answers_of_single_orbits_in_their_order():
     assert [orbit.status.value for orbit in found] == ["converged", "converged", "infeasible", "converged"]
     for orbit, problem in zip(found, problems(), strict=True):
         # The batch gives no advice, which takes seconds.
-        same(orbit, wb.Orbit.of(find_orbit(problem, 1, advise=False, options=few), 1))
+        same(orbit, wb.Orbit.of(find_orbit(problem, Settings(1, advise=False, options=few)), 1))
 
 
 def test_processes_give_the_same_bits(monkeypatch):
@@ -88,8 +87,10 @@ def test_a_batch_is_refused_before_it_begins(changed, where):
     if where in ("starts", "seed"):
         with pytest.raises(wb.InvalidInputError, match=where):
             wb.solve_orbit(problems()[0], **changed)
+    work = {"problems": problems()} | {name: changed[name] for name in ("problems", "processes") if name in changed}
+    settings = Settings(**{name: value for name, value in changed.items() if name not in work})
     with pytest.raises(wb.InvalidInputError, match=where):
-        find_orbits(**({"problems": problems()} | changed))
+        find_orbits(settings=settings, **work)
 
 
 def test_no_problems_are_no_orbits():
@@ -104,17 +105,18 @@ def test_newtons_method_comes_to_the_optimum_of_a_shifted_closure_as_slsqp_does(
     assert found.optimal
     scaled = found.scaled
     newton = NewtonKKT(programme, scaled)
-    programme = offset(programme, closure_offset=np.full(6, 1e-3))
+    programme = offset(programme, closure=np.full(6, 1e-3))
     found = newton.converge(programme, newton.converge(programme, scaled))
     assert np.abs(programme.closure(found)).max() <= 1e-8
-    again, _ = optimise(programme, scaled, 60, 1e-14)
+    again, _ = programme.optimise(scaled, 60, 1e-14)
     assert programme.objective(found) == pytest.approx(programme.objective(again), rel=1e-7)
     np.testing.assert_allclose(found, again, rtol=0, atol=2e-3)
 
 
 def offset(programme, **offsets):
     """Return the programme with offsets taken off what it evaluates."""
-    return programme._corrected(dataclasses.replace(programme._no_correction, **offsets))
+    anchor, nothing = programme._no_correction
+    return programme._corrected(anchor, nothing._replace(**offsets))
 
 
 def optimum(index):
@@ -135,13 +137,13 @@ def test_conditions_that_say_the_same_twice_are_met_all_the_same():
 def test_newtons_method_gives_up_far_from_closure():
     programme, scaled = optimum(0)
     newton = NewtonKKT(programme, scaled)
-    assert newton.converge(offset(programme, closure_offset=np.full(6, 30.0)), scaled) is None
+    assert newton.converge(offset(programme, closure=np.full(6, 30.0)), scaled) is None
 
 
 def test_newtons_method_gives_up_where_it_leaves_the_bounds():
     programme, scaled = optimum(0)
     newton = NewtonKKT(programme, scaled)
-    programme = offset(programme, closure_offset=np.full(6, 1e-2))
+    programme = offset(programme, closure=np.full(6, 1e-2))
     assert newton.converge(programme, scaled) is not None
     programme.lower, programme.upper = scaled - 1e-7, scaled + 1e-7
     assert newton.converge(programme, scaled) is None
@@ -150,7 +152,7 @@ def test_newtons_method_gives_up_where_it_leaves_the_bounds():
 def test_newtons_method_gives_up_where_the_path_exceeds_a_limit_that_was_not_active():
     programme, scaled = optimum(0)
     newton = NewtonKKT(programme, scaled)
-    offsets = {"closure_offset": np.full(6, 1e-3), "path_offset": np.full(len(programme.path_limits), 10.0)}
+    offsets = {"closure": np.full(6, 1e-3), "path": np.full(len(programme.path_limits), 10.0)}
     assert not newton.active.any()
     assert newton.converge(offset(programme, **offsets), scaled) is None
 
@@ -172,7 +174,7 @@ def test_what_breaks_the_bound_on_body_pitch_is_no_orbit():
 
 def test_beside_an_orbit_only_what_may_be_better_is_certified(monkeypatch):
     problem = wb.OrbitProblem(wb.load_species("bat"), 10.0)
-    best = find_orbit(problem, 6, threads=1)
+    best = find_orbit(problem, Settings(6), threads=1)
     (worse,) = [o for o in find_optima(problem, 1) if o.objective > best.objective + 0.1]
     tried = []
     monkeypatch.setattr(
@@ -197,9 +199,9 @@ def test_beside_an_orbit_only_what_may_be_better_is_certified(monkeypatch):
 def test_if_nothing_is_said_each_problem_is_searched_as_often_as_by_itself(monkeypatch):
     asked = []
 
-    def seen(problem, known, starts, *rest, **options):
-        asked.append(starts)
-        return find_orbit(problem, 1, threads=1)
+    def seen(problem, known, settings):
+        asked.append(settings.starts)
+        return find_orbit(problem, Settings(1), threads=1)
 
     monkeypatch.setattr(batch, "find_with_known", seen)
     bat = wb.load_species("bat")

@@ -13,11 +13,9 @@ from tests.helpers.reflight import refly_many
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat.animal.kinematics import unpack
 from wingbeat.mechanics.flight_model import body_rates, motion_table
-from wingbeat.orbits.flight.certify import certify
-from wingbeat.orbits.flight.floquet import floquet_multipliers
-from wingbeat.orbits.flight.shooting import STEPS, flier
+from wingbeat.orbits.flight.certificate import certify, floquet_multipliers
+from wingbeat.orbits.flight.period import STEPS, flier
 from wingbeat.orbits.nlp.defect_correction import correct
-from wingbeat.orbits.nlp.local_search import optimise
 from wingbeat.orbits.nlp.transcription import Transcription
 
 TOLERANCE = 1e-7
@@ -212,7 +210,7 @@ def test_the_number_of_steps_of_the_search_does_not_change_the_orbit(solved):
     programme = Transcription(solved.problem)
     fly = programme.fly
     programme.fly = lambda values, start, blocks=1: fly(values, start, 4 * blocks)
-    scaled, _ = optimise(programme, programme.scaled(unknowns_of(solved)), 60, 1e-6)
+    scaled, _ = programme.optimise(programme.scaled(unknowns_of(solved)), 60, 1e-6)
     found = correct(programme, scaled)
     assert np.abs(found.residual).max() <= 1e-6
     assert found.wingbeat.frequency == pytest.approx(solved.wingbeat.frequency, rel=1e-7)

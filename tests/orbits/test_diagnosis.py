@@ -9,11 +9,11 @@ import wingbeat as wb
 from tests.helpers.hard_problems import hard_problems
 from tests.helpers.hasty import make_hasty
 from wingbeat.cli import main
-from wingbeat.orbits.infeasible.deficit import LAWS
-from wingbeat.orbits.infeasible.relaxation import possible_changes, relaxation, with_change
+from wingbeat.orbits.changes import possible_changes, relaxation, with_change
+from wingbeat.orbits.flight.period import BALANCES
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT
-from wingbeat.orbits.options.solver import DEFAULTS
-from wingbeat.orbits.solve import find_orbit
+from wingbeat.orbits.options import DEFAULTS
+from wingbeat.orbits.solve import Settings, find_orbit
 
 PIGEON = wb.load_species("pigeon")
 
@@ -45,7 +45,7 @@ def test_every_change_that_may_be_tried_makes_a_problem(seed):
     for problem in hard_problems(25, seed):
         at_bounds = [(name, sign) for name in (*problem.free, "body_pitch") for sign in ("<=", ">=")]
         for change in possible_changes(
-            problem, at_bounds, dict(zip(LAWS, random.uniform(-3.0, 3.0, 3), strict=True))
+            problem, at_bounds, dict(zip(BALANCES, random.uniform(-3.0, 3.0, 3), strict=True))
         ):
             for share in (*change.tries, change.widest, random.uniform(0.0, change.widest), 0.0):
                 with_change(problem, change.name, change.sign, change.moved(min(share, change.widest)))
@@ -64,7 +64,7 @@ def test_no_hard_problem_raises():
         diagnosis=wb.DiagnosisOptions(far_iterations=10, back_iterations=10, back_times=1, widened=(0,))
     )
     for seed, problem in enumerate(hard_problems(3, 11, ("frequency",))):
-        found = find_orbit(problem, 1, seed, most_starts=1, threads=1, options=short)
+        found = find_orbit(problem, Settings(1, seed, most_starts=1, options=short), threads=1)
         record = wb.Orbit.of(found, 1, seed).record()
         assert record["message"]
         statuses.append(found.status)
@@ -91,7 +91,7 @@ def test_a_cost_of_transport_is_not_sought_in_hover():
 
 def test_without_gravity_what_fails_is_told():
     problem = wb.OrbitProblem(PIGEON.with_values({"air.gravity": 0.0}), speed=80.0)
-    found = find_orbit(problem, 1, most_starts=1, threads=1, advise=False)
+    found = find_orbit(problem, Settings(1, most_starts=1, advise=False), threads=1)
     assert found.status is not wb.Status.CONVERGED
     assert all(np.isfinite(short.share) and np.isfinite(short.amount) for short in found.deficits)
 
@@ -102,7 +102,7 @@ def test_a_much_wider_range_of_frequency_is_tried():
     assert wider["<="].reach >= 30
     assert wider[">="].reach <= 0.2
     once = wb.SolverOptions(diagnosis=wb.DiagnosisOptions(far_iterations=15, back_iterations=10, back_times=1))
-    found = find_orbit(problem, 1, most_starts=2, options=once)
+    found = find_orbit(problem, Settings(1, most_starts=2, options=once))
     assert found.status is wb.Status.INFEASIBLE
     assert any((c.name, c.sign) == ("frequency", "<=") for c in found.relaxations), found.message
 
@@ -161,7 +161,7 @@ def test_least_frequency_at_its_own_bound_is_final():
 def test_a_search_that_ends_at_the_bound_uncertified_says_which_change_to_make():
     """Of these 2 searches none closes, nor of 18 more; the message was to try more of them."""
     problem = wb.OrbitProblem(PIGEON, speed=12.0, climb=-7.2)
-    found = find_orbit(problem, 2, most_starts=2)
+    found = find_orbit(problem, Settings(2, most_starts=2))
     assert found.status is wb.Status.NOT_CONVERGED
     assert "the optimum is at the lower bound of frequency" in found.message
     assert "try more starts" not in found.message
@@ -171,6 +171,6 @@ def test_a_search_that_ends_at_the_bound_uncertified_says_which_change_to_make()
     # What the record holds closes, at the raised bound; and with the change made a search finds such an orbit.
     assert found.wingbeat.frequency == pytest.approx(change.new)
     assert max(abs(miss) for miss in found.closure.values()) <= 1e-6
-    raised = find_orbit(change.apply(problem), 2, advise=False)
+    raised = find_orbit(change.apply(problem), Settings(2, advise=False))
     assert raised.status is wb.Status.CONVERGED
     assert raised.wingbeat.frequency <= change.new * (1 + DEFAULTS.search.bound_tolerance)

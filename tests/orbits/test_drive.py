@@ -6,10 +6,10 @@ import pytest
 import wingbeat as wb
 from tests.helpers.programmes import differences, stock_point
 from wingbeat.animal.actuators import best_efficiency, force_at, metabolic_rate
-from wingbeat.orbits.problem.drive import OF_MOTOR, OF_MUSCLE
 from wingbeat.orbits.problem.parameters import parameters_of
-from wingbeat.orbits.sensitivity import OptimumSlopes
-from wingbeat.orbits.solve import find_orbit
+from wingbeat.orbits.problem.quantity import OF_MOTOR, OF_MUSCLE
+from wingbeat.orbits.solve import Settings, find_orbit
+from wingbeat.orbits.uncertainty import OptimumSlopes
 
 PIGEON = wb.load_species("pigeon")
 STRONG = PIGEON.with_muscle().with_values({"muscle.isometric_stress": 1e6})
@@ -32,7 +32,7 @@ def problem(species, **more):
 @pytest.fixture(scope="module")
 def cheap():
     """The beat of least metabolic power."""
-    return find_orbit(problem(STRONG, minimise="metabolic_power"), starts=1)
+    return find_orbit(problem(STRONG, minimise="metabolic_power"), Settings(1))
 
 
 def test_metabolic_power_is_a_sum_over_the_samples_of_the_beat(cheap):
@@ -53,7 +53,7 @@ def test_least_metabolic_power_costs_less_than_other_beats(cheap):
     assert cheap.status is wb.Status.CONVERGED
     metabolic = wb.objectives.named_quantity("metabolic_power")
     for other in ("frequency", "mean_positive_power"):
-        found = find_orbit(problem(STRONG, minimise=other), starts=1)
+        found = find_orbit(problem(STRONG, minimise=other), Settings(1))
         assert cheap.objective < found.value_of(metabolic)
 
 
@@ -82,7 +82,7 @@ def test_the_record_has_the_numbers_of_muscle_and_motor():
 def test_a_limit_on_activation_holds(cheap):
     used = cheap.value_of(wb.objectives.named_quantity("peak_activation"))
     limited = find_orbit(
-        problem(STRONG, minimise="metabolic_power", subject_to=f"peak_activation<={0.95 * used}"), 2
+        problem(STRONG, minimise="metabolic_power", subject_to=f"peak_activation<={0.95 * used}"), Settings(2)
     )
     assert limited.status is wb.Status.CONVERGED
     assert limited.value_of(wb.objectives.named_quantity("peak_activation")) <= 0.95 * used * (1 + 1e-6)
@@ -93,7 +93,9 @@ def test_faster_muscles_of_one_stress_cost_less_as_finite_differences_say(cheap)
     rate = next(p for p in parameters_of(cheap.problem) if p.path == "muscle.max_strain_rate")
     change = OptimumSlopes(cheap.problem, cheap.unknowns).by(rate).objective
     step = 1e-3 * rate.value
-    values = [find_orbit(rate.changed(cheap.problem, rate.value + sign * step), 1).objective for sign in (1, -1)]
+    values = [
+        find_orbit(rate.changed(cheap.problem, rate.value + sign * step), Settings(1)).objective for sign in (1, -1)
+    ]
     assert change < 0.0
     assert change == pytest.approx((values[0] - values[1]) / (2 * step), rel=1e-3)
 

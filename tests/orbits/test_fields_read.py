@@ -5,17 +5,16 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from wingbeat.orbits.flight.beat import BY_STRIP, Beat, beat_reader
-from wingbeat.orbits.flight.path_maxima import WeightedSamples
+from wingbeat.orbits.flight.beat import BY_STRIP, Beat, WeightedSamples
+from wingbeat.orbits.flight.time_series import beat_reader
 from wingbeat.orbits.nlp.transcription import Transcription
-from wingbeat.orbits.problem.limits import Constraint
-from wingbeat.orbits.problem.path_functions import OutputFunctions
-from wingbeat.orbits.problem.quantities import QUANTITIES, Quantity
+from wingbeat.orbits.problem.outputs import Outputs
+from wingbeat.orbits.problem.quantities import QUANTITIES, Constraint, Quantity
 from wingbeat.orbits.starts import start_point
 
 
 def fields_of(quantity, drive):
-    return set(OutputFunctions([quantity], [], 10, drive).fields)
+    return set(Outputs([quantity], [], 10, drive).fields)
 
 
 def test_a_muscles_power_reads_torques_and_rates_only():
@@ -49,7 +48,7 @@ def test_values_and_derivatives_are_those_of_the_whole_beat():
     programme = Transcription(problem)
     unknowns = programme.physical(programme.scaled(start_point(problem, 0, 0)))
     flown = programme.fly(unknowns[4:], unknowns[:4], 1)
-    found, jacobian = programme.outputs.of(unknowns, flown, 1)
+    found, jacobian = programme._read(programme.outputs, unknowns, flown, 1)
     beat, changes = beat_reader(problem.model, pigeon.wingbeat, problem.free, (10.0, 0.0))(unknowns[4:], flown)
     assert beat.lift is not None
     assert changes.actuator_power is not None

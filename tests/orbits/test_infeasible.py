@@ -10,14 +10,13 @@ from infeasible_cases import LIFT, MOMENT, THRUST, cases
 
 import wingbeat as wb
 from wingbeat.mechanics.flight_loads import flight_loads
-from wingbeat.orbits.infeasible.deficit import LAWS, Balance, Deficit, Unbalanced
-from wingbeat.orbits.infeasible.diagnosis import Nearest, nearest_beat
-from wingbeat.orbits.infeasible.relaxation import Change, is_limit, possible_changes, relaxation, with_change
-from wingbeat.orbits.infeasible.without_orbit import unexplained, without_orbit
-from wingbeat.orbits.many.batch import find_orbits
-from wingbeat.orbits.nlp.local_search import Candidate, search
-from wingbeat.orbits.nlp.transcription import Transcription
-from wingbeat.orbits.solve import find_orbit
+from wingbeat.orbits.batch import find_orbits
+from wingbeat.orbits.changes import Change, is_limit, possible_changes, relaxation, with_change
+from wingbeat.orbits.deficit import Balance, Deficit, Nearest, Unbalanced, nearest_beat
+from wingbeat.orbits.diagnosis import unexplained, without_orbit
+from wingbeat.orbits.flight.period import BALANCES
+from wingbeat.orbits.nlp.transcription import Candidate, Transcription, search
+from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.orbits.starts import start_point
 from wingbeat.orbits.status import Status
 from wingbeat.records.orbit_record import rivals
@@ -36,7 +35,7 @@ STARTS = {"shoulder too far back": 12}
 def solved(kind):
     """Return what is found for the case of a kind, with advice, as a batch asks for it."""
     (case,) = (case for case in QUICK if case.kind == kind)
-    (found,) = find_orbits([case.problem], 2, most_starts=STARTS.get(kind, 3), advise=True)
+    (found,) = find_orbits([case.problem], Settings(2, most_starts=STARTS.get(kind, 3)))
     return found
 
 
@@ -54,7 +53,7 @@ def test_the_right_law_is_named_and_the_smallest_change_flies(case):
     assert all(str(limit) in found.message for limit in case.problem.subject_to)
     change = found.relaxations[0]
     assert change.text in found.message
-    again = find_orbit(change.apply(case.problem), 1, seed=1, advise=False)
+    again = find_orbit(change.apply(case.problem), Settings(1, 1, advise=False))
     assert again.status is wb.Status.CONVERGED, change.text
 
 
@@ -76,8 +75,8 @@ def test_with_the_force_that_is_short_it_flies(kind):
             bounds={**problem.bounds, "body_pitch": (low - tilt, high - tilt)},
         )
 
-    assert find_orbit(helped(1.02), 1, advise=False).status is wb.Status.CONVERGED
-    assert find_orbit(helped(0.5), 2, most_starts=4, advise=False).status is wb.Status.INFEASIBLE
+    assert find_orbit(helped(1.02), Settings(1, advise=False)).status is wb.Status.CONVERGED
+    assert find_orbit(helped(0.5), Settings(2, most_starts=4, advise=False)).status is wb.Status.INFEASIBLE
 
 
 def test_the_closest_beat_misses_by_the_force_that_is_told():
@@ -148,7 +147,7 @@ def test_of_several_ends_the_best_goes_on_and_one_that_closes_ends_it(monkeypatc
     balance = Balance(Transcription(wb.OrbitProblem(PIGEON, speed=10.0)))
     flown = []
 
-    def nearest(self, scaled, broken=LAWS, evaluations=None):
+    def nearest(self, scaled, broken=BALANCES, evaluations=None):
         share = float(scaled[0]) * (0.9 if evaluations is None else 1.0)
         flown.append((round(share, 3), tuple(broken), evaluations or 150))
         return Unbalanced(scaled, dict.fromkeys(broken, share), True, 1e-3)
@@ -156,8 +155,11 @@ def test_of_several_ends_the_best_goes_on_and_one_that_closes_ends_it(monkeypatc
     monkeypatch.setattr(Balance, "nearest", nearest)
     ends = [np.array([share]) for share in (0.3, 0.1, 0.2)]
     assert balance.failing(ends).shares == pytest.approx({THRUST: 0.09})
-    together = [(share, LAWS, evaluations) for share, evaluations in ((0.3, 25), (0.1, 25), (0.2, 25), (0.09, 150))]
-    assert flown == [*together, *((0.1, (law,), 25) for law in LAWS), (0.09, (THRUST,), 150)]
+    together = [
+        (share, tuple(BALANCES), evaluations)
+        for share, evaluations in ((0.3, 25), (0.1, 25), (0.2, 25), (0.09, 150))
+    ]
+    assert flown == [*together, *((0.1, (law,), 25) for law in BALANCES), (0.09, (THRUST,), 150)]
     flown.clear()
     assert balance.failing([np.array([0.3]), np.array([0.0]), np.array([0.2])]).closes
     assert [share for share, *_ in flown] == [0.3, 0.0]
@@ -168,12 +170,10 @@ def test_a_beat_that_closes_but_is_no_optimum_is_not_called_infeasible(monkeypat
     programme = Transcription(problem)
     closed = search(programme.uncorrected(), start_point(problem, 0, 0))
     astray = Candidate(programme, 0.5 * (programme.lower + programme.upper), 1.0, False, False, 9.0)
-    monkeypatch.setattr(
-        "wingbeat.orbits.infeasible.without_orbit.nearest_beat", lambda *_: Nearest(closed.scaled, (), True)
-    )
+    monkeypatch.setattr("wingbeat.orbits.diagnosis.nearest_beat", lambda *_: Nearest(closed.scaled, (), True))
     # Searches that go on from it stray; one that finds an orbit is taken.
     assert without_orbit(programme, [astray], 1, advise=False)[1] is None
-    monkeypatch.setattr("wingbeat.orbits.infeasible.without_orbit.search", lambda *_: astray)
+    monkeypatch.setattr("wingbeat.orbits.diagnosis.search", lambda *_: astray)
     beat, failure = without_orbit(programme, [astray], 1, advise=False)
     assert failure.status is Status.NOT_CONVERGED
     assert "almost closed wingbeats were found from 1 start, but none could be certified" in failure.message
@@ -192,10 +192,10 @@ def test_a_beat_that_closes_but_is_no_optimum_is_not_called_infeasible(monkeypat
 
 def test_who_asks_for_no_explanation_is_told_that_there_is_no_orbit_and_spared_the_search_for_why():
     problem = solved("too slow").problem
-    found = find_orbit(problem, 2, most_starts=2, threads=1, advise=False, explain=False)
+    found = find_orbit(problem, Settings(2, most_starts=2, advise=False, explain=False), threads=1)
     assert (found.status, found.deficits, found.relaxations) == (Status.INFEASIBLE, (), ())
     assert found.message == "no orbit within the bounds from 2 starts; the balance that fails was not computed"
-    explained = find_orbit(problem, 2, most_starts=2, threads=1, advise=False)
+    explained = find_orbit(problem, Settings(2, most_starts=2, advise=False), threads=1)
     assert explained.deficits
 
 
@@ -299,7 +299,7 @@ def test_a_harmonic_that_was_held_is_moved():
 
 
 def test_optima_worth_the_same_are_told_with_where_they_differ(bat_orbit):
-    solution = find_orbit(bat_orbit.problem, 2)
+    solution = find_orbit(bat_orbit.problem, Settings(2))
     assert rivals(solution) == []
     other = solution.unknowns.copy()
     other[solution.problem.unknowns().names.index("flap_mean")] += math.radians(10)
@@ -313,5 +313,5 @@ def test_optima_worth_the_same_are_told_with_where_they_differ(bat_orbit):
 def test_no_more_searches_are_told_of_than_there_are():
     problem = wb.OrbitProblem(wb.load_species("pigeon"), 10.0, subject_to=["peak_power<=20"])
     told = []
-    find_orbit(problem, 1, progress=lambda *counts: told.append(counts), most_starts=3, advise=False)
+    find_orbit(problem, Settings(1, most_starts=3, advise=False), progress=lambda *counts: told.append(counts))
     assert told == [(1, 2), (2, 2), (2, 3), (3, 3)]  # the second of the first two is without the limit

@@ -5,7 +5,7 @@ import pytest
 import scipy.optimize
 
 from wingbeat.orbits.nlp.levenberg_marquardt import least_squares
-from wingbeat.orbits.options.least_squares import LeastSquaresOptions
+from wingbeat.orbits.search_options import LeastSquaresOptions
 
 
 def problem(seed, rows, columns):

@@ -9,11 +9,10 @@ import pytest
 import wingbeat as wb
 from tests.helpers.programmes import differences, stock_point
 from wingbeat.cli import main
-from wingbeat.orbits.nlp.local_search import search
-from wingbeat.orbits.nlp.transcription import Transcription
-from wingbeat.orbits.problem.limits import parse_constraint
-from wingbeat.orbits.problem.quantities import QUANTITIES, named_objective, named_quantity
-from wingbeat.orbits.solve import certified_optimum, find_orbit
+from wingbeat.orbits.nlp.transcription import Transcription, search
+from wingbeat.orbits.problem.quantities import QUANTITIES, named_objective, named_quantity, parse_constraint
+from wingbeat.orbits.solution import certified_optimum
+from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.orbits.starts import start_beside, start_point, usual_starts
 from wingbeat.records.inputs import problem_from
 
@@ -32,13 +31,13 @@ def lift_swing(beat):
 @pytest.fixture(scope="module")
 def bat():
     """The bat's orbit of least frequency."""
-    return find_orbit(wb.OrbitProblem(BAT, speed=SPEED), 1)
+    return find_orbit(wb.OrbitProblem(BAT, speed=SPEED), Settings(1))
 
 
 @pytest.fixture(scope="module")
 def free():
     """The pigeon's orbit of least frequency, without a limit."""
-    return find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED), 2)
+    return find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED), Settings(2))
 
 
 def test_every_quantity_is_what_the_record_says(bat):
@@ -99,7 +98,9 @@ def test_nothing_else_has_less_of_it():
 
     It is one test because two processes would otherwise both search for all of them.
     """
-    least = {name: find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise=name), 4) for name in UNDRIVEN}
+    least = {
+        name: find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise=name), Settings(4)) for name in UNDRIVEN
+    }
     for name, best in least.items():
         assert best.status is wb.Status.CONVERGED, name
         assert max(map(abs, best.closure.values())) <= 3e-7, name
@@ -141,7 +142,7 @@ def test_a_limit_is_met_from_the_optima_without_it_too(cross, power):
     problem = wb.OrbitProblem(
         BAT, speed=10.0, minimise="mean_positive_power", subject_to=limit, wings_may_cross=cross
     )
-    found = find_orbit(problem, starts=2, most_starts=2, advise=False)
+    found = find_orbit(problem, Settings(2, most_starts=2, advise=False))
     assert found.status is wb.Status.CONVERGED
     assert found.starts > 2
     assert found.objective == pytest.approx(power, abs=0.001)
@@ -158,7 +159,7 @@ def test_least_peaks_are_sought_from_more_starts_and_beside_the_best():
     for start in beside:
         assert ((unknowns.lower <= start) & (start <= unknowns.upper)).all()
         assert (np.abs(start - best) <= 0.5 * unknowns.scale).all()
-    assert [find_orbit(problem, 2).starts for problem in (peak, mean)] == [3, 2]
+    assert [find_orbit(problem, Settings(2)).starts for problem in (peak, mean)] == [3, 2]
 
 
 @pytest.mark.parametrize(
@@ -177,7 +178,9 @@ def test_a_constraint_that_binds_is_met_and_named(text, free):
 def test_at_least_is_met_by_the_largest_value_and_a_turned_series_bounds_the_least(free):
     torque = QUANTITIES["peak_flap_torque"]
     limit = 1.1 * free.value_of(torque)
-    strong = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[wb.Constraint(torque, limit, False)]), 1)
+    strong = find_orbit(
+        wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[wb.Constraint(torque, limit, False)]), Settings(1)
+    )
     assert strong.status is wb.Status.CONVERGED
     assert strong.value_of(torque) >= limit * (1 - 1e-6)
     nose_down = wb.Quantity("nose_down", lambda beat: -beat.body_pitch, "rad", 0.1)
@@ -192,18 +195,18 @@ def test_at_least_is_met_by_the_largest_value_and_a_turned_series_bounds_the_lea
 
 def test_a_constraint_out_of_reach_is_infeasible_and_named():
     problem = wb.OrbitProblem(PIGEON, speed=SPEED, subject_to="mean_positive_power<=5")
-    found = find_orbit(problem, 1, most_starts=2, advise=False)
+    found = find_orbit(problem, Settings(1, most_starts=2, advise=False))
     assert found.status is wb.Status.INFEASIBLE
     assert "with mean_positive_power<=5" in found.message
 
 
 def test_functions_of_ones_own(free):
     steady = wb.Quantity("lift_swing", lift_swing, scale=0.1)
-    found = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise=steady), 1)
+    found = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise=steady), Settings(1))
     assert found.status is wb.Status.CONVERGED
     assert found.objective < free.value_of(steady)
     limit = 0.5 * (found.objective + free.value_of(steady))
-    kept = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[wb.Constraint(steady, limit)]), 1)
+    kept = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, subject_to=[wb.Constraint(steady, limit)]), Settings(1))
     assert kept.status is wb.Status.CONVERGED
     assert kept.value_of(steady) <= limit * (1 + 1e-6)
 
@@ -225,7 +228,7 @@ def test_functions_that_cannot_be_used_are_refused_by_name(function, said):
 def test_a_function_that_gives_no_number_is_named():
     wrong = wb.Quantity("root", lambda beat: beat.mean((-beat.weight) ** 0.5 * beat.u))
     with pytest.raises(wb.InvalidInputError, match="quantity root = nan: is not finite"):
-        find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise=wrong), 1)
+        find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise=wrong), Settings(1))
 
 
 @pytest.mark.parametrize(
@@ -272,7 +275,7 @@ def test_a_measured_frequency_and_amplitude_are_held_and_the_rest_found():
     assert orbit.wingbeat.flap_amplitude == np.radians(50)
     again = orbit.problem
     assert (again.free, again.species.wingbeat) == (held.free, held.species.wingbeat)
-    free = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise="mean_positive_power"), 1)
+    free = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise="mean_positive_power"), Settings(1))
     assert orbit.record()["objective_value"] > free.objective
 
 

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from wingbeat.orbits.flight.beat import flown_beat
+from wingbeat.orbits.flight.time_series import flown_beat
 from wingbeat.orbits.nlp.defect_correction import correct
-from wingbeat.orbits.nlp.local_search import optimise
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.starts import start_point, structured_starts
 from wingbeat.records.numbers import beat_mean
@@ -189,7 +188,7 @@ def test_a_tilted_stroke_plane_has_the_same_orbit(solved):
     programme = Transcription(problem)
     unknowns = np.array([*solved.start[2:], *(getattr(solved.wingbeat, name) for name in problem.free)])
     unknowns[0] += delta
-    scaled, _ = optimise(programme, programme.scaled(unknowns), 60, 1e-6)
+    scaled, _ = programme.optimise(programme.scaled(unknowns), 60, 1e-6)
     found = correct(programme, scaled)
     assert np.abs(found.residual).max() <= 1e-6
     assert found.wingbeat.frequency == pytest.approx(solved.wingbeat.frequency, rel=1e-8)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from wingbeat._jax.arrays import jax
-from wingbeat.orbits.flight.path_maxima import PARTS, WeightedSamples, highest, peak_weights, peaks, spread
+from wingbeat.orbits.flight.beat import PARTS, WeightedSamples, highest, peak_weights, peaks, spread
 
 PEAKS = jax.jit(peaks)
 PHASE = np.linspace(0.0, 1.0, 33)

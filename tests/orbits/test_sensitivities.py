@@ -14,16 +14,16 @@ from wingbeat._base import InvalidInputError
 from wingbeat.aero.model_file import FittedCurve, FittedModel, FittedWing
 from wingbeat.cli import main
 from wingbeat.cli.uncertainty import _plain, _print
-from wingbeat.orbits.flight.beat import flown_beat
-from wingbeat.orbits.flight.certify import certify
-from wingbeat.orbits.many.uncertainty import ErrorBar, ParameterSpread, first_order
+from wingbeat.orbits.flight.certificate import certify
+from wingbeat.orbits.flight.time_series import flown_beat
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT
 from wingbeat.orbits.nlp.transcription import Transcription
-from wingbeat.orbits.options.solver import DEFAULTS
+from wingbeat.orbits.options import DEFAULTS
 from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.problem.quantities import QUANTITIES
-from wingbeat.orbits.sensitivity import OptimumSlopes
-from wingbeat.orbits.solve import correct_guess, find_orbit
+from wingbeat.orbits.solution import correct_guess
+from wingbeat.orbits.solve import Settings, find_orbit
+from wingbeat.orbits.uncertainty import ErrorBar, OptimumSlopes, ParameterSpread, first_order
 from wingbeat.results.sensitivities import Comparison, _compared, _of_fit
 
 POWER = QUANTITIES["mean_positive_power"]
@@ -32,7 +32,7 @@ SHARE = 0.005
 
 def solved(name, speed, **asked):
     problem = wb.OrbitProblem(wb.load_species(name), speed=speed, **asked)
-    return find_orbit(problem, starts=2)
+    return find_orbit(problem, Settings(2))
 
 
 class Optimum:
@@ -186,7 +186,7 @@ def test_a_loaded_orbit_has_the_same_sensitivities_and_keeps_its_ranges(pigeon, 
 
 def test_what_is_not_certified_or_not_known_is_refused(pigeon):
     tiny = wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0, bounds={"flap_amplitude": (0.01, 0.02)})
-    fallen = find_orbit(tiny, 1, most_starts=1, explain=False)
+    fallen = find_orbit(tiny, Settings(1, most_starts=1, explain=False))
     with pytest.raises(InvalidInputError, match="not certified"):
         wb.sensitivities(wb.Orbit.of(fallen, 1))
     with pytest.raises(InvalidInputError, match="elegance"):

@@ -7,10 +7,9 @@ import pytest
 
 import wingbeat as wb
 from wingbeat._base import InvalidInputError
-from wingbeat.orbits.many.batch import find_orbits
-from wingbeat.orbits.many.series import find_series
-from wingbeat.orbits.solution import Optimum, families
-from wingbeat.orbits.solve import find_orbit, search_near
+from wingbeat.orbits.batch import find_orbits, find_series
+from wingbeat.orbits.solution import Optimum, families, search_near
+from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.orbits.status import Status
 
 
@@ -21,7 +20,7 @@ def row():
 
 
 def test_a_row_is_certified_and_nowhere_worse_than_each_by_itself(row):
-    alone, series = list(find_orbits(row, starts=1)), find_series(row)
+    alone, series = list(find_orbits(row, Settings(1, advise=False))), find_series(row)
     for one, handed in zip(alone, series, strict=True):
         assert handed.status is Status.CONVERGED
         assert handed.objective <= one.objective * (1 + 1e-7)
@@ -31,10 +30,10 @@ def test_a_row_is_certified_and_nowhere_worse_than_each_by_itself(row):
 
 
 def test_a_poor_answer_is_replaced_by_what_the_neighbour_leads_to(row, monkeypatch):
-    own = find_orbit(row[1], 1, threads=1)
+    own = find_orbit(row[1], Settings(1), threads=1)
     poor = dataclasses.replace(own, wingbeat=dataclasses.replace(own.wingbeat, frequency=20.0))
     monkeypatch.setattr(
-        "wingbeat.orbits.many.series.find_orbit",
+        "wingbeat.orbits.batch.find_orbit",
         lambda p, *a, **k: poor if p.speed == 8.0 else find_orbit(p, *a, **k),
     )
     series = find_series(row)
@@ -43,29 +42,29 @@ def test_a_poor_answer_is_replaced_by_what_the_neighbour_leads_to(row, monkeypat
 
 
 def test_following_an_answer_finds_it_again_and_only_what_is_better(row):
-    found = next(find_orbits(row[:1], starts=1))
+    found = next(find_orbits(row[:1], Settings(1, advise=False)))
     again = search_near(row[0], found.unknowns)
     assert again.objective == pytest.approx(found.objective, rel=1e-6)
     assert search_near(row[0], found.unknowns, below=0.9 * found.objective) is None
 
 
 def test_an_orbit_that_its_certificate_makes_no_better_is_not_returned(row, monkeypatch):
-    found = next(find_orbits(row[:1], starts=1))
+    found = next(find_orbits(row[:1], Settings(1, advise=False)))
     below = 1.001 * found.objective
     assert search_near(row[0], found.unknowns, below).objective < below
     raised = dataclasses.replace(found, wingbeat=dataclasses.replace(found.wingbeat, frequency=1.01 * below))
-    monkeypatch.setattr("wingbeat.orbits.solve.certified_optimum", lambda *given: raised)
+    monkeypatch.setattr("wingbeat.orbits.solution.certified_optimum", lambda *given: raised)
     assert search_near(row[0], found.unknowns, below) is None
 
 
 def test_a_row_makes_as_many_starts_as_single_orbits_do(row, monkeypatch):
     asked = []
 
-    def counted(problem, starts=None, seed=0, *rest, **given):
-        asked.append((starts, given["most_starts"]))
-        return find_orbit(problem, 1, threads=1)
+    def counted(problem, settings, **given):
+        asked.append((settings.starts, settings.most_starts))
+        return find_orbit(problem, Settings(1), threads=1)
 
-    monkeypatch.setattr("wingbeat.orbits.many.series.find_orbit", counted)
+    monkeypatch.setattr("wingbeat.orbits.batch.find_orbit", counted)
     wb.solve_orbits(row[:2], in_order=True)
     assert asked == [(None, None)] * 2
 
@@ -81,7 +80,9 @@ def test_optima_closer_than_a_twentieth_are_one_family():
 def test_a_row_in_which_nothing_flies_is_data(row):
     bounds = {"flap_amplitude": (np.radians(5), np.radians(6))}
     hopeless = [wb.OrbitProblem(p.species, speed=p.speed, bounds=bounds) for p in row[:2]]
-    assert [s.status for s in find_series(hopeless, 1, most_starts=1)] == [Status.INFEASIBLE] * 2
+    assert [s.status for s in find_series(hopeless, Settings(1, most_starts=1, advise=False))] == [
+        Status.INFEASIBLE
+    ] * 2
 
 
 def test_orbits_of_a_row_have_records_and_bad_counts_are_refused(row):
@@ -98,7 +99,7 @@ def test_an_answer_is_handed_to_a_neighbour_once(row, monkeypatch):
         handed.append((problem.speed, start.tobytes()))
         return search_near(problem, start, *given)
 
-    monkeypatch.setattr("wingbeat.orbits.many.series.search_near", counted)
+    monkeypatch.setattr("wingbeat.orbits.batch.search_near", counted)
     find_series(row)
     assert len(handed) == len(set(handed)) >= 2 * (len(row) - 1)
 

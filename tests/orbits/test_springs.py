@@ -5,10 +5,9 @@ import pytest
 from scipy.optimize import linprog
 
 import wingbeat as wb
-from wingbeat.orbits.problem.limits import parse_constraint
-from wingbeat.orbits.problem.quantities import QUANTITIES, named_objective
-from wingbeat.orbits.problem.springs import best_spring
-from wingbeat.orbits.solve import find_orbit
+from wingbeat.orbits.flight.beat import best_spring
+from wingbeat.orbits.problem.quantities import QUANTITIES, named_objective, parse_constraint
+from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.records.inputs import problem_from
 
 PIGEON = wb.load_species("pigeon")
@@ -70,7 +69,7 @@ def test_the_power_left_is_an_objective_and_a_limit():
     kept = record["constraints"][limit]
     assert kept == pytest.approx(left_by(0.8, -0.2, flap, flap_rate, power), rel=1e-5)
     assert kept <= 45.0 + 1e-6
-    stiff = find_orbit(wb.OrbitProblem(PIGEON, speed=10.0, minimise="mean_positive_power"), 2)
+    stiff = find_orbit(wb.OrbitProblem(PIGEON, speed=10.0, minimise="mean_positive_power"), Settings(2))
     assert record["objective_value"] < stiff.objective
     assert record["objective_value"] < stiff.value_of(wb.objectives.SpringPower(2.0))
     assert stiff.value_of(wb.objectives.SpringPower(0.0)) == pytest.approx(stiff.objective, rel=1e-12)
@@ -81,9 +80,11 @@ def test_the_power_left_is_an_objective_and_a_limit():
 
 def test_shares_can_be_kept_within_limits():
     against_air = wb.Quantity("against_air", lambda beat: beat.aerodynamic_power, "W", 5.0)
-    free = find_orbit(wb.OrbitProblem(PIGEON, speed=10.0), 1)
+    free = find_orbit(wb.OrbitProblem(PIGEON, speed=10.0), Settings(1))
     limit = 0.95 * free.value_of(against_air)
-    kept = find_orbit(wb.OrbitProblem(PIGEON, speed=10.0, subject_to=[wb.Constraint(against_air, limit)]), 2)
+    kept = find_orbit(
+        wb.OrbitProblem(PIGEON, speed=10.0, subject_to=[wb.Constraint(against_air, limit)]), Settings(2)
+    )
     assert kept.status is wb.Status.CONVERGED
     assert kept.value_of(against_air) == pytest.approx(limit, rel=1e-6)
 

@@ -11,13 +11,12 @@ from hypothesis.extra.numpy import arrays
 
 import wingbeat as wb
 from wingbeat._base import InvalidInputError
-from wingbeat.orbits.flight.shooting import flier
-from wingbeat.orbits.flight.stroke_map import map_and_changes
+from wingbeat.orbits.flight.certificate import map_and_changes
+from wingbeat.orbits.flight.period import flier
 from wingbeat.orbits.nlp.transcription import Transcription
-from wingbeat.orbits.problem.map_quantities import MAP_QUANTITIES
-from wingbeat.orbits.problem.stable import easier
-from wingbeat.orbits.solve import find_orbit
-from wingbeat.orbits.starts import start_point
+from wingbeat.orbits.problem.quantity import MAP_QUANTITIES
+from wingbeat.orbits.solve import Settings, find_orbit
+from wingbeat.orbits.starts import easier, start_point
 
 RADIUS, RESPONSE = MAP_QUANTITIES["spectral_radius"], MAP_QUANTITIES["gust_response"]
 
@@ -139,7 +138,7 @@ def test_least_gust_response_is_less_than_that_of_the_stable_orbit(stable, probl
 
 def test_a_map_quantity_of_your_own_can_be_limited(problem):
     trace = wb.MapQuantity("trace", lambda stroke_map: stroke_map.trace())
-    found = find_orbit(dataclasses.replace(problem, subject_to=[wb.Constraint(trace, 3.7)]), starts=1, threads=1)
+    found = find_orbit(dataclasses.replace(problem, subject_to=[wb.Constraint(trace, 3.7)]), Settings(1), threads=1)
     assert found.status is wb.Status.CONVERGED
     assert found.value_of(trace) == pytest.approx(3.7, abs=1e-5)
     assert found.value_of(trace) == pytest.approx(found.multipliers.sum().real, abs=1e-9)
@@ -159,10 +158,8 @@ def test_a_map_quantity_that_cannot_be_used_is_refused(problem, of, rule):
 
 def test_a_limit_of_stability_has_five_numbers_without_kinks(problem):
     programme = Transcription(problem)
-    values = programme.outputs.of_certified(
-        programme.physical(programme.scaled(start_point(problem, 0, 0))),
-        find_orbit(easier(problem), starts=1).certificate,
-    )
+    unknowns = programme.physical(programme.scaled(start_point(problem, 0, 0)))
+    values = programme._certified(programme.outputs, unknowns, find_orbit(easier(problem), Settings(1)).certificate)
     assert values.shape == (5,)
 
 

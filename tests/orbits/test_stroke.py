@@ -10,10 +10,8 @@ from hypothesis import strategies as st
 
 import wingbeat as wb
 from wingbeat.cli import main
-from wingbeat.orbits.flight.shooting import flier
-from wingbeat.orbits.flight.stroke_distances import SYMMETRY
-from wingbeat.orbits.nlp.stroke_limits import StrokeLimits
-from wingbeat.orbits.options.solver import DEFAULTS
+from wingbeat.orbits.flight.period import SYMMETRY, flier
+from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.records.orbit_record import crossing
 
 PIGEON, BAT = wb.load_species("pigeon"), wb.load_species("bat")
@@ -59,7 +57,7 @@ def wingbeats():
 
 def margins_of(problem):
     """Return the limits of a problem's stroke, and their margins as a function of its free parameters."""
-    limits = StrokeLimits(problem, DEFAULTS.search.plane_clearance)
+    limits = Transcription(problem)._stroke
     fly = flier(problem.model, problem.species.wingbeat, problem.free, stroke=True)
     return limits, lambda values: limits.margins(fly(values, np.array([0.0, problem.speed, 0.0, 0.0])))
 
@@ -128,7 +126,7 @@ def test_wings_that_may_cross_on_request_do_and_draw_a_warning(tmp_path, capsys)
 def test_a_stroke_that_is_held_is_flown_and_draws_a_warning():
     beat = dataclasses.replace(PIGEON.wingbeat, flap_mean=-0.6, flap_amplitude=1.3)
     held = wb.OrbitProblem(PIGEON.with_record(beat), speed=12.0, free=("frequency",))
-    assert not StrokeLimits(held, DEFAULTS.search.plane_clearance).names
+    assert not Transcription(held)._stroke.names
     notes = crossing(held.vehicle, held.aero.strips, beat, held.bounds["flap"])
     assert "through the plane of symmetry" in notes[0]
     assert "-109 to 40 degrees" in notes[1]

@@ -12,13 +12,23 @@ import wingbeat as wb
 from wingbeat._jax.arrays import jax
 from wingbeat.mechanics.flight_loads import flight_loads
 from wingbeat.mechanics.flight_model import FlightModel
-from wingbeat.orbits.infeasible import relaxed_problem
-from wingbeat.orbits.infeasible.deficit import LIFT
-from wingbeat.orbits.infeasible.relaxation import Change, Relaxation, possible_changes, with_change
-from wingbeat.orbits.infeasible.relaxed_problem import least_change
-from wingbeat.orbits.infeasible.terms import TERMS, on_and_off, terms_on, with_trace_of, without_term, words_without
-from wingbeat.orbits.options.solver import DEFAULTS
-from wingbeat.orbits.solve import find_orbit
+from wingbeat.orbits.changes import (
+    TERMS,
+    Change,
+    Relaxation,
+    on_and_off,
+    possible_changes,
+    terms_on,
+    with_change,
+    with_trace_of,
+    without_term,
+    words_without,
+)
+from wingbeat.orbits.diagnosis import least_change
+from wingbeat.orbits.flight.period import LIFT
+from wingbeat.orbits.nlp.transcription import Transcription
+from wingbeat.orbits.options import DEFAULTS
+from wingbeat.orbits.solve import Settings, find_orbit
 
 PIGEON = wb.load_species("pigeon")
 ALL = {"unsteady": "thin-aerofoil", "inflow": "momentum", "induced_factor": 1.4, "upstroke_factor": 0.4}
@@ -58,9 +68,9 @@ def test_a_try_that_the_inflow_refuses_does_not_end_the_others(monkeypatch):
     problem = wb.OrbitProblem(PIGEON, 2.0, aero=wb.aero.BladeElement("su-fan", inflow="momentum"))
     flown = []
     monkeypatch.setattr(
-        relaxed_problem, "optimise", lambda easy, x, *_: (flown.append(easy.problem.climb), True) and (x, True)
+        Transcription, "optimise", lambda easy, x, *_: (flown.append(easy.problem.climb), True) and (x, True)
     )
-    monkeypatch.setattr(relaxed_problem, "is_closed", lambda *_: False)
+    monkeypatch.setattr(Transcription, "is_closed", lambda *_: False)
     sinking = Change("climb", "=", 0.0, -6.0, 1.0, (1.5, 5.0))
     with pytest.raises(wb.InvalidInputError, match="is a descent into the wings' own wake"):
         with_change(problem, "climb", "=", sinking.moved(1.5))
@@ -139,7 +149,7 @@ HASTY = wb.SolverOptions(
 def slow():
     loads = wb.aero.BladeElement("su-fan", unsteady="thin-aerofoil")
     problem = wb.OrbitProblem(PIGEON, 8.0, aero=loads, bounds={"frequency": (1.0, 9.8)})
-    return find_orbit(problem, 1, most_starts=1, threads=1, options=HASTY)
+    return find_orbit(problem, Settings(1, most_starts=1, options=HASTY), threads=1)
 
 
 def test_the_term_that_made_the_difference_is_told_and_certified():
@@ -149,7 +159,7 @@ def test_the_term_that_made_the_difference_is_told_and_certified():
     assert (change.name, change.old, change.new) == ("unsteady", 1.0, 0.0)
     assert found.message.endswith(f"; {change.text}")
     assert Relaxation(**json.loads(json.dumps(vars(change)))) == change
-    again = find_orbit(change.apply(found.problem), 1, advise=False)
+    again = find_orbit(change.apply(found.problem), Settings(1, advise=False))
     assert again.status is wb.Status.CONVERGED
     assert f"closes at {again.wingbeat.frequency:.3g} Hz" in change.text
 

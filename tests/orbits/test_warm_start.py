@@ -7,12 +7,11 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.bench import mixed_problems
-from wingbeat.orbits.many import batch
-from wingbeat.orbits.many.batch import find_orbits
-from wingbeat.orbits.many.warm_start import Answers, Known, differences, group_similar, numbers_of
-from wingbeat.orbits.options.solver import DEFAULTS
-from wingbeat.orbits.solution import better_of
-from wingbeat.orbits.solve import correct_guess, find_orbit
+from wingbeat.orbits import batch
+from wingbeat.orbits.batch import Answers, Known, differences, find_orbits, group_similar, numbers_of
+from wingbeat.orbits.options import DEFAULTS
+from wingbeat.orbits.solution import better_of, correct_guess
+from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.orbits.status import Status
 
 ROUNDING = DEFAULTS.continuation.rounding
@@ -96,7 +95,7 @@ def test_no_answer_is_worse_than_by_itself_and_most_are_settled_without_a_search
         return find_orbit(problem, *args, **named)
 
     monkeypatch.setattr(batch, "find_orbit", counted)
-    together = list(find_orbits(pigeons, starts=1))
+    together = list(find_orbits(pigeons, Settings(1, advise=False)))
     assert len(searched) <= 0.75 * len(pigeons)
     for problem, handed in zip(pigeons, together, strict=True):
         assert handed.problem is problem
@@ -104,12 +103,12 @@ def test_no_answer_is_worse_than_by_itself_and_most_are_settled_without_a_search
         assert handed.starts == 1
         assert max(map(abs, handed.closure.values())) <= 1e-6
         assert handed.optimality <= 1e-5
-        alone = find_orbit(problem, 1, threads=1)
+        alone = find_orbit(problem, Settings(1), threads=1)
         assert handed.objective == pytest.approx(alone.objective, rel=1e-6)
 
 
 def test_a_guess_that_is_no_neighbour_is_refused(pigeons):
-    found = find_orbit(pigeons[0], 1, threads=1)
+    found = find_orbit(pigeons[0], Settings(1), threads=1)
     again = correct_guess(pigeons[0], found.unknowns)
     assert again.objective == pytest.approx(found.objective, rel=1e-8)
     once_more = correct_guess(pigeons[0], found.unknowns, again.reduced_hessian)
@@ -120,7 +119,7 @@ def test_a_guess_that_is_no_neighbour_is_refused(pigeons):
 
 
 def test_of_two_answers_the_better_is_kept_with_the_counts_of_both(pigeons):
-    found = find_orbit(pigeons[0], 1, threads=1)
+    found = find_orbit(pigeons[0], Settings(1), threads=1)
     other = dataclasses.replace(found.wingbeat, frequency=30.0)
     worse = dataclasses.replace(found, wingbeat=other, starts=4, optima=())
     lost = dataclasses.replace(found, status=Status.NOT_CONVERGED)
@@ -133,5 +132,5 @@ def test_of_two_answers_the_better_is_kept_with_the_counts_of_both(pigeons):
 
 
 def test_several_starts_are_made_where_the_guess_is_one_of_them(pigeons):
-    found = list(find_orbits(pigeons, starts=2))
+    found = list(find_orbits(pigeons, Settings(2, advise=False)))
     assert {solution.starts for solution in found} == {2}

@@ -12,11 +12,10 @@ import wingbeat as wb
 from tests.helpers.hasty import make_hasty
 from wingbeat._base import FileError, InvalidInputError, find, label_of, text_of
 from wingbeat.cli import main
-from wingbeat.orbits.many.branches import Branches, BranchLink, carry, trace
-from wingbeat.orbits.many.transitions import families, marks_of
-from wingbeat.orbits.options.solver import DEFAULTS
-from wingbeat.orbits.solve import find_optima
+from wingbeat.orbits.branches import Branches, BranchLink, carry, find_optima, trace
+from wingbeat.orbits.options import DEFAULTS
 from wingbeat.orbits.status import Status
+from wingbeat.orbits.transitions import families, marks_of
 from wingbeat.words.curve_words import curve_report
 
 SPEEDS = [5.0, 6.0, 7.0]

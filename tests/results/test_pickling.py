@@ -12,7 +12,8 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.orbits.problem.parameters import parameters_of
-from wingbeat.orbits.problem.quantities import MAP_QUANTITIES, QUANTITIES
+from wingbeat.orbits.problem.quantities import QUANTITIES
+from wingbeat.orbits.problem.quantity import MAP_QUANTITIES
 
 PIGEON = wb.load_species("pigeon")
 PROBLEM = wb.OrbitProblem(PIGEON, speed=10.0)

@@ -6,8 +6,7 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.cli import main
-from wingbeat.orbits.many.along import SHARE, with_share
-from wingbeat.orbits.many.branches import carry
+from wingbeat.orbits.branches import SHARE, carry, with_share
 from wingbeat.plots import terms_page
 
 

@@ -7,10 +7,10 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.cli import main
-from wingbeat.orbits.flight.floquet import multipliers_of
-from wingbeat.orbits.many.uncertainty import sample_orbits
-from wingbeat.orbits.problem.quantities import MAP_QUANTITIES
-from wingbeat.orbits.solve import correct_guess
+from wingbeat.orbits.flight.certificate import multipliers_of
+from wingbeat.orbits.problem.quantity import MAP_QUANTITIES
+from wingbeat.orbits.solution import correct_guess
+from wingbeat.orbits.uncertainty import sample_orbits
 from wingbeat.records.shares import StableShare, stable_share
 from wingbeat.stability.causes import multiplier_slopes
 

@@ -9,7 +9,7 @@ import wingbeat as wb
 from tests.helpers.reflight import refly
 from wingbeat._base import InvalidInputError
 from wingbeat.cli import main
-from wingbeat.orbits.problem.problem import PITCH_STATE
+from wingbeat.orbits.flight.period import PITCH_STATE
 from wingbeat.plots import manoeuvre_page
 from wingbeat.stability.inputs import top_of
 from wingbeat.stability.manoeuvre_search import BeatMap

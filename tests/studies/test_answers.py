@@ -13,7 +13,7 @@ import wingbeat as wb
 from tests.helpers.engines import Here
 from wingbeat._base import NUMERICAL_VERSION, find, label_of
 from wingbeat.cli import main
-from wingbeat.orbits.solve import find_orbit
+from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.orbits.status import Status
 from wingbeat.studies import work
@@ -226,7 +226,7 @@ def test_the_numerical_version_is_raised_with_the_numbers(done):
 @pytest.mark.parametrize("names", [["u"], ["x", "z", "body_pitch", "u", "w", "pitch_rate"]])
 def test_a_point_whose_flight_runs_off_is_kept_without_a_certificate(names, done, monkeypatch):
     point = next(done.plan.points())
-    found = find_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=9.0), starts=1)
+    found = find_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=9.0), Settings(1))
     closure = {**found.closure, **dict.fromkeys(names, np.nan)}
     lost = dataclasses.replace(found, status=Status.INFEASIBLE, closure=closure)
     monkeypatch.setattr(work, "find_with_known", lambda *given: lost)
@@ -238,7 +238,7 @@ def test_a_point_whose_flight_runs_off_is_kept_without_a_certificate(names, done
 
 def test_a_record_that_no_json_holds_is_told_beside_its_point(done, monkeypatch):
     points = list(done.plan.points())[:2]
-    found = find_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=9.0), starts=1)
+    found = find_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=9.0), Settings(1))
     monkeypatch.setattr(work, "find_with_known", lambda *given: found)
     record = work.orbit_record
     odd = iter([{"mean_power": np.inf}, {}])
@@ -259,4 +259,4 @@ def test_if_nothing_is_said_a_point_is_searched_as_often_as_an_orbit(least, tmp_
     recipe = json.dumps(study.plan.bases[0].recipe.inputs())
     list(work.solve_unit(Unit(recipe, (Task(point.key, point.changes),))))
     problem = wb.OrbitProblem(wb.load_species("bat"), 9.0, minimise=least)
-    assert [given[2] for given in asked] == [usual_starts(problem)]
+    assert [given[2].starts for given in asked] == [usual_starts(problem)]

@@ -23,9 +23,9 @@ from wingbeat.animal.species.reading import parse_setting
 from wingbeat.animal.species.species import Species
 from wingbeat.cli.arguments import Whole, flag, named_numbers, several
 from wingbeat.models import Model, model_of
-from wingbeat.orbits.problem.limits import Constraint
-from wingbeat.orbits.problem.map_quantities import STABLE_RADIUS
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantities import Constraint
+from wingbeat.orbits.problem.quantity import STABLE_RADIUS
 from wingbeat.records.inputs import NotInFileError
 from wingbeat.results.orbit import Orbit, load_orbit
 

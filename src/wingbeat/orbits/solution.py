@@ -1,29 +1,34 @@
-"""What the solver found, and how it ended."""
+"""What the solver found and how it ended, and orbits found next to a known one by correction or a short search."""
 
 from __future__ import annotations
 
 import dataclasses
 import functools
 import re
+import time
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.orbits.flight.beat import Beat
-from wingbeat.orbits.flight.certify import Certificate
-from wingbeat.orbits.flight.floquet import monodromy, multipliers_of
-from wingbeat.orbits.infeasible.deficit import Deficit
-from wingbeat.orbits.infeasible.relaxation import Relaxation
-from wingbeat.orbits.nlp.newton_kkt import ReducedHessian
-from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.certified_beat import certified_beat
-from wingbeat.orbits.problem.map_quantities import MapQuantity
-from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.problem.quantity import Quantity
+from wingbeat.orbits.flight.certificate import Certificate, monodromy, multipliers_of
+from wingbeat.orbits.flight.period import CLOSURE, PATH_NAMES
+from wingbeat.orbits.nlp.defect_correction import Corrected, first_certified, follow_to_certificate, size
+from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
+from wingbeat.orbits.nlp.transcription import Candidate, Transcription, certified_beat, refine
+from wingbeat.orbits.options import DEFAULTS, SolverOptions
+from wingbeat.orbits.problem.quantity import MapQuantity, Quantity
+from wingbeat.orbits.starts import is_at_lower_bound
 from wingbeat.orbits.status import Status
+
+if TYPE_CHECKING:
+    from wingbeat.orbits.changes import Relaxation
+    from wingbeat.orbits.deficit import Deficit
+    from wingbeat.orbits.diagnosis import Ending
+    from wingbeat.orbits.problem.problem import OrbitProblem
 
 
 class Optimum(NamedTuple):
@@ -177,3 +182,147 @@ def better_of(own: Solution, other: Solution) -> Solution:
         seconds=own.seconds + other.seconds,
         certify_seconds=own.certify_seconds + other.certify_seconds,
     )
+
+
+# --- From the solver to a solution. ---
+
+
+def optima_of(candidates: Iterable[Candidate]) -> tuple[Optimum, ...]:
+    """Return the optima among the candidates, in SI, the best first."""
+    return tuple(Optimum(c.objective, c.programme.physical(c.scaled)) for c in optimal(candidates))
+
+
+def optimal(candidates: Iterable[Candidate]) -> list[Candidate]:
+    """Return the candidates that are optima, the best first."""
+    return sorted((c for c in candidates if c.is_optimum), key=lambda c: c.objective)
+
+
+def solution_of(
+    best: Corrected,
+    programme: Transcription,
+    begun: float,
+    found: Iterable[Candidate] = (),
+    searches: int = 1,
+    seed: int = 0,
+    ending: Ending | None = None,
+) -> Solution:
+    """Return what the solver found: the best orbit or closest wingbeat, and the optima where local searches ended.
+
+    The solver began at `begun` [s]. Without an `ending`, the orbit is certified.
+    """
+    seconds, certifying = time.perf_counter() - begun, sum(programme.certifying)
+    apart = programme.options.search.same_optimum
+    optima = families(optima_of(found), programme.problem.unknowns().scale, apart)
+    status, message = (
+        (Status.CONVERGED, _certified_words(best)) if ending is None else (ending.status, ending.message)
+    )
+    return Solution(
+        problem=best.programme.problem,
+        status=status,
+        message=message,
+        wingbeat=best.wingbeat,
+        certificate=best.certificate,
+        closure=dict(zip(CLOSURE, (float(v) for v in best.residual), strict=True)),
+        active_bounds=_active_bounds(best.programme, best.scaled),
+        optimality=best.optimality,
+        starts=searches,
+        distinct_optima=max(len(optima), 1) if status is Status.CONVERGED else len(optima),
+        seed=seed,
+        seconds=seconds,
+        certify_seconds=certifying,
+        optima=optima,
+        deficits=() if ending is None else ending.deficits,
+        relaxations=() if ending is None else ending.relaxations,
+        reduced_hessian=best.reduced_hessian,
+        options=best.programme.options,
+    )
+
+
+def _active_bounds(programme: Transcription, scaled: np.ndarray) -> tuple[str, ...]:
+    """Return the names of the unknowns at a bound, of the active path limits and of the active constraints."""
+    tolerance = programme.options.search.bound_tolerance
+    unknowns = zip(programme.unknowns.names, scaled, programme.lower, programme.upper, strict=False)
+    names = [
+        name
+        for name, x, lower, upper in unknowns
+        if name not in PATH_NAMES and min(x - lower, upper - x) <= tolerance * (upper - lower)
+    ]
+    active = programme.inequalities(scaled) <= tolerance
+    path = programme.path_limits
+    names += dict.fromkeys(name for (name, _), on in zip(path, active, strict=False) if on)
+    if programme.outputs is not None:
+        names += [str(programme.problem.subject_to[i]) for i in programme.outputs.with_active(active[len(path) :])]
+    return tuple(names)
+
+
+def _certified_words(best: Corrected) -> str:
+    words = f"certified: re-flown, it closes to {size(best.residual):.0e}"
+    problem, tolerance = best.programme.problem, best.programme.options.search.bound_tolerance
+    if is_at_lower_bound(problem, best.programme.physical(best.scaled), tolerance):
+        low = problem.bounds["frequency"][0]
+        words += f"; the frequency is at its lower bound of {low:g} Hz, so more starts cannot improve it"
+    return words
+
+
+def correct_guess(
+    problem: OrbitProblem,
+    guess: np.ndarray,
+    like: ReducedHessian | None = None,
+    options: SolverOptions = DEFAULTS,
+) -> Solution | None:
+    """Find the certified orbit next to a guess of the unknowns, by correction without a local search.
+
+    Parameters
+    ----------
+    problem : the orbit problem.
+    guess : the guessed unknowns.
+    like : curvature at the optimum of a similar problem.
+    options : of the solvers.
+
+    Returns
+    -------
+    The certified orbit; None if the guess is too far from an orbit, or if its correction fails.
+    """
+    begun = time.perf_counter()
+    programme = Transcription(problem, options)
+    scaled = programme.scaled(guess)
+    if programme.violation(scaled) > options.continuation.near_closure:
+        return None
+    newton = NewtonKKT(programme, scaled, like)
+    nearer = newton.approach(programme, scaled, options.certificate.linear_range)
+    if nearer is None:
+        return None
+    corrected = follow_to_certificate(programme, newton, nearer)
+    if not corrected.is_orbit():
+        return None
+    return solution_of(corrected, programme, begun)
+
+
+def search_near(
+    problem: OrbitProblem, start: np.ndarray, below: float = np.inf, options: SolverOptions = DEFAULTS
+) -> Solution | None:
+    """Run one local search from unknowns near an orbit; return the certified orbit, or None.
+
+    Parameters
+    ----------
+    problem : the orbit problem.
+    start : unknowns to start from, clipped to their bounds.
+    below : only an orbit with an objective less than this is returned.
+    options : of the solvers.
+    """
+    begun = time.perf_counter()
+    candidate = refine(Transcription(problem, options), start)
+    if not (candidate.is_optimum and candidate.objective < below):
+        return None
+    found = certified_optimum(candidate, time.perf_counter() - begun)
+    # The certifier moves the orbit and may raise its objective: whoever repeats this until nothing improves would
+    # never end.
+    return found if found is not None and found.objective < below else None
+
+
+def certified_optimum(candidate: Candidate, seconds: float) -> Solution | None:
+    """Certify where a local search ended, or return None; `seconds` is the time that the search took."""
+    begun = time.perf_counter() - seconds
+    programme = candidate.programme.uncorrected()
+    best = first_certified(programme, [candidate])
+    return None if best is None else solution_of(best, programme, begun)

@@ -1,39 +1,45 @@
-"""From a problem to a certified orbit: several starts, defect correction, the certificate, a status."""
+"""From a problem to a certified orbit: many local searches, defect correction, the certificate, a status.
+
+The searches of one problem start from its own starts, in parallel, and from optima of an easier problem.
+"""
 
 from __future__ import annotations
 
 import dataclasses
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
 from wingbeat._base import FaultList
 from wingbeat._workers.tuning import core_count
-from wingbeat.orbits.infeasible.lower_bound import is_at_lower_bound
-from wingbeat.orbits.infeasible.without_orbit import Ending, unexplained, without_orbit
-from wingbeat.orbits.multistart import (
-    Progress,
-    easier_searches,
-    first_searches,
-    load_programs,
-    optima_of,
-    optimal,
-    search_from_optima,
-    search_from_starts,
-    stable_searches,
+from wingbeat.orbits.diagnosis import unexplained, without_orbit
+from wingbeat.orbits.flight.certificate import certify
+from wingbeat.orbits.flight.period import fly_part
+from wingbeat.orbits.nlp.defect_correction import Corrected, first_certified
+from wingbeat.orbits.nlp.transcription import Candidate, Transcription, as_candidate, search
+from wingbeat.orbits.options import DEFAULTS, SolverOptions
+from wingbeat.orbits.problem.quantities import Constraint
+from wingbeat.orbits.problem.quantity import MapQuantity
+from wingbeat.orbits.solution import Solution, families, optima_of, optimal, solution_of
+from wingbeat.orbits.starts import (
+    asks_for_stability,
+    easier,
+    minimises_map,
+    start_beside,
+    start_count,
+    start_point,
+    usual_most_starts,
 )
-from wingbeat.orbits.nlp.defect_correction import Corrected, first_certified, follow_to_certificate, size
-from wingbeat.orbits.nlp.local_search import Candidate, active_bounds, refine, violation
-from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
-from wingbeat.orbits.nlp.transcription import Transcription
-from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.map_quantities import MapQuantity
-from wingbeat.orbits.problem.problem import CLOSURE, OrbitProblem
-from wingbeat.orbits.problem.stable import asks_for_stability, minimises_map
-from wingbeat.orbits.solution import Optimum, Solution, better_of, families
-from wingbeat.orbits.starts import start_count, start_point, usual_most_starts
-from wingbeat.orbits.status import Status
+
+if TYPE_CHECKING:
+    from wingbeat.orbits.problem.problem import OrbitProblem
+
+T = TypeVar("T")
+Progress = Callable[[int, int], None]
 
 
 def check_search(starts: int, seed: int, most_starts: int = 1) -> None:
@@ -44,34 +50,58 @@ def check_search(starts: int, seed: int, most_starts: int = 1) -> None:
     faults.raise_if_any()
 
 
-def find_orbit(
-    problem: OrbitProblem,
-    starts: int | None = None,
-    seed: int = 0,
-    progress: Progress | None = None,
-    threads: int | None = None,
-    most_starts: int | None = None,
-    advise: bool = True,
-    explain: bool = True,
-    options: SolverOptions = DEFAULTS,
-) -> Solution:
-    """Find the periodic orbit that minimises the objective, from several starts, and certify it.
+@dataclass(frozen=True)
+class Settings:
+    """How a problem is searched.
 
     Parameters
     ----------
-    problem : the orbit problem.
     starts : number of starts; default as in `SearchOptions` for such a problem. If peaks are minimised, half as
         many further starts follow near the best optimum.
     seed : of the random starts; the same seed gives the same orbit.
-    progress : called with (starts done, starts in all). Without an orbit, each single change that is tried counts
-        as one more start.
-    threads : number of local searches at a time; default the number of cores.
     most_starts : if no start leads to a certified orbit, more follow, up to this many; default that of
         `SearchOptions`.
     advise : if no orbit is found, find the single changes that lead to one. This takes as long as the starts.
     explain : if no orbit is found, find the closest wingbeat and the balance that fails. This takes a third of the
         time of the starts. If `explain` is false, `advise` has no effect.
     options : of the solvers.
+    """
+
+    starts: int | None = None
+    seed: int = 0
+    most_starts: int | None = None
+    advise: bool = True
+    explain: bool = True
+    options: SolverOptions = DEFAULTS
+
+    def check(self) -> None:
+        """Raise `InvalidInputError` unless all numbers are whole numbers in range."""
+        check_search(
+            1 if self.starts is None else self.starts,
+            self.seed,
+            1 if self.most_starts is None else self.most_starts,
+        )
+
+
+USUAL = Settings()
+# Of many problems, few readers want the changes that would lead to an orbit.
+BRIEF = Settings(advise=False)
+
+
+def find_orbit(
+    problem: OrbitProblem,
+    settings: Settings = USUAL,
+    progress: Progress | None = None,
+    threads: int | None = None,
+) -> Solution:
+    """Find the periodic orbit that minimises the objective, from several starts, and certify it.
+
+    Parameters
+    ----------
+    problem, settings : the orbit problem, and how it is searched.
+    progress : called with (starts done, starts in all). Without an orbit, each single change that is tried counts
+        as one more start.
+    threads : number of local searches at a time; default the number of cores.
 
     Returns
     -------
@@ -81,47 +111,21 @@ def find_orbit(
     ------
     InvalidInputError : starts, seed or most_starts not whole numbers in range.
     """
-    starts = start_count(problem, starts, options.search)
-    most = usual_most_starts(problem, options.search) if most_starts is None else most_starts
+    options, seed = settings.options, settings.seed
+    starts = start_count(problem, settings.starts, options.search)
+    most = usual_most_starts(problem, options.search) if settings.most_starts is None else settings.most_starts
     check_search(starts, seed, most)
     begun = time.perf_counter()
     threads = threads or core_count()
     programme = Transcription(problem, options)
     best, found, free = _searched(programme, starts, most, seed, threads, progress)
-    ending = None
-    if best is None:
-        best, ending = without_orbit(programme, found, threads, advise, progress) if explain else unexplained(found)
-    solution = _found(programme, best, found, len(found), seed, begun, ending)
+    searches, ending = len(found), None
+    if best is None and settings.explain:
+        best, ending = without_orbit(programme, found, threads, settings.advise, progress)
+    elif best is None:
+        best, ending = unexplained(found)
+    solution = solution_of(best, programme, begun, found, searches, seed, ending)
     return dataclasses.replace(solution, free_objective=_certified_objective(free))
-
-
-def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
-    """Return the better of a certified orbit and the best orbit from a number of starts, run one after the other.
-
-    Only optima that may be better, judged by the solver's coarse flights, are certified.
-    """
-    begun = time.perf_counter()
-    programme, options = Transcription(known.problem, known.options), known.options.search
-    here, scale = programme.scaled(known.unknowns), known.problem.minimise.scale
-    objective = programme.objective(here) * scale
-    error, apart = options.uncorrected_error * max(abs(objective), scale), options.same_optimum
-    found = first_searches(programme, starts, seed, 1)
-    others = [
-        c for c in optimal(found) if c.objective <= objective - error or np.abs(c.scaled - here).max() > apart
-    ]
-    best = first_certified(programme, [c for c in others if c.objective <= objective + error])
-    if best is not None:
-        return better_of(_found(programme, best, found, len(found), seed, begun), known)
-    optima = families([*known.as_optimum(), *optima_of(found)], known.problem.unknowns().scale, apart)
-    return dataclasses.replace(
-        known,
-        starts=known.starts + len(found),
-        seed=seed,
-        distinct_optima=len(optima),
-        optima=optima,
-        seconds=known.seconds + time.perf_counter() - begun,
-        certify_seconds=known.certify_seconds + programme.certify_seconds,
-    )
 
 
 def _searched(
@@ -164,21 +168,6 @@ def _certified_objective(found: list[Candidate]) -> float | None:
     return None if best is None else best.programme.objective(best.scaled) * best.programme.problem.minimise.scale
 
 
-def _found(
-    programme: Transcription,
-    best: Corrected,
-    found: list[Candidate],
-    searches: int,
-    seed: int,
-    begun: float,
-    ending: Ending | None = None,
-) -> Solution:
-    seconds, certifying = time.perf_counter() - begun, programme.certify_seconds
-    apart = programme.options.search.same_optimum
-    optima = families(optima_of(found), programme.problem.unknowns().scale, apart)
-    return _solution(best, searches, optima, seed, seconds, certifying, ending)
-
-
 def _where_limits_hold(programme: Transcription, starts: int, seed: int, threads: int) -> Iterator[list[Candidate]]:
     """For each limit, search from the beat that minimises the limited quantity; yield the ends of the searches.
 
@@ -196,135 +185,178 @@ def _where_limits_hold(programme: Transcription, starts: int, seed: int, threads
             yield search_from_optima(Transcription(problem, options), found, threads)
 
 
-def correct_guess(
-    problem: OrbitProblem,
-    guess: np.ndarray,
-    like: ReducedHessian | None = None,
-    options: SolverOptions = DEFAULTS,
-) -> Solution | None:
-    """Find the certified orbit next to a guess of the unknowns, by correction without a local search.
+def load_programs(programme: Transcription, start: np.ndarray) -> None:
+    """Load or compile the programs of a local search and of the certificate in parallel, once per process."""
+    if fly_part.loaded:
+        return
+
+    wingbeat = programme.problem.wingbeat(start)
+    with ThreadPoolExecutor(2) as pool:
+        # The program of the search compiles the longest, so it goes first.
+        searching = pool.submit(programme.closure_jacobian, programme.scaled(start))
+        pool.submit(certify, programme.model, wingbeat, start[:4]).result()
+        searching.result()
+
+
+def first_searches(
+    programme: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
+) -> list[Candidate]:
+    """Search from starts, from optima of the problem without limits, and near the lowest peak; return all ends.
 
     Parameters
     ----------
-    problem : the orbit problem.
-    guess : the guessed unknowns.
-    like : curvature at the optimum of a similar problem.
-    options : of the solvers.
-
-    Returns
-    -------
-    The certified orbit; None if the guess is too far from an orbit, or if its correction fails.
+    programme : the problem's programme.
+    starts, seed : number of starts, and seed of the random ones. The problem without limits gets the same number of
+        starts.
+    threads : number of local searches at a time.
+    progress : called with (local searches done, local searches in all), including those without limits.
     """
-    begun = time.perf_counter()
-    programme = Transcription(problem, options)
-    scaled = programme.scaled(guess)
-    if violation(programme, scaled) > options.continuation.near_closure:
-        return None
-    newton = NewtonKKT(programme, scaled, like)
-    nearer = newton.approach(programme, scaled, options.certificate.linear_range)
-    if nearer is None:
-        return None
-    corrected = follow_to_certificate(programme, newton, nearer)
-    if not corrected.is_orbit():
-        return None
-    seconds = time.perf_counter() - begun
-    return _solution(corrected, 1, (), 0, seconds, programme.certify_seconds)
+    problem, options = programme.problem, programme.options
+    if asks_for_stability(problem):
+        return stable_searches(programme, easier_searches(programme, starts, seed, threads, progress), threads)
+    limited = bool(problem.subject_to)
+    found: list[Candidate] = []
+    for candidate in search_from_starts(programme, range(starts), seed, threads):
+        found.append(candidate)
+        if progress is not None:
+            progress(len(found), starts * (1 + limited))
+    if limited:
+        without = Transcription(dataclasses.replace(problem, subject_to=()), options)
+        report = None if progress is None else lambda done, total: progress(starts + done, starts + total)
+        found += search_from_optima(programme, first_searches(without, starts, seed, threads, report), threads)
+    if programme.has_epigraph:
+        found += beside_best(programme, found, starts // 2, seed)
+    return found
 
 
-def search_near(
-    problem: OrbitProblem, start: np.ndarray, below: float = np.inf, options: SolverOptions = DEFAULTS
-) -> Solution | None:
-    """Run one local search from unknowns near an orbit; return the certified orbit, or None.
+def search_from_optima(
+    programme: Transcription, easier: Iterable[Candidate], threads: int, pruned: bool = False
+) -> list[Candidate]:
+    """Search from the best optimum of each family of an easier problem; return where the local searches end.
 
     Parameters
     ----------
-    problem : the orbit problem.
-    start : unknowns to start from, clipped to their bounds.
-    below : only an orbit with an objective less than this is returned.
-    options : of the solvers.
+    programme : of the problem.
+    easier : ends of the searches of the easier problem.
+    threads : number of local searches at a time.
+    pruned : whether to leave out families that are dearer without the limits than an optimum found with them.
+        Limits only raise the objective within a family.
     """
-    begun = time.perf_counter()
-    candidate = refine(Transcription(problem, options), start)
-    if not (candidate.is_optimum and candidate.objective < below):
-        return None
-    found = certified_optimum(candidate, time.perf_counter() - begun)
-    # The certifier moves the orbit and may raise its objective: whoever repeats this until nothing improves would
-    # never end.
-    return found if found is not None and found.objective < below else None
+    scale, apart = programme.problem.unknowns().scale, programme.options.search.same_optimum
+    found: list[Candidate] = []
+    starts = list(families(optima_of(easier), scale, apart))
+    while starts:
+        together, starts = starts[:threads] if pruned else starts, starts[threads:] if pruned else []
+        begun = [optimum.unknowns for optimum in together]
+        found += _side_by_side(lambda start: search(programme.uncorrected(), start), begun, threads)
+        best = optimal(found)
+        if best:
+            starts = [optimum for optimum in starts if optimum.objective < best[0].objective]
+    return found
 
 
-def find_optima(
-    problem: OrbitProblem, starts: int, seed: int = 0, options: SolverOptions = DEFAULTS
-) -> list[Solution]:
-    """Return every distinct optimum that the starts find and the certifier confirms, the best first.
+def easier_searches(
+    programme: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
+) -> list[Candidate]:
+    """Search as `first_searches` does, for the easier problem that comes before a search for stability."""
+    free = Transcription(easier(programme.problem), programme.options)
+    return first_searches(free, starts, seed, threads, progress)
+
+
+def stable_searches(programme: Transcription, free: list[Candidate], threads: int) -> list[Candidate]:
+    """Search for stable orbits from the optima without limits of stability; return where the searches end.
+
+    No search starts from elsewhere, for two reasons. Stable orbits are next to some of these optima. A flight with
+    the derivatives of the stroke map takes five times as long as one without. If a stable orbit costs too much
+    (`SearchOptions.dear_stability`) or none is found, one more search starts from the best of these optima. It
+    tightens the limits step by step, because a direct search may end in another family.
+    """
+    best, map_is_minimised = optimal(free), minimises_map(programme.problem)
+    if best and not map_is_minimised:
+        already = as_candidate(programme.uncorrected(), programme.scaled(optima_of(best)[0].unknowns), optimal=True)
+        if already.is_optimum:
+            return [already]
+    if map_is_minimised or not best:
+        return search_from_optima(programme, free, threads)
+    found = search_from_optima(programme, free, threads, pruned=True)
+    stable = optimal(found)
+    dear = best[0].objective + programme.options.search.dear_stability * abs(best[0].objective)
+    if not stable or stable[0].objective > dear:
+        found.append(search(programme.uncorrected(), tightened(programme, optima_of(best)[0].unknowns)))
+    return found
+
+
+def search_from_starts(
+    programme: Transcription, indices: Iterable[int], seed: int, threads: int
+) -> Iterator[Candidate]:
+    """Search from these starts in parallel threads, and yield in order where each local search ends.
+
+    The first start is the stock wingbeat. Every other start is brought close to closure before the objective is
+    minimised, because a local search from far away diverges. If no orbit exists, such a search ends after 30
+    flights rather than 100.
+    """
+
+    def one(index: int) -> Candidate:
+        start = start_point(programme.problem, index, seed, programme.options.search)
+        return search(programme.uncorrected(), start, restore=index > 0)
+
+    yield from _side_by_side(one, indices, threads)
+
+
+def _side_by_side(work: Callable[[T], Candidate], items: Iterable[T], threads: int) -> Iterator[Candidate]:
+    if threads == 1:
+        yield from map(work, items)
+        return
+    # Compiled flights release the interpreter lock, so threads run in parallel.
+    with ThreadPoolExecutor(threads) as pool:
+        try:
+            yield from pool.map(work, items)
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def beside_best(programme: Transcription, found: list[Candidate], count: int, seed: int) -> list[Candidate]:
+    """Search near the best optimum, because a lower peak is often near it; return where the searches end."""
+    more: list[Candidate] = []
+    for index in range(count):
+        optima = optima_of((*found, *more))
+        if not optima:
+            break
+        place = len(found) + index
+        start = start_beside(programme.problem, optima[0].unknowns, place, seed, programme.options.search)
+        more.append(search(programme.uncorrected(), start))
+    return more
+
+
+def tightened(programme: Transcription, start: np.ndarray) -> np.ndarray:
+    """Return unknowns near a local optimum; start from an orbit that exceeds limits of the stroke map.
+
+    Each limit moves in steps of equal ratio. Its first value is that of the limited quantity at the start, its last
+    is the limit asked for. A short search follows each step.
 
     Parameters
     ----------
-    problem, starts, seed, options : as in `find_orbit`; the starts run one after the other.
+    programme : of the problem with its limits.
+    start : unknowns of an orbit of the problem without these limits.
     """
-    begun = time.perf_counter()
-    found = first_searches(Transcription(problem, options), starts, seed, 1)
-    each = (time.perf_counter() - begun) / starts
-    optima: list[Solution] = []
-    known: list[np.ndarray] = []
-    for candidate in optimal(found):
-        if any(np.abs(candidate.scaled - other).max() <= options.search.same_optimum for other in known):
-            continue
-        optimum = certified_optimum(candidate, each)
-        if optimum is not None:
-            known.append(candidate.scaled)
-            if not any(optimum.same_as(other) for other in optima):
-                optima.append(optimum)
-    return optima
+    problem, options = programme.problem, programme.options
+    stroke_map = np.asarray(programme.fly(start[4:], start[:4]).end_jacobian)[2:, :4]
+    for share in np.linspace(0.0, 1.0, options.search.tightening_steps + 1)[1:]:
+        limits = tuple(_between(c, stroke_map, float(share)) for c in problem.subject_to)
+        nearer = Transcription(dataclasses.replace(problem, subject_to=limits), options)
+        scaled = nearer.scaled(start)
+        start = nearer.physical(
+            nearer.optimise(scaled, options.search.tightening_iterations, options.search.tolerance)[0]
+        )
+    return start
 
 
-def certified_optimum(candidate: Candidate, seconds: float) -> Solution | None:
-    """Certify where a local search ended, or return None; `seconds` is the time that the search took."""
-    begun = time.perf_counter()
-    programme = candidate.programme.uncorrected()
-    best = first_certified(programme, [candidate])
-    if best is None:
-        return None
-    seconds += time.perf_counter() - begun
-    return _solution(best, 1, (), 0, seconds, programme.certify_seconds)
-
-
-def _solution(
-    best: Corrected,
-    searches: int,
-    optima: tuple[Optimum, ...],
-    seed: int,
-    seconds: float,
-    certify_seconds: float,
-    ending: Ending | None = None,
-) -> Solution:
-    end = ending or Ending(Status.CONVERGED, _certified_words(best))
-    return Solution(
-        best.programme.problem,
-        end.status,
-        end.message,
-        best.wingbeat,
-        best.certificate,
-        dict(zip(CLOSURE, (float(v) for v in best.residual), strict=True)),
-        active_bounds(best.programme, best.scaled),
-        best.optimality,
-        searches,
-        max(len(optima), 1) if end.status is Status.CONVERGED else len(optima),
-        seed,
-        seconds,
-        certify_seconds,
-        optima,
-        end.deficits,
-        end.relaxations,
-        best.reduced_hessian,
-        best.programme.options,
-    )
-
-
-def _certified_words(best: Corrected) -> str:
-    words = f"certified: re-flown, it closes to {size(best.residual):.0e}"
-    problem, tolerance = best.programme.problem, best.programme.options.search.bound_tolerance
-    if is_at_lower_bound(problem, best.programme.physical(best.scaled), tolerance):
-        low = problem.bounds["frequency"][0]
-        words += f"; the frequency is at its lower bound of {low:g} Hz, so more starts cannot improve it"
-    return words
+def _between(constraint: Constraint, stroke_map: np.ndarray, share: float) -> Constraint:
+    """Return a limit between the quantity's value at the start and the limit asked for; leave other constraints."""
+    quantity, limit = constraint.quantity, constraint.limit
+    if not (isinstance(quantity, MapQuantity) and constraint.at_most):
+        return constraint
+    there = float(np.max(quantity.of(stroke_map)))
+    if not there > limit > 0:
+        return constraint
+    return dataclasses.replace(constraint, limit=there * (limit / there) ** share)

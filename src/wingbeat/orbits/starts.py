@@ -8,16 +8,20 @@ the body, families with little wing pitching exist at low frequencies only, and 
 
 from __future__ import annotations
 
+import dataclasses
 import math
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from wingbeat.animal.kinematics import parameter
-from wingbeat.orbits.options.search import SearchOptions
-from wingbeat.orbits.options.solver import DEFAULTS
-from wingbeat.orbits.options.start_families import StartFamily
-from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.problem.stable import asks_for_stability, easier
+from wingbeat.orbits.options import DEFAULTS
+from wingbeat.orbits.problem.quantities import QUANTITIES, Constraint, Frequency
+from wingbeat.orbits.problem.quantity import MAP_QUANTITIES, STABLE_RADIUS, MapQuantity
+from wingbeat.orbits.search_options import SearchOptions, StartFamily
+
+if TYPE_CHECKING:
+    from wingbeat.orbits.problem.problem import OrbitProblem
 
 
 def usual_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search) -> int:
@@ -98,3 +102,36 @@ def _start_in(problem: OrbitProblem, family: StartFamily) -> list[float]:
     # Tilting the stroke plane turns the body the other way and leaves the wings where they were.
     pitch = family.nose_up + problem.vehicle.wing.stroke_plane_angle + beat.stroke_plane_tilt - 0.5 * math.pi
     return [pitch, problem.speed, problem.climb, 0.0, *wingbeat.values()]
+
+
+def minimises_map(problem: OrbitProblem) -> bool:
+    """Return whether the objective is a quantity of the stroke map."""
+    return isinstance(problem.minimise, MapQuantity)
+
+
+def asks_for_stability(problem: OrbitProblem) -> bool:
+    """Return whether the objective or a limit is a quantity of the stroke map."""
+    return minimises_map(problem) or any(isinstance(c.quantity, MapQuantity) for c in problem.subject_to)
+
+
+def easier(problem: OrbitProblem) -> OrbitProblem:
+    """Return the easier problem that is solved first; a search for stability starts from its optima.
+
+    If the objective is a quantity of the stroke map, the easier problem asks for the stable orbit of least
+    frequency, or of least power if the frequency is fixed. Otherwise, the easier problem is the same problem
+    without limits of the stroke map.
+    """
+    if minimises_map(problem):
+        objective = Frequency() if "frequency" in problem.free else QUANTITIES["mean_positive_power"]
+        stable = Constraint(MAP_QUANTITIES["spectral_radius"], STABLE_RADIUS)
+        return dataclasses.replace(problem, minimise=objective, subject_to=(*problem.subject_to, stable))
+    others = tuple(c for c in problem.subject_to if not isinstance(c.quantity, MapQuantity))
+    return dataclasses.replace(problem, subject_to=others)
+
+
+def is_at_lower_bound(problem: OrbitProblem, unknowns: np.ndarray, tolerance: float) -> bool:
+    """Return whether the frequency is minimised and at its lower bound, so that no start can improve it."""
+    if problem.minimise.parameter != "frequency":
+        return False
+    low, high = problem.bounds["frequency"]
+    return problem.frequency(unknowns) - low <= tolerance * (high - low)

@@ -18,14 +18,13 @@ from wingbeat._base import SHAPE, STATE_NAMES, harmonic_place, is_number
 from wingbeat._jax.arrays import own_settings
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.animal.kinematics import PARAMETER_NAMES, Wingbeat, parameter
+from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.flight.beat import Beat
-from wingbeat.orbits.flight.stroke_distances import SYMMETRY
-from wingbeat.orbits.infeasible.relaxation import Relaxation
-from wingbeat.orbits.options.solver import DEFAULTS
-from wingbeat.orbits.problem.drive import drive_numbers
+from wingbeat.orbits.flight.period import PATH_NAMES, SYMMETRY
+from wingbeat.orbits.options import DEFAULTS
 from wingbeat.orbits.problem.plausible import judged_names
-from wingbeat.orbits.problem.problem import PATH_NAMES
 from wingbeat.orbits.problem.quantities import QUANTITIES
+from wingbeat.orbits.problem.quantity import drive_numbers
 from wingbeat.orbits.status import Status
 from wingbeat.records.forms import from_json
 from wingbeat.records.inputs import OWN, aero_inputs, inputs_of, problem_from, shape_attribute

@@ -8,8 +8,9 @@ from typing import Any, NamedTuple
 
 from wingbeat._base import in_words
 from wingbeat.orbits.flight.beat import Beat
+from wingbeat.orbits.flight.period import PATH_NAMES
 from wingbeat.orbits.problem.plausible import judged_names
-from wingbeat.orbits.problem.problem import PATH_NAMES, OrbitProblem
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import QUANTITIES
 
 # The reader's name of each judged number.

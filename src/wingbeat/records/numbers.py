@@ -9,9 +9,8 @@ import numpy as np
 
 from wingbeat._base import KIND, FaultList
 from wingbeat._base.datasets import at_station
-from wingbeat.orbits.flight.beat import Beat, mean_positive
+from wingbeat.orbits.flight.beat import Beat, best_spring, mean_positive
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.problem.springs import best_spring
 from wingbeat.records.tables import finite_or_none
 
 if TYPE_CHECKING:

@@ -14,10 +14,10 @@ from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.clearance import flap_angles, has_room, lateral_corners
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.beat import Beat
-from wingbeat.orbits.infeasible.lower_bound import is_at_lower_bound
-from wingbeat.orbits.problem.drive import drive_numbers
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantity import drive_numbers
 from wingbeat.orbits.solution import Solution
+from wingbeat.orbits.starts import is_at_lower_bound
 from wingbeat.orbits.status import Status
 from wingbeat.records.inputs import aero_record, vehicle_record, wingbeat_record
 from wingbeat.records.judgements import plausibility

@@ -30,11 +30,11 @@ from wingbeat._base import (
 from wingbeat._workers.tuning import core_count
 from wingbeat.animal.kinematics import NAMED_IF_ON, PARAMETER_NAMES, in_use
 from wingbeat.mechanics.flight_model import State
-from wingbeat.orbits.many.branches import Branches, trace
-from wingbeat.orbits.many.transitions import certified, families, marks_of
-from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
+from wingbeat.orbits.branches import Branches, trace
+from wingbeat.orbits.options import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
+from wingbeat.orbits.transitions import certified, families, marks_of
 from wingbeat.plots.draw_curve import curve_page
 from wingbeat.records.characteristic import (
     BestLine,

@@ -15,16 +15,14 @@ from wingbeat._base import Report, Reported
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import Steps
-from wingbeat.orbits.flight.beat import flown_beat
-from wingbeat.orbits.flight.certify import SAMPLES, certify
-from wingbeat.orbits.flight.floquet import floquet_multipliers
-from wingbeat.orbits.infeasible.relaxation import Relaxation
-from wingbeat.orbits.many.batch import find_orbits
-from wingbeat.orbits.many.series import find_series
-from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
+from wingbeat.orbits.batch import find_orbits, find_series
+from wingbeat.orbits.changes import Relaxation
+from wingbeat.orbits.flight.certificate import SAMPLES, certify, floquet_multipliers
+from wingbeat.orbits.flight.time_series import flown_beat
+from wingbeat.orbits.options import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import Progress, check_search, find_orbit
+from wingbeat.orbits.solve import Progress, Settings, check_search, find_orbit
 from wingbeat.orbits.starts import start_count
 from wingbeat.orbits.status import Status
 from wingbeat.plots.draw_wingbeat import wingbeat_page
@@ -343,7 +341,7 @@ def solve_orbit(
     with ThreadPoolExecutor(1) as pool:
         if not flown_beat.loaded:  # read or compiled while the search goes on
             pool.submit(_load_record_programs, problem)
-        solution = find_orbit(problem, starts, seed, progress, options=options)
+        solution = find_orbit(problem, Settings(starts, seed, options=options), progress)
     return Orbit.of(solution, starts, seed)
 
 
@@ -402,7 +400,7 @@ def solve_orbits(
     >>> [orbit.status.value for orbit in orbits]
     ['converged', 'converged', 'converged']
     """
-    solve = find_series if in_order else find_orbits
-    found = solve(problems, starts, seed, processes, progress, most_starts, advise, options)
+    settings = Settings(starts, seed, most_starts, advise, options=options)
+    found = (find_series if in_order else find_orbits)(problems, settings, processes, progress)
     asked = (start_count(problem, starts, options.search) for problem in problems)
     return [Orbit.of(solution, count, seed) for solution, count in zip(found, asked, strict=True)]

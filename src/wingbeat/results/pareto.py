@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._base import FaultList, Report, Reported, __version__
-from wingbeat.orbits.many.series import find_series
-from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.limits import Constraint
+from wingbeat.orbits.batch import find_series
+from wingbeat.orbits.options import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.problem.quantities import Quantity
-from wingbeat.orbits.solve import Progress
+from wingbeat.orbits.problem.quantities import Constraint
+from wingbeat.orbits.problem.quantity import Quantity
+from wingbeat.orbits.solve import Progress, Settings
 from wingbeat.orbits.starts import start_count
 from wingbeat.orbits.status import Status
 from wingbeat.plots.draw_influences import pareto_page
@@ -177,7 +177,9 @@ def pareto_front(
         dataclasses.replace(problem, subject_to=(*problem.subject_to, Constraint(kept, limit, at_most)))
         for limit in values
     ]
-    found = find_series(series, starts, seed, processes, progress, options=options)
+    found = find_series(
+        series, Settings(starts, seed, advise=False, options=options), processes=processes, progress=progress
+    )
     counts = [start_count(one, starts, options.search) for one in series]
     orbits = tuple(Orbit.of(solution, count, seed) for solution, count in zip(found, counts, strict=True))
     reached = [s.value_of(kept) if s.status is Status.CONVERGED else math.nan for s in found]

@@ -21,21 +21,23 @@ from wingbeat._base import (
     written,
 )
 from wingbeat.aero.model_file import Fitted
-from wingbeat.orbits.many.uncertainty import (
+from wingbeat.orbits.options import DEFAULTS, SolverOptions
+from wingbeat.orbits.problem.parameters import CURVES, Parameter, parameters_of
+from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantities import named_quantity
+from wingbeat.orbits.problem.quantity import Quantity
+from wingbeat.orbits.solve import Progress
+from wingbeat.orbits.status import Status
+from wingbeat.orbits.uncertainty import (
     ErrorBar,
+    OptimumSlopes,
     ParameterSpread,
     Samples,
+    Sensitivity,
     first_order,
     sample_orbits,
     uniform_spread,
 )
-from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.parameters import CURVES, Parameter, parameters_of
-from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.problem.quantities import Quantity, named_quantity
-from wingbeat.orbits.sensitivity import OptimumSlopes, Sensitivity
-from wingbeat.orbits.solve import Progress
-from wingbeat.orbits.status import Status
 from wingbeat.plots.draw_influences import tornado_page
 from wingbeat.records.shares import LimitShare, StableShare, limit_share, stable_share
 from wingbeat.records.tables import table_of

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat.animal.kinematics import Wingbeat, parameter
-from wingbeat.orbits.solve import search_near
+from wingbeat.orbits.solution import search_near
 from wingbeat.records.numbers import POWERS, power_summary
 from wingbeat.records.shares import LimitShare, limit_share
 from wingbeat.results.orbit import Orbit

@@ -9,12 +9,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from wingbeat._base import FaultList, __version__
-from wingbeat.orbits.many.along import SHARE, with_share
-from wingbeat.orbits.many.branches import Branches, trace_along
-from wingbeat.orbits.many.transitions import certified, families, marks_of
-from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
+from wingbeat.orbits.branches import SHARE, Branches, trace_along, with_share
+from wingbeat.orbits.options import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
+from wingbeat.orbits.transitions import certified, families, marks_of
 from wingbeat.records.inputs import aero_record
 from wingbeat.records.numbers import power_account
 from wingbeat.records.tables import finite_or_none

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._base import Report, Reported
-from wingbeat.orbits.flight.floquet import multipliers_of
-from wingbeat.orbits.options.solver import DEFAULTS as SOLVER
-from wingbeat.orbits.options.solver import SolverOptions
-from wingbeat.orbits.problem.map_quantities import MAP_QUANTITIES, MapQuantity
+from wingbeat.orbits.flight.certificate import multipliers_of
+from wingbeat.orbits.options import DEFAULTS as SOLVER
+from wingbeat.orbits.options import SolverOptions
+from wingbeat.orbits.problem.quantity import MAP_QUANTITIES, MapQuantity
 from wingbeat.plots.draw_influences import tornado_page
 from wingbeat.records.tables import table_of
 from wingbeat.results.sensitivities import Sensitivities, sensitivities

@@ -12,8 +12,9 @@ import numpy as np
 from wingbeat._base import FaultList, Report, Reported, __version__, install_extra
 from wingbeat.animal.kinematics import Wingbeat, flap_angle
 from wingbeat.mechanics.flight_model import State
-from wingbeat.orbits.flight.stroke_map import StrokeMap, stroke_map
-from wingbeat.orbits.problem.problem import PITCH_STATE, OrbitProblem
+from wingbeat.orbits.flight.certificate import StrokeMap, stroke_map
+from wingbeat.orbits.flight.period import PITCH_STATE
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.status import Status
 from wingbeat.plots.draw_stability import stability_page
 from wingbeat.results.flight import Flight, simulate

@@ -18,7 +18,7 @@ from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
-from wingbeat.orbits.problem.problem import PITCH_STATE
+from wingbeat.orbits.flight.period import PITCH_STATE
 from wingbeat.stability.reports import mode_report
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ import numpy as np
 
 from wingbeat._base import SHARES
 from wingbeat.animal.kinematics import ANGLES
-from wingbeat.orbits.options.checks import check_options
+from wingbeat.orbits.search_options import check_options
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,8 @@ from wingbeat.animal.species.species import Species
 from wingbeat.models import Model, model_of
 from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, parameters_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
-from wingbeat.orbits.problem.quantities import Quantity, named_objective
+from wingbeat.orbits.problem.quantities import named_objective
+from wingbeat.orbits.problem.quantity import Quantity
 from wingbeat.orbits.starts import usual_starts
 from wingbeat.records.inputs import aero_from, inputs_of, species_from
 from wingbeat.studies.form import StudyForm

@@ -22,7 +22,7 @@ from wingbeat._base import (
 )
 from wingbeat._workers.tuning import core_count
 from wingbeat.animal.species.numbers import shown
-from wingbeat.orbits.many.batch import check_processes
+from wingbeat.orbits.batch import check_processes
 from wingbeat.plots.draw_study import study_page
 from wingbeat.results.orbit import Orbit
 from wingbeat.studies.driver import Progress, Tally, drive

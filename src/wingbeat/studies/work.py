@@ -12,10 +12,9 @@ from collections.abc import Hashable, Iterator, Mapping
 from typing import Any, NamedTuple
 
 from wingbeat._workers.process import Context
-from wingbeat.orbits.many.batch import best_of_guesses, find_with_known
-from wingbeat.orbits.many.warm_start import Answers, Known, kind, numbers_of
-from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import search_near
+from wingbeat.orbits.batch import Answers, Known, best_of_guesses, find_with_known, kind, numbers_of
+from wingbeat.orbits.solution import Solution, search_near
+from wingbeat.orbits.solve import Settings
 from wingbeat.orbits.status import Status
 from wingbeat.records.orbit_record import orbit_record
 from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
@@ -65,15 +64,14 @@ def _search(recipe: str, changes: Mapping[str, Any], before: list[_Before]) -> t
     made = _recipe(recipe)
     search = made.search
     problem = made.problem(changes)
-    starts = starts_of(made, problem)
     most = None if search["most_starts"] is None else int(search["most_starts"])
-    seed = int(search["seed"])
+    settings = Settings(starts_of(made, problem), int(search["seed"]), most, search["advise"], search["explain"])
     own, numbers = kind(problem), numbers_of(problem)
     like = [one.known for one in before[-_PREDICTING:] if one.kind == own]
     near = best_of_guesses(problem, Answers(like, [numbers]).predict(0))
     if before and near is None:
         near = search_near(problem, before[-1].known.unknowns)
-    found = find_with_known(problem, near, starts, seed, most, search["advise"], search["explain"])
+    found = find_with_known(problem, near, settings)
     return found, _Before(own, Known(numbers, found.unknowns, found.active_bounds, found.reduced_hessian))
 
 

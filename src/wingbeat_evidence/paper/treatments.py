@@ -13,10 +13,10 @@ import numpy as np
 from wingbeat._workers.pool import in_processes
 from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.animal.species.making import load_species
-from wingbeat.orbits.many.series import find_series
+from wingbeat.orbits.batch import find_series
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import Progress
+from wingbeat.orbits.solve import Progress, Settings
 from wingbeat.results.orbit import Orbit
 
 ANIMALS = ("pigeon", "bat")
@@ -174,7 +174,7 @@ def chain(treatment: str, animal: str, speeds: Iterable[float]) -> list[Case]:
 
 
 def _solve_row(row: list[Case], starts: int) -> list[Solution]:
-    return find_series([problem_of(case) for case in row], starts)
+    return find_series([problem_of(case) for case in row], Settings(starts, advise=False))
 
 
 def solve_cases(

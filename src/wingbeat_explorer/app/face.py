@@ -11,7 +11,7 @@ from nicegui import ui
 
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.reading import species_names
-from wingbeat.orbits.problem.problem import FASTEST
+from wingbeat.orbits.problem.quantities import FASTEST
 from wingbeat_explorer.app.downloads import Download, Downloads
 from wingbeat_explorer.app.scenario import Scenario
 from wingbeat_explorer.app.widgets import run_script, tag

@@ -13,8 +13,7 @@ from wingbeat._base import FileError, InvalidInputError, first_line
 from wingbeat._workers.process import Context
 from wingbeat.models import MODELS
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import search_near
+from wingbeat.orbits.solution import Solution, search_near
 from wingbeat.orbits.status import Status
 from wingbeat.records.inputs import problem_from
 from wingbeat.records.netcdf import netcdf_bytes

@@ -27,8 +27,8 @@ from wingbeat.animal.species.making import load_species, species_of
 from wingbeat.animal.species.reading import read_species_text, species_names
 from wingbeat.animal.species.species import Species
 from wingbeat.models import MODELS, model_of
-from wingbeat.orbits.problem.problem import CLIMB_LIMITS, FASTEST, SPEED_LIMITS, OrbitProblem
-from wingbeat.orbits.problem.quantities import QUANTITIES
+from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
+from wingbeat.orbits.problem.quantities import FASTEST, QUANTITIES
 from wingbeat.studies.recipe import OF_ELEMENTS
 from wingbeat_explorer.models import name_of, search_starts
 

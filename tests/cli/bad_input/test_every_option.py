@@ -49,8 +49,8 @@ LINES = {
 # What no bad option may reach.
 WORK = (
     "wingbeat.orbits.solve.find_orbit",
-    "wingbeat.orbits.many.batch.find_orbit",
-    "wingbeat.orbits.many.batch.correct_guess",
+    "wingbeat.orbits.solve.find_orbit",
+    "wingbeat.orbits.solution.correct_guess",
     "wingbeat.results.curve.trace",
     "wingbeat.results.terms.trace_along",
     "wingbeat.results.flight.fly_beats",

@@ -1,35 +1,31 @@
-"""One beat as time series, with exact derivatives by the unknowns. Quantities are functions of a beat."""
+"""A beat as time series, and what is read off series: mean positive part, peaks, the best spring.
+
+Quantities are functions of a beat. A series counts by its largest value in each quarter of the beat: a path seldom
+has two peaks in one quarter, and an optimiser that knew only the largest peak of the whole beat would alternate
+between peaks of equal height.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+import functools
+import math
+from collections.abc import Collection
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._jax.arrays import fusion_barrier, jax, jnp
-from wingbeat._jax.exported import exported
-from wingbeat.animal.kinematics import Wingbeat, chord_ratio, flap_angle, pitch_angle, unpack
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.animal.vehicle import Drive
-from wingbeat.mechanics.body_dynamics import strip_loads
-from wingbeat.mechanics.flight_model import FlightModel, air_loads, body_rates, motion_table, velocity_at_wings
-from wingbeat.mechanics.frames import to_world
-from wingbeat.mechanics.hinge_torques import HingeMotion, hinge_loads, hinge_motion
-from wingbeat.mechanics.wing_motion import WingMotion, strips_of, stroke_attitude
-from wingbeat.orbits.flight.shooting import STEPS, Flown
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import (
-        FieldByFree,
-        FieldByState,
-        FieldTangents,
-        Free,
+        Columns,
+        Indices,
         Number,
-        Pair,
-        Path,
-        PitchState,
-        PitchTangents,
+        Quarters,
+        SampledSeries,
         Samples,
+        SamplesOfPeaks,
         Scalar,
         Series,
         StripSeries,
@@ -153,185 +149,212 @@ def mean_positive(values: Samples, xp: Any = jnp) -> Scalar:
 NUMBERS = ("frequency", "flap_amplitude", "speed", "climb", "mass", "weight", "semi_span")
 # Those with a column for each strip. All others are series.
 BY_STRIP = ("alpha", "strip_reynolds", "lift", "drag")
-# Fields that take longer than the others, grouped by the cause: columns of strips, and a third motion of the wing.
-_DEAR = (frozenset(BY_STRIP), frozenset({"actuator_power"}))
+
+PARTS = 4
 
 
-def _with_cheap(fields: Collection[str]) -> tuple[str, ...]:
-    """Return these fields and all others that cost little, so that few programs serve all objectives and limits."""
-    dear = [group for group in _DEAR if group.isdisjoint(fields)]
-    return tuple(name for name in Beat._fields if name != "drive" and not any(name in group for group in dear))
+def highest(series: SampledSeries) -> Quarters:
+    """Return the largest sample in each quarter of the beat, ends included, along the first axis."""
+    return series[_quarters(series)].max(axis=1)
 
 
-class _Tables(NamedTuple):
-    """Tables of the wing's motion at given phases; the body's motion does not affect them."""
+def peaks(series: SampledSeries) -> Quarters:
+    """Return the peak of a smooth curve through a closed path's samples (first axis), in each quarter of the beat.
 
-    phase: Samples
-    motion: WingMotion
-    hinges: HingeMotion
-    flap: Samples
-    wing_pitch: Samples
-    frequency: Scalar
-    flap_amplitude: Scalar
-    chord_ratio: Samples | None
+    The curve between two samples is a Catmull-Rom cubic. The highest sample would not do: as a function of the
+    unknowns, it has a kink where two samples are equal. A search that lowers a peak, or that is at a bound of the
+    path, would end in this kink.
 
-
-def _tabulate(model: FlightModel, wingbeat: Wingbeat, phase: Samples) -> _Tables:
-    return _Tables(
-        phase,
-        motion_table(model, wingbeat, phase),
-        hinge_motion(model, wingbeat, phase),
-        flap_angle(wingbeat, phase),
-        pitch_angle(wingbeat, phase),
-        jnp.asarray(wingbeat.frequency, dtype=float),
-        jnp.asarray(wingbeat.flap_amplitude, dtype=float),
-        chord_ratio(wingbeat, phase),
-    )
-
-
-def _series(model: FlightModel, tables: _Tables, path: PitchState, mean_velocity: Pair) -> Beat:
-    motion = tables.motion
-    body = fusion_barrier(body_rates(model, motion, path)[1:])
-    body_pitch, u, w, pitch_rate = path
-    attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
-    loads = air_loads(model, motion, attitude, u, w, pitch_rate, body)
-    force_x, force_z = to_world(attitude, *loads.force)
-    velocity = velocity_at_wings(model, attitude, u, w)
-    strips = strip_loads(model.kernel, model.air.density, motion, velocity, pitch_rate)
-    hinges = hinge_loads(model, motion, tables.hinges, path, body)
-    chord = strips_of(model.vehicle.wing, model.strips).chord
-    if tables.chord_ratio is not None:
-        chord = tables.chord_ratio[:, None] * chord
-    return Beat(
-        phase=tables.phase,
-        time=tables.phase / tables.frequency,
-        body_pitch=body_pitch,
-        u=u,
-        w=w,
-        pitch_rate=pitch_rate,
-        u_rate=body[0],
-        w_rate=body[1],
-        pitch_acceleration=body[2],
-        flap=tables.flap,
-        flap_rate=tables.hinges.flap_rate,
-        wing_pitch=tables.wing_pitch,
-        wing_pitch_rate=tables.hinges.pitch_rate,
-        **hinges._asdict(),
-        alpha=strips.alpha.T,
-        strip_reynolds=model.air.reynolds(strips.speed.T, chord),
-        lift=strips.lift.T,
-        drag=strips.drag.T,
-        force_x=force_x,
-        force_z=force_z,
-        frequency=tables.frequency,
-        flap_amplitude=tables.flap_amplitude,
-        speed=mean_velocity[0],
-        climb=mean_velocity[1],
-        mass=jnp.asarray(model.vehicle.mass, dtype=float),
-        weight=model.vehicle.mass * model.air.gravity,
-        semi_span=jnp.asarray(model.vehicle.wing.semi_span, dtype=float),
-    )
-
-
-@exported(static=("free", "fields"))
-def _part(
-    model: FlightModel,
-    wingbeat: Wingbeat,
-    values: Free,
-    path: PitchState,
-    tangents: PitchTangents,
-    ends: Pair,
-    mean_velocity: Pair,
-    *,
-    free: tuple[str, ...],
-    fields: tuple[str, ...],
-) -> tuple[Beat, Beat]:
-    """Return fields of the beat between two phases, and their derivatives, whose first axis is the unknowns."""
-    phase = ends[0] + (ends[1] - ends[0]) * jnp.arange(STEPS + 1) / STEPS
-
-    tables, along = jax.linearize(lambda at: _tabulate(model, unpack(free, wingbeat, at), phase), values)
-    # The barrier keeps each direction from computing the tables again.
-    tables, table_tangents = fusion_barrier((tables, jax.vmap(along)(jnp.eye(len(free)))))
-    # A direction changes either the tables or the state. Separate derivatives save the zeros of the unchanged part.
-
-    def series(tables: _Tables, path: Any) -> Beat:
-        return _series(model, tables, path, mean_velocity).only(fields)
-
-    found, by_table = jax.linearize(lambda table: series(table, path), tables)
-    by_path = jax.linearize(lambda at: series(tables, at), path)[1]
-    own = jax.vmap(by_table)(table_tangents)
-    by_state = jax.vmap(by_path)(jnp.broadcast_to(jnp.eye(4)[..., None], (4, 4, len(phase))))
-    return found, jax.tree_util.tree_map(lambda own, state: _along_path(own, state, tangents), own, by_state)
-
-
-def _along_path(own: FieldByFree, by_state: FieldByState, tangents: PitchTangents) -> FieldTangents:
-    """Return the derivatives of a field: `own`, at a fixed path, plus those through the path.
-
-    A sample depends on the path at its own phase alone, so its derivatives by the four states are a linear map.
+    Theory: equation ``peaks``.
     """
-    change = jnp.concatenate([jnp.zeros((4, *own.shape[1:])), own])
-    if own.ndim == 1:  # a number
-        return change
-    places = (slice(None), slice(None), *[None] * (own.ndim - 2))
-    return change + sum(tangents[:, j][places] * by_state[j] for j in range(4))
+    samples = _taken(series, _samples_around(series, jnp), jnp)
+    return jnp.sum(jax.lax.stop_gradient(_weights(samples, jnp)) * samples, axis=0)
 
 
-def beat_reader(
-    model: FlightModel,
-    wingbeat: Wingbeat,
-    free: tuple[str, ...],
-    mean_velocity: tuple[float, float],
-    fields: tuple[str, ...] = Beat._fields,
-) -> Callable[[np.ndarray, Flown], tuple[Beat, Beat]]:
-    """Return a function that computes a flight's beat and its derivatives by the unknowns (first axis).
+def _quarters(series: SampledSeries) -> np.ndarray:
+    """Return the indices of the samples of each quarter, ends included, shape (quarters, samples)."""
+    return _quarters_of(series.shape[0])
 
-    The function takes the values of the parameters named in `free`, and the flight that `flier` computed from them.
-    Fields that take long are computed only if they are named; otherwise they are None.
+
+@functools.lru_cache(32)
+def _quarters_of(count: int) -> np.ndarray:
+    part = (count - 1) // PARTS
+    return part * np.arange(PARTS)[:, None] + np.arange(part + 1)
+
+
+def _at(series: SampledSeries, index: Indices, xp: Any) -> Any:
+    """Return the samples at indices along the first axis; all other axes are those of the series."""
+    # Every flight of a search needs the peaks of one path, and `take_along_axis` takes ten times as long.
+    return series[index] if xp is np and series.ndim == 1 else xp.take_along_axis(series, index, axis=0)
+
+
+def _taken(series: SampledSeries, around: SamplesOfPeaks, xp: Any) -> Any:
+    """Return the samples at indices of shape (4, quarters, ...)."""
+    if xp is np and series.ndim == 1:
+        return _at(series, around, xp)
+    return xp.stack([_at(series, index, xp) for index in around])
+
+
+def _samples_around(series: SampledSeries, xp: Any) -> Any:
+    """Return the indices of four samples for each quarter; the curve peaks between the middle two.
+
+    Shape (4, quarters, ...); `xp` is the array module of the series.
     """
-    part = _part.bind(model, wingbeat, free=free, fields=_with_cheap(fields))
-    velocity = np.array(mean_velocity)
+    count, quarters = series.shape[0] - 1, _quarters(series)
+    begin, end = (quarters[:, i].reshape(-1, *[1] * (series.ndim - 1)) for i in (0, -1))
+    top = begin + xp.argmax(series[quarters], axis=1)
 
-    def read(values: np.ndarray, flown: Flown) -> tuple[Beat, Beat]:
-        count = (len(flown.path) - 1) // STEPS
-        pieces = []
-        for i in range(count):
-            here = slice(i * STEPS, (i + 1) * STEPS + 1)
-            tangents = flown.path_jacobian[here].transpose(2, 1, 0)
-            pieces.append(part(values, flown.path[here].T, tangents, np.array([i, i + 1]) / count, velocity))
-        if count == 1:
-            return pieces[0]
-        beats, changes = zip(*pieces, strict=True)
-        return _joined(beats, 0), _joined(changes, 1)
+    def beside(way: int) -> Any:
+        return _at(series, (top + way) % count, xp)
 
-    return read
+    way = xp.where(beside(1) >= beside(-1), 1, -1)
+    # Where the curve would rise beyond the quarter, its peak is the sample at the end.
+    inside = (begin <= top + way) & (top + way <= end)
+    return xp.stack([xp.where(inside, (top + way * k) % count, top) for k in (-1, 0, 1, 2)])
 
 
-def _joined(pieces: tuple[Beat, ...], axis: int) -> Beat:
-    """Join parts of a beat along the axis of phases; neighbours share the sample between them."""
-
-    def join(name: str) -> Any:
-        if name == "drive":
-            return pieces[0].drive
-        if getattr(pieces[0], name) is None:
-            return None
-        parts = [np.asarray(getattr(piece, name)) for piece in pieces]
-        if name in NUMBERS:
-            return parts[0]
-        after = [part.take(range(1, part.shape[axis]), axis) for part in parts[1:]]
-        return np.concatenate([parts[0], *after], axis)
-
-    return Beat(*(join(name) for name in Beat._fields))
-
-
-@exported
-def flown_beat(model: FlightModel, wingbeat: Wingbeat, phase: Samples, path: Path, mean_velocity: Pair) -> Beat:
-    """Return the time series of a flown path.
+class WeightedSamples:
+    """The samples of a closed path from which its `peaks` are computed, and their weights.
 
     Parameters
     ----------
-    model, wingbeat : the flight model and its wingbeat.
-    phase, path : equal phases from 0 to 1, shape (K,), and (body_pitch, u, w, pitch_rate) there, shape (K, 4)
-        [rad, m/s, m/s, rad/s].
-    mean_velocity : forward and up [m/s].
+    series : the path, shape (K, ...).
     """
-    return _series(model, _tabulate(model, wingbeat, phase), path.T, mean_velocity)
+
+    def __init__(self, series: np.ndarray) -> None:
+        self._around = _samples_around(series, np)
+        self._weights = _weights(_taken(series, self._around, np), np)
+        self.peaks = self.of(series)
+
+    def of(self, series: np.ndarray) -> np.ndarray:
+        """Return the weighted sums of the samples of a series; several series may lie along further last axes.
+
+        If the series is a change of the path, the result is the change of the path's peaks, because a shift of a
+        peak's phase has no first-order effect.
+        """
+        around, weights = self._around, self._weights
+        if more := tuple(range(weights.ndim, series.ndim + 1)):
+            around, weights = (np.expand_dims(a, more) for a in (around, weights))
+        return (weights * _taken(series, around, np)).sum(axis=0)
+
+    def of_highest(self, count: int) -> np.ndarray:
+        """Return the weights, shape (K,), with which the samples of a single path sum to its highest peak."""
+        weights, highest = np.zeros(count), self.peaks.argmax()
+        np.add.at(weights, self._around[:, highest], self._weights[:, highest])
+        return weights
+
+
+def peak_weights(path: np.ndarray) -> np.ndarray:
+    """Return the weights, shape (K,), with which a closed path's samples sum to the highest of its `peaks`."""
+    return WeightedSamples(path).of_highest(len(path))
+
+
+def highest_sample(path: np.ndarray) -> np.ndarray:
+    """Return the weights, shape (K,), that select the highest sample."""
+    weights = np.zeros(len(path))
+    weights[path.argmax()] = 1.0
+    return weights
+
+
+def _weights(samples: Quarters, xp: Any) -> Quarters:
+    """Return the weights with which four samples sum to the peak of the curve between the middle two.
+
+    The first of these two is the higher. Samples and weights are the first axis; `xp` is their array module.
+    """
+    before, here, there, after = samples
+    # Coefficients of the cubic, from linear to cubic. The highest sample is at 0, its higher neighbour at 1.
+    slope, slope_there = 0.5 * (there - before), 0.5 * (after - here)
+    bend = 3.0 * (there - here) - 2.0 * slope - slope_there
+    twist = 2.0 * (here - there) + slope + slope_there
+    root = xp.sqrt(xp.maximum(bend**2 - 3.0 * slope * twist, 0.0))
+    rises = root > bend
+    at = xp.where(rises, xp.minimum(slope / xp.where(rises, root - bend, 1.0), 1.0), 0.0)
+    return xp.stack(
+        [
+            -0.5 * at + at**2 - 0.5 * at**3,
+            1.0 - 2.5 * at**2 + 1.5 * at**3,
+            0.5 * at + 2.0 * at**2 - 1.5 * at**3,
+            -0.5 * at**2 + 0.5 * at**3,
+        ]
+    )
+
+
+def spread(series: SampledSeries) -> Columns:
+    """Return a series minus its least value in each quarter of the beat, shape (phases, quarters).
+
+    The largest of these numbers is the series' range. If we subtracted only the least value of the whole beat, the
+    range would have a kink where two minima are equal.
+    """
+    return series[:, None] + peaks(-series)
+
+
+# With a rest angle farther away, a spring is in effect a constant torque.
+_FARTHEST_REST = math.pi
+
+
+class Spring(NamedTuple):
+    """Both flap springs together: stiffness [N m/rad], rest angle [rad], and the actuators' remaining power [W].
+
+    Stiffness 0 means no spring; the rest angle is then None.
+    """
+
+    stiffness: float
+    rest_angle: float | None
+    mean_positive_power: float
+
+
+@jax.jit
+def _left(spring: Any, flap: Any, flap_rate: Any, power: Any) -> Any:
+    """Return the mean positive power left by a spring ``(k, k rest)``, and its derivative."""
+
+    def left(k: Any, preload: Any) -> Any:
+        return mean_positive(power + (k * flap - preload) * flap_rate)
+
+    return jax.value_and_grad(lambda s: left(s[0], s[1]))(spring)
+
+
+def best_spring(flap: Any, flap_rate: Any, hinge_power: Any) -> Spring:
+    """Return the springs with which the actuators need the least mean positive power, for one closed beat.
+
+    The power is linear in stiffness and in stiffness times rest angle, so its mean positive part is convex in both,
+    and SciPy's SLSQP finds the global minimum. If many springs are equally good, it returns one of them. The rest
+    angle stays within half a turn.
+
+    Parameters
+    ----------
+    flap, flap_rate, hinge_power : at equal phases from 0 to 1, both ends included [rad, rad/s, W].
+
+    >>> phase = np.linspace(0.0, 1.0, 257)
+    >>> flap, rate = np.cos(2 * np.pi * phase), -2 * np.pi * np.sin(2 * np.pi * phase)
+    >>> best = best_spring(flap, rate, -3.0 * (flap - 0.2) * rate)
+    >>> round(best.stiffness, 2), round(best.rest_angle, 2)
+    (3.0, 0.2)
+    """
+    from scipy.optimize import minimize
+
+    series = tuple(np.asarray(a, dtype=float) for a in (flap, flap_rate, hinge_power))
+    without = float(mean_positive(series[2], np))
+    # Scale: the stiffness of a spring that alone would take up a torque typical of this power.
+    rate = np.abs(series[1]).max()
+    size = np.abs(series[2]).max() / (rate * np.ptp(series[0])) if rate > 0.0 else 0.0
+    if size == 0.0 or without == 0.0:
+        return Spring(0.0, None, without)
+
+    def left(scaled: np.ndarray) -> tuple[float, np.ndarray]:
+        value, slope = _left(jnp.asarray(scaled * size), *series)
+        return float(value) / without, np.asarray(slope) * size / without
+
+    farthest = np.array([[_FARTHEST_REST, -1.0], [_FARTHEST_REST, 1.0]])
+    found = minimize(
+        left,
+        np.zeros(2),
+        jac=True,
+        method="SLSQP",
+        bounds=[(0.0, None), (None, None)],
+        constraints={"type": "ineq", "fun": lambda s: farthest @ s, "jac": lambda s: farthest},
+        options={"ftol": 1e-14, "maxiter": 300},
+    )
+    stiffness, preload = found.x * size
+    if found.fun >= 1.0 or stiffness <= 0.0:
+        return Spring(0.0, None, without)
+    return Spring(float(stiffness), float(preload / stiffness), float(found.fun) * without)

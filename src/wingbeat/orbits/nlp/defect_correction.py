@@ -6,14 +6,16 @@ import dataclasses
 import functools
 import time
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from wingbeat.animal.kinematics import Wingbeat
-from wingbeat.orbits.flight.certify import Certificate, certify
-from wingbeat.orbits.nlp.local_search import Candidate, optimality, optimise
+from wingbeat.orbits.flight.certificate import Certificate, certify
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
-from wingbeat.orbits.nlp.transcription import Transcription
+
+if TYPE_CHECKING:
+    from wingbeat.orbits.nlp.transcription import Candidate, Transcription
 
 
 @dataclass(frozen=True)
@@ -30,7 +32,7 @@ class Corrected:
     @functools.cached_property
     def optimality(self) -> float:
         """Largest residual of the optimality conditions."""
-        return optimality(self.programme, self.scaled)
+        return self.programme.optimality(self.scaled)
 
     def is_orbit(self, closure_tolerance: float | None = None) -> bool:
         """Whether the candidate closes, keeps to its limits along the path, and is an optimum.
@@ -89,7 +91,7 @@ def follow_to_certificate(programme: Transcription, newton: NewtonKKT, scaled: n
         programme = programme.matched_to(scaled, here.certificate)
         if closes:
             # In a finer flight an active bound may become inactive, or another one active.
-            scaled = optimise(programme, scaled, options.iterations, options.tolerance)[0]
+            scaled = programme.optimise(scaled, options.iterations, options.tolerance)[0]
             newton = NewtonKKT(programme, scaled)
             updates += 1
         scaled = _optimum(programme, newton, scaled)
@@ -103,7 +105,7 @@ def first_certified(programme: Transcription, found: list[Candidate]) -> Correct
     """Return the best candidate that can be certified, if any."""
     for candidate in sorted((c for c in found if c.is_optimum), key=lambda c: c.objective):
         corrected = correct(candidate.programme, candidate.scaled)
-        programme.count_certifying(corrected.programme.certify_seconds)
+        programme.certifying.extend(corrected.programme.certifying)
         if corrected.is_orbit():
             return corrected
     return None
@@ -115,7 +117,7 @@ def _optimum(
     """Return the optimum near a point, from Newton's method or else from SLSQP."""
     options = programme.options.certificate
     found = newton.converge(programme, scaled, step_tolerance)
-    return optimise(programme, scaled, options.iterations, options.tolerance)[0] if found is None else found
+    return programme.optimise(scaled, options.iterations, options.tolerance)[0] if found is None else found
 
 
 def _fly(programme: Transcription, scaled: np.ndarray, *, rough: bool = False) -> tuple[Wingbeat, Certificate]:
@@ -126,7 +128,7 @@ def _fly(programme: Transcription, scaled: np.ndarray, *, rough: bool = False) -
     certificate = certify(
         programme.model, wingbeat, physical[:4], options.rough_rtol if rough else options.rtol, rough=rough
     )
-    programme.count_certifying(time.perf_counter() - begun)
+    programme.certifying.append(time.perf_counter() - begun)
     return wingbeat, certificate
 
 

@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from scipy.optimize import lsq_linear
 
-from wingbeat.orbits.options.least_squares import LeastSquaresOptions
+from wingbeat.orbits.search_options import LeastSquaresOptions
 
 Values = Callable[[np.ndarray], np.ndarray]
 
@@ -103,3 +104,17 @@ def _step(
             break
         at_low[pull.argmax()] = at_high[pull.argmax()] = False
     return step
+
+
+def multiplier_residual(gradient: np.ndarray, equal: np.ndarray, within: np.ndarray) -> float:
+    """Return the largest part of a gradient that no weights of these conditions' gradients (rows) explain.
+
+    The weights are the multipliers that fit best in least squares; those of `within` must not be negative.
+    """
+    normals = np.concatenate([equal, within]).T
+    multipliers = np.linalg.lstsq(normals, gradient)[0]
+    if (multipliers[len(equal) :] < 0).any():
+        least = np.repeat([-np.inf, 0.0], [len(equal), multipliers.size - len(equal)])
+        with np.errstate(invalid="ignore"):  # it multiplies zero by infinity
+            multipliers = lsq_linear(normals, gradient, bounds=(least, np.inf)).x
+    return float(np.abs(normals @ multipliers - gradient).max())

@@ -8,11 +8,12 @@ free directions is measured once.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from wingbeat.orbits.nlp.transcription import Transcription
+if TYPE_CHECKING:
+    from wingbeat.orbits.nlp.transcription import Transcription
 
 
 class ReducedHessian(NamedTuple):

@@ -1,21 +1,31 @@
-"""The orbit problem as a small nonlinear programme in scaled unknowns, by single shooting with few steps."""
+"""The orbit problem as a small nonlinear programme, by single shooting with few steps, and one local search of it.
+
+A local search leads from a start to a periodic orbit that minimises the objective locally. Each of its flights asks
+a `Transcription` for closure, inequalities and objective.
+"""
 
 from __future__ import annotations
 
 import copy
-from typing import Any
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
+from scipy.optimize import minimize
 
-from wingbeat.orbits.flight.certify import Certificate
-from wingbeat.orbits.flight.path_maxima import peak_weights
-from wingbeat.orbits.flight.shooting import Flown, flier
-from wingbeat.orbits.nlp.outputs import Outputs
-from wingbeat.orbits.nlp.point import Correction, Point, with_column
-from wingbeat.orbits.nlp.stroke_limits import StrokeLimits
-from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.problem import CLOSURE_SCALE, OrbitProblem
-from wingbeat.orbits.problem.unknowns import Unknowns
+from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.orbits.flight.beat import Beat, highest_sample, peak_weights
+from wingbeat.orbits.flight.certificate import Certificate, map_and_changes, monodromy
+from wingbeat.orbits.flight.period import CLOSURE_SCALE, Flown, StrokeLimits, flier
+from wingbeat.orbits.flight.time_series import beat_reader, flown_beat
+from wingbeat.orbits.nlp.levenberg_marquardt import Values, least_squares, multiplier_residual
+from wingbeat.orbits.options import DEFAULTS, SolverOptions
+from wingbeat.orbits.problem.outputs import Outputs, Read
+from wingbeat.orbits.search_options import SearchOptions
+
+if TYPE_CHECKING:
+    from wingbeat.orbits.problem.problem import OrbitProblem, Unknowns
 
 # Larger sums of a flight's numbers overflow when squared, or soon will.
 _OVERFLOW = 1e12
@@ -26,32 +36,90 @@ _UNBOUNDED = 1e6
 _PITCH_LIMITS = (("body_pitch", ">="), ("body_pitch", "<="))
 
 
-class _Clock:
-    """A sum of times [s]."""
+class Point(NamedTuple):
+    """Values and derivatives at one point, in the optimiser's scale; `path` holds body pitch, then the stroke.
 
-    seconds = 0.0
+    As a correction, values are subtracted, and derivatives times the way from an anchor are added.
+    """
+
+    closure: np.ndarray
+    closure_jacobian: np.ndarray
+    path: np.ndarray
+    path_jacobian: np.ndarray
+    outputs: np.ndarray
+    outputs_jacobian: np.ndarray
 
 
-class Transcription:
+class _DivergedError(Exception):
+    """A local search has diverged."""
+
+
+class Programme:
+    """A nonlinear programme in scaled unknowns between `lower` and `upper`, and its minimisation by SLSQP.
+
+    The closure must vanish, the inequalities must not be negative, and the objective is minimised.
+    """
+
+    lower: np.ndarray
+    upper: np.ndarray
+    closure: Values
+    closure_jacobian: Values
+    inequalities: Values
+    inequalities_jacobian: Values
+    objective: Callable[[np.ndarray], float]
+    objective_gradient: Values
+
+    def violation(self, scaled: np.ndarray) -> float:
+        """Return the largest violation of closure and inequalities, in the optimiser's scale."""
+        exceeded = np.maximum(-self.inequalities(scaled), 0.0)
+        return float(max(np.abs(self.closure(scaled)).max(), exceeded.max()))
+
+    def is_closed(self, scaled: np.ndarray, tolerance: float) -> bool:
+        """Return whether closure and inequalities hold, to a tolerance in the user's units."""
+        residual = np.abs(self.closure(scaled) * CLOSURE_SCALE).max()
+        return bool(residual <= tolerance and self.inequalities(scaled).min() >= -tolerance)
+
+    def optimise(
+        self, scaled: np.ndarray, iterations: int, tolerance: float, patience: SearchOptions | None = None
+    ) -> tuple[np.ndarray, bool]:
+        """Minimise the objective over closed orbits with SLSQP; return where it ended and whether it converged.
+
+        With `patience`, a search counts as diverged if its least violation still exceeds `diverged_closure` after
+        `diverged_flights` flights. It then ends where its violation was least.
+        """
+        nearest, least, flights = scaled, np.inf, 0
+
+        def closure(x: np.ndarray) -> np.ndarray:
+            nonlocal nearest, least, flights
+            away = self.violation(x)
+            if away < least:
+                nearest, least = x.copy(), away
+            flights += 1
+            if patience and flights >= patience.diverged_flights and least > patience.diverged_closure:
+                raise _DivergedError
+            return self.closure(x)
+
+        equal = {"type": "eq", "fun": closure if patience else self.closure, "jac": self.closure_jacobian}
+        within = {"type": "ineq", "fun": self.inequalities, "jac": self.inequalities_jacobian}
+        try:
+            start, bounds = np.clip(scaled, self.lower, self.upper), list(zip(self.lower, self.upper, strict=True))
+            how = {"method": "SLSQP", "options": {"maxiter": iterations, "ftol": tolerance}}
+            limits = {"bounds": bounds, "constraints": [equal, within]}
+            found = minimize(self.objective, start, jac=self.objective_gradient, **limits, **how)
+        except _DivergedError:
+            return np.clip(nearest, self.lower, self.upper), False
+        return np.clip(found.x, self.lower, self.upper), bool(found.status == 0)
+
+
+class Transcription(Programme):
     """Closure, inequalities and objective of a problem as functions of scaled unknowns; flights are cached.
 
     If the objective is the largest value of a series, the last unknown is the epigraph variable: an upper limit of
     the series' peaks. A programme is immutable; `linearised_at` and `matched_to` return a corrected one.
 
-    Parameters
-    ----------
-    problem : the orbit problem.
-    options : of the solvers.
-    blocks : a flight has this many times `STEPS` steps.
-    unknowns : bounds and scales that replace the problem's own, for a point just outside the bounds.
-
-    Attributes
-    ----------
-    lower, upper : bounds of the scaled unknowns, shape (n,).
-    outputs : objective and constraints that are outputs of the wingbeat; None if there are none.
-    has_epigraph : whether the last unknown is the epigraph variable.
-    path_limits : name and sign of each limit along the path, of body pitch and of the stroke.
-    certify_seconds : time of the certifier for this programme and those corrected from it [s].
+    A flight has `blocks` times `STEPS` steps. `unknowns` replaces the problem's own bounds and scales, for a point
+    just outside the bounds. `outputs` are objective and constraints that are outputs of the wingbeat, None if there
+    are none; `path_limits` has name and sign of each limit along the path, of body pitch and of the stroke.
     """
 
     def __init__(
@@ -61,21 +129,24 @@ class Transcription:
         blocks: int = 1,
         unknowns: Unknowns | None = None,
     ) -> None:
-        self.problem = problem
-        self.options = options
-        self.model = problem.model
+        self.problem, self.options, self.model, self._blocks = problem, options, problem.model, blocks
         self.unknowns: Unknowns = unknowns or problem.unknowns()
-        self._blocks = blocks
-        self._stroke = StrokeLimits(problem, options.search.plane_clearance)
-        self.fly = flier(
-            self.model,
-            problem.species.wingbeat,
-            problem.free,
-            whole_path=problem.has_outputs,
-            stroke=bool(self._stroke.names),
-        )
-        self.outputs = Outputs(problem, self.fly) if problem.has_outputs else None
-        self.has_epigraph = self.outputs is not None and self.outputs.minimises_peaks
+        limited = problem.shapes_stroke and not problem.wings_may_cross
+        low, high = problem.bounds["flap"]
+        clearance, free = options.search.plane_clearance, problem.free
+        self._stroke = StrokeLimits(problem.vehicle, low, high, clearance, len(free), limited=limited)
+        stock, stroke = problem.species.wingbeat, bool(self._stroke.names)
+        self.fly = flier(self.model, stock, free, whole_path=problem.has_outputs, stroke=stroke)
+        self.outputs = None
+        if problem.has_outputs:
+            objective = [] if problem.minimise.parameter else [problem.minimise]
+            limits, drive = problem.subject_to, problem.vehicle.drive
+            self.outputs = Outputs(objective, limits, problem.aero.strips, drive)
+            velocity = problem.speed, problem.climb
+            self._reader = beat_reader(self.model, stock, free, velocity, self.outputs.fields)
+        # Number of outputs that belong to the objective.
+        self._minimised = 0 if self.outputs is None else self.outputs.of_objective
+        self.has_epigraph = self._minimised > 1
         scale = np.append(self.unknowns.scale, [1.0] * self.has_epigraph)
         self._scale = scale
         self.lower = np.append(self.unknowns.lower, [-_UNBOUNDED] * self.has_epigraph) / scale
@@ -86,35 +157,26 @@ class Transcription:
         self._peak = highest_sample if self.outputs is None else peak_weights
         self.path_limits = (*_PITCH_LIMITS, *self._stroke.names)
         self._points: dict[bytes, Point] = {}
-        self._correction = self._no_correction
-        self._clock = _Clock()
+        self._anchor, self._correction = self._no_correction
+        # Times of the certifier for this programme and those corrected from it [s].
+        self.certifying: list[float] = []
 
     @property
-    def _no_correction(self) -> Correction:
-        outputs = 0 if self.outputs is None else self.outputs.count
-        return Correction.none(self.lower.size, len(self.path_limits), outputs)
+    def _no_correction(self) -> tuple[np.ndarray, Point]:
+        n, outputs, path = self.lower.size, 0 if self.outputs is None else self.outputs.count, len(self.path_limits)
+        slopes = [np.zeros((count, n)) for count in (6, path, outputs)]
+        return np.zeros(n), Point(np.zeros(6), slopes[0], np.zeros(path), slopes[1], np.zeros(outputs), slopes[2])
 
     def uncorrected(self) -> Transcription:
         """Return a copy without the correction, for a parallel local search; the copy keeps the cached flights."""
-        other = copy.copy(self)
-        other._correction = self._no_correction
-        other._points = dict(self._points)
-        other._clock = _Clock()
+        other = self._corrected(*self._no_correction)
+        other._points, other.certifying = dict(self._points), []
         return other
 
-    def _corrected(self, correction: Correction) -> Transcription:
+    def _corrected(self, anchor: np.ndarray, by: Point) -> Transcription:
         other = copy.copy(self)
-        other._correction = correction
+        other._anchor, other._correction = anchor, by
         return other
-
-    @property
-    def certify_seconds(self) -> float:
-        """Time of the certifier for this programme and those corrected from it [s]."""
-        return self._clock.seconds
-
-    def count_certifying(self, seconds: float) -> None:
-        """Add to the certifier's time."""
-        self._clock.seconds += seconds
 
     def physical(self, scaled: np.ndarray) -> np.ndarray:
         """Return the unknowns in SI, within their bounds."""
@@ -129,11 +191,6 @@ class Transcription:
         scaled = np.minimum(np.maximum(scaled, self.lower), self.upper)
         scaled[-1] = self._outputs(scaled)[: self._minimised].max()
         return scaled
-
-    @property
-    def _minimised(self) -> int:
-        """Number of outputs that belong to the objective."""
-        return 0 if self.outputs is None else self.outputs.of_objective
 
     def point(self, scaled: np.ndarray) -> Point:
         """Return values and derivatives of the flight from one point."""
@@ -159,51 +216,68 @@ class Transcription:
         tame = abs(closure.sum()) + abs(jacobian.sum()) + abs(pitch.sum()) + abs(pitch_jacobian.sum()) < _OVERFLOW
         outputs, outputs_jacobian = np.zeros(0), np.zeros((0, scale.size))
         if self.outputs is not None:
-            outputs, outputs_jacobian = self.outputs.of(unknowns, flown, blocks) if tame else self.outputs.undefined
+            count = self.outputs.count
+            undefined = np.full(count, np.nan), np.zeros((count, scale.size))
+            outputs, outputs_jacobian = self._read(self.outputs, unknowns, flown, blocks) if tame else undefined
             tame = tame and abs(outputs.sum()) + abs(outputs_jacobian.sum()) < _OVERFLOW
             outputs_jacobian = outputs_jacobian * scale
         if not tame:
             # The line search needs finite numbers to back away from a diverging flight.
-            flight, most = (closure, jacobian, pitch, pitch_jacobian, outputs, outputs_jacobian), self._largest
+            flight = closure, jacobian, pitch, pitch_jacobian, outputs, outputs_jacobian
+            most = self.options.search.largest_residual
             cut = (np.clip(np.nan_to_num(a, nan=most), -most, most) for a in flight)
             closure, jacobian, pitch, pitch_jacobian, outputs, outputs_jacobian = cut
         lowest, highest = self._peak(-pitch), self._peak(pitch)
         stroke, stroke_jacobian = self._stroke.margins(flown)
-        path = np.append(self._inside(lowest @ pitch, highest @ pitch), stroke)
+        path = np.append([lowest @ pitch - self.pitch_bounds[0], self.pitch_bounds[1] - highest @ pitch], stroke)
         path_jacobian = np.zeros((len(path), scale.size))
         path_jacobian[:2] = lowest @ pitch_jacobian, -highest @ pitch_jacobian
         path_jacobian[2:, 4:] = stroke_jacobian * scale[4:]
         point = Point(closure, jacobian, path, path_jacobian, outputs, outputs_jacobian)
-        return point if not self.has_epigraph else with_column(point)
+        if not self.has_epigraph:
+            return point
+        # The flight does not depend on the epigraph variable.
+        jacobians = {name: np.pad(a, [(0, 0), (0, 1)]) for name, a in point._asdict().items() if "jacobian" in name}
+        return point._replace(**jacobians)
 
-    @property
-    def _largest(self) -> float:
-        return self.options.search.largest_residual
+    def _read(
+        self, asked: Outputs, unknowns: np.ndarray, flown: Flown, blocks: int
+    ) -> tuple[np.ndarray, np.ndarray]:
+        """Return the outputs of a flight of `blocks` blocks, and their derivatives by the unknowns."""
+        values, start, nothing = unknowns[4:], unknowns[:4], (None, None)
+        beat = self._reader(values, flown) if asked.of_beat else nothing
+        stroke_map = map_and_changes(self.fly, values, start, blocks, flown) if asked.of_map else nothing
+        return asked.linearised(Read(beat[0], stroke_map[0]), Read(beat[1], stroke_map[1]))
+
+    def _certified(
+        self, asked: Outputs, unknowns: np.ndarray, flown: Certificate, exact: bool = False
+    ) -> np.ndarray:
+        """Return the outputs of a certified flight; for `exact`, see `Outputs.values`."""
+        wingbeat = self.problem.wingbeat(unknowns)
+        beat = certified_beat(self.problem, wingbeat, flown) if asked.of_beat else None
+        stroke_map = monodromy(self.model, wingbeat, flown.steps) if asked.of_map else None
+        return asked.values(Read(beat, stroke_map), exact=exact)
 
     def closure(self, scaled: np.ndarray) -> np.ndarray:
         """Return the corrected closure, shape (6,), scaled."""
         by = self._correction
-        return self.point(scaled).closure - by.closure_offset + by.closure_slope @ (scaled - by.anchor)
+        return self.point(scaled).closure - by.closure + by.closure_jacobian @ (scaled - self._anchor)
 
     def closure_jacobian(self, scaled: np.ndarray) -> np.ndarray:
         """Return the derivative of the corrected closure, shape (6, n)."""
-        return self.point(scaled).closure_jacobian + self._correction.closure_slope
+        return self.point(scaled).closure_jacobian + self._correction.closure_jacobian
 
     def _outputs(self, scaled: np.ndarray) -> np.ndarray:
         by = self._correction
-        return self.point(scaled).outputs - by.outputs_offset + by.outputs_slope @ (scaled - by.anchor)
+        return self.point(scaled).outputs - by.outputs + by.outputs_jacobian @ (scaled - self._anchor)
 
     def inequalities(self, scaled: np.ndarray) -> np.ndarray:
-        """Return the margin of everything that has a limit; a margin is negative if its limit is exceeded.
+        """Return the margins of the limits along the path, of the constraints, and of the objective's peaks.
 
-        The margins have this order:
-
-        1. The limits along the path, as named by `path_limits`: body pitch above its lower bound and below its
-           upper bound [rad], then the stroke [wing lengths for strip corners, rad for the flap angle].
-        2. The constraints, each divided by the scale of its quantity.
-        3. If there is an epigraph variable, its excess over each peak of the objective, in the objective's scale.
+        The limits along the path are those of `path_limits` [rad, strip corners in wing lengths]. Constraints and
+        peaks, whose margin is that of the epigraph variable, are divided by the scales of their quantities.
         """
-        path = self.point(scaled).path - self._correction.path_offset
+        path = self.point(scaled).path - self._correction.path
         if self.outputs is None:
             return path
         outputs = self._outputs(scaled)
@@ -213,17 +287,15 @@ class Transcription:
 
     def pitch_margins(self, pitch: np.ndarray) -> np.ndarray:
         """Return the margins of a path of body pitch within its lower and upper bound [rad]."""
-        return self._inside(self._peak(-pitch) @ pitch, self._peak(pitch) @ pitch)
-
-    def _inside(self, lowest: Any, highest: Any) -> np.ndarray:
-        return np.array([lowest - self.pitch_bounds[0], self.pitch_bounds[1] - highest])
+        low, high = self.pitch_bounds
+        return np.array([self._peak(-pitch) @ pitch - low, high - self._peak(pitch) @ pitch])
 
     def inequalities_jacobian(self, scaled: np.ndarray) -> np.ndarray:
         """Return the derivative of the inequalities, shape (inequalities, n)."""
         point = self.point(scaled)
         if self.outputs is None:
             return point.path_jacobian
-        outputs = point.outputs_jacobian + self._correction.outputs_slope
+        outputs = point.outputs_jacobian + self._correction.outputs_jacobian
         below = np.zeros_like(outputs[: self._minimised if self.has_epigraph else 0])
         if self.has_epigraph:
             below[:, -1] = 1.0
@@ -241,18 +313,12 @@ class Transcription:
 
         Theory: equation ``defect-correction``.
         """
-        here, unknowns = self.point(scaled), self.physical(scaled)
-        fine = self._fly(unknowns, blocks)
-        return self._corrected(
-            Correction(
-                anchor=scaled.copy(),
-                closure_offset=here.closure - fine.closure,
-                closure_slope=fine.closure_jacobian - here.closure_jacobian,
-                path_offset=here.path - fine.path,
-                outputs_offset=here.outputs - fine.outputs,
-                outputs_slope=fine.outputs_jacobian - here.outputs_jacobian,
-            )
-        )
+        here, fine = self.point(scaled), self._fly(self.physical(scaled), blocks)
+        offsets = {name: getattr(here, name) - getattr(fine, name) for name in ("closure", "path", "outputs")}
+        slopes = {
+            name: getattr(fine, name) - getattr(here, name) for name in ("closure_jacobian", "outputs_jacobian")
+        }
+        return self._corrected(scaled.copy(), self._correction._replace(**offsets, **slopes))
 
     def matched_to(self, scaled: np.ndarray, certificate: Certificate) -> Transcription:
         """Return the programme, corrected to the certifier's values of closure, path and outputs at this point.
@@ -261,31 +327,36 @@ class Transcription:
         """
         unknowns, by = self.physical(scaled), self._correction
         residual = self.problem.closure(certificate.end, unknowns, self.problem.frequency(unknowns)) / CLOSURE_SCALE
-        path_offset = by.path_offset.copy()
-        path_offset[:2] = self.point(scaled).path[:2] - self.pitch_margins(certificate.pitch)
-        outputs_offset = by.outputs_offset
+        path, outputs = by.path.copy(), by.outputs
+        path[:2] = self.point(scaled).path[:2] - self.pitch_margins(certificate.pitch)
         if self.outputs is not None:
-            outputs_offset = (
-                outputs_offset + self._outputs(scaled) - self.outputs.of_certified(unknowns, certificate)
-            )
-        return self._corrected(
-            Correction(
-                anchor=by.anchor,
-                closure_offset=by.closure_offset + self.closure(scaled) - residual,
-                closure_slope=by.closure_slope,
-                path_offset=path_offset,
-                outputs_offset=outputs_offset,
-                outputs_slope=by.outputs_slope,
-            )
-        )
+            outputs = outputs + self._outputs(scaled) - self._certified(self.outputs, unknowns, certificate)
+        closure = by.closure + self.closure(scaled) - residual
+        return self._corrected(self._anchor, by._replace(closure=closure, path=path, outputs=outputs))
 
     def certified_inequalities(self, scaled: np.ndarray, certificate: Certificate) -> np.ndarray:
         """Return the margins of body pitch, the stroke and the constraints in the certified flight."""
         path = np.append(self.pitch_margins(certificate.pitch), self.point(scaled).path[2:])
         if self.outputs is None:
             return path
-        outputs = self.outputs.of_certified(self.physical(scaled), certificate, exact=True)
+        outputs = self._certified(self.outputs, self.physical(scaled), certificate, exact=True)
         return np.concatenate([path, self.outputs.limits - outputs[self._minimised :]])
+
+    def optimality(self, scaled: np.ndarray) -> float:
+        """Return the largest residual of the Karush-Kuhn-Tucker conditions, in the optimiser's scale.
+
+        Theory: equation ``optimality-conditions``.
+        """
+        tolerance, unit = self.options.search.bound_tolerance, np.eye(scaled.size)
+        reach = tolerance * (self.upper - self.lower)
+        bounds = [unit[scaled - self.lower <= reach], -unit[self.upper - scaled <= reach]]
+        active = self.inequalities_jacobian(scaled)[self.inequalities(scaled) <= tolerance]
+        within = np.concatenate([*bounds, active])
+        return multiplier_residual(self.objective_gradient(scaled), self.closure_jacobian(scaled), within)
+
+    def is_optimal(self, scaled: np.ndarray) -> bool:
+        """Return whether the optimality conditions hold."""
+        return self.optimality(scaled) <= self.options.search.optimality_tolerance
 
     def objective(self, scaled: np.ndarray) -> float:
         """Return the objective over its scale."""
@@ -293,25 +364,94 @@ class Transcription:
             return float(scaled[-1])
         if self._minimised:
             return float(self._outputs(scaled)[0])
-        return float(self.physical(scaled)[self._parameter]) / self.problem.minimise.scale
+        place = self.unknowns.names.index(self.problem.minimise.parameter)
+        return float(self.physical(scaled)[place]) / self.problem.minimise.scale
 
     def objective_gradient(self, scaled: np.ndarray) -> np.ndarray:
         """Return the derivative of the objective over its scale, shape (n,)."""
         if self.has_epigraph:
             return np.eye(1, scaled.size, scaled.size - 1)[0]
         if self._minimised:
-            return self.point(scaled).outputs_jacobian[0] + self._correction.outputs_slope[0]
-        unit = np.eye(1, self.unknowns.scale.size, self._parameter)[0]
+            return self.point(scaled).outputs_jacobian[0] + self._correction.outputs_jacobian[0]
+        place = self.unknowns.names.index(self.problem.minimise.parameter)
+        unit = np.eye(1, self.unknowns.scale.size, place)[0]
         return unit * self.unknowns.scale / self.problem.minimise.scale
 
+
+def certified_beat(problem: OrbitProblem, wingbeat: Wingbeat, flown: Certificate) -> Beat:
+    """Return the time series of a flight of the certifier, with the vehicle's muscles, motor and springs."""
+    velocity = problem.speed, problem.climb
+    beat = flown_beat(problem.model, wingbeat, flown.phase, flown.states[:, 2:], velocity)
+    return beat._replace(drive=problem.vehicle.drive)
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """Where a local search ended [optimiser's scale], the objective there in its unit, and what holds there."""
+
+    programme: Transcription
+    scaled: np.ndarray
+    objective: float
+    closed: bool
+    optimal: bool
+    violation: float
+
     @property
-    def _parameter(self) -> int:
-        """Index of the objective among the unknowns, if it is one of them."""
-        return self.unknowns.names.index(self.problem.minimise.parameter)
+    def is_optimum(self) -> bool:
+        """Whether the candidate is closed and optimal, by the solver's coarse flight."""
+        return self.closed and self.optimal
 
 
-def highest_sample(values: np.ndarray) -> np.ndarray:
-    """Return the weights that select the highest sample."""
-    weights = np.zeros(len(values))
-    weights[values.argmax()] = 1.0
-    return weights
+def search(programme: Transcription, start: np.ndarray, *, restore: bool = False) -> Candidate:
+    """Search from unknowns with SLSQP; if it stalls, restore closure and search once more.
+
+    With `restore`, closure is restored before the first search too. Most stalls come from a poor BFGS matrix, or
+    from a start whose full Newton steps leave the region where the quadratic model is valid.
+    """
+    options = programme.options.search
+    scaled = programme.scaled(start)
+    closed = optimal = False
+    for near in (restore, True):
+        if near:
+            scaled = restore_feasibility(programme, scaled)
+            if programme.violation(scaled) > options.restored_closure:
+                break
+        scaled, optimal = programme.optimise(scaled, options.iterations, options.tolerance, options)
+        closed = programme.is_closed(scaled, options.closure_tolerance)
+        # SLSQP also stops where rounding prevents progress; what counts is whether the conditions hold there.
+        optimal = optimal or (closed and programme.is_optimal(scaled))
+        if closed and optimal:
+            break
+    return _candidate(programme, scaled, closed, optimal)
+
+
+def refine(programme: Transcription, start: np.ndarray, iterations: int | None = None) -> Candidate:
+    """Run one short local search from unknowns that are assumed to be near an orbit."""
+    options = programme.options.search
+    most = options.local_iterations if iterations is None else iterations
+    return as_candidate(programme, *programme.optimise(programme.scaled(start), most, options.tolerance, options))
+
+
+def as_candidate(programme: Transcription, scaled: np.ndarray, optimal: bool = False) -> Candidate:
+    """Return unknowns as a candidate; `optimal` says whether the search that led to them converged."""
+    closed = programme.is_closed(scaled, programme.options.search.closure_tolerance)
+    return _candidate(programme, scaled, closed, optimal or (closed and programme.is_optimal(scaled)))
+
+
+def _candidate(programme: Transcription, scaled: np.ndarray, closed: bool, optimal: bool) -> Candidate:
+    objective = programme.objective(scaled) * programme.problem.minimise.scale
+    return Candidate(programme, scaled, objective, closed, optimal, programme.violation(scaled))
+
+
+def restore_feasibility(programme: Transcription, scaled: np.ndarray) -> np.ndarray:
+    """Reduce the violation of closure and inequalities in least squares within the bounds (an elastic solve)."""
+
+    def residuals(x: np.ndarray) -> np.ndarray:
+        return np.concatenate([programme.closure(x), np.minimum(programme.inequalities(x), 0.0)])
+
+    def jacobian(x: np.ndarray) -> np.ndarray:
+        exceeded = programme.inequalities(x)[:, None] < 0
+        return np.concatenate([programme.closure_jacobian(x), exceeded * programme.inequalities_jacobian(x)])
+
+    options = programme.options.search.restoration
+    return least_squares(residuals, jacobian, scaled, programme.lower, programme.upper, options)

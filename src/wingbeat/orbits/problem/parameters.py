@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._base import harmonic_place, plain_unit
 from wingbeat.aero import CoefficientModel
 from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat, in_use, parameter, with_parameters
 from wingbeat.animal.species.species import Species
-from wingbeat.orbits.problem.problem import OrbitProblem
+
+if TYPE_CHECKING:
+    from wingbeat.orbits.problem.problem import OrbitProblem
 
 CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms", "wing": "terms"}
 _AXES = ("x", "y", "z")
@@ -78,7 +80,7 @@ def parameters_of(problem: OrbitProblem) -> list[Parameter]:
 
     The terms of a cambered wing have names such as ``aero.wing.lift_slope``.
 
-    >>> from wingbeat import load_species
+    >>> from wingbeat.animal.species.making import load_species
     >>> found = parameters_of(OrbitProblem(load_species("pigeon"), speed=10.0))
     >>> [p.path for p in found][:3], found[0].value
     (['body.mass', 'body.pitch_inertia', 'body.drag_area'], 0.276)

@@ -10,8 +10,7 @@ from wingbeat.animal.kinematics import FREE_NAMES, parameter
 from wingbeat.animal.species.numbers import JUDGED, Range
 from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Air
-from wingbeat.orbits.problem.limits import Constraint
-from wingbeat.orbits.problem.quantities import QUANTITIES
+from wingbeat.orbits.problem.quantities import QUANTITIES, Constraint
 
 _WAY_OUT = "leave out 'plausible', or correct the range in the species file"
 # A fixed number or the Reynolds number may exceed the end of a range by rounding.

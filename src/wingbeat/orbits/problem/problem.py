@@ -10,28 +10,70 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, InvalidInputError, harmonic_place, suggest
+from wingbeat._base import FaultList, InvalidInputError, Report, Reported, grouped, harmonic_place, suggest
 from wingbeat.aero import SuFan
 from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, Wingbeat, parameter, with_parameters
+from wingbeat.animal.species.numbers import bound_cells
 from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import FlightModel
-from wingbeat.orbits.problem.limits import Constraint, WingbeatLimit, read_limits
-from wingbeat.orbits.problem.origin import Origin
-from wingbeat.orbits.problem.path_functions import check_quantities, value_count
+from wingbeat.orbits.flight.period import PATH_NAMES, PITCH_STATE
+from wingbeat.orbits.problem.outputs import check_quantities, value_count
 from wingbeat.orbits.problem.plausible import drawn_in, plausible_limits
-from wingbeat.orbits.problem.quantities import Frequency, Quantity, named_objective
-from wingbeat.orbits.problem.report import ReportedProblem
-from wingbeat.orbits.problem.unknowns import Unknowns, check_tilts
+from wingbeat.orbits.problem.quantities import (
+    FASTEST,
+    FASTEST_CLIMB,
+    Constraint,
+    Frequency,
+    Quantity,
+    WingbeatLimit,
+    named_objective,
+    read_limits,
+)
+from wingbeat.orbits.problem.words import TERMS, Origin, limit_in_words, loads_in_words, model_rows, place_in_words
 
-PATH_NAMES = ("body_pitch", "flap")  # bounded along the whole path; flap is that of arm and hand
-PITCH_STATE = ("body_pitch", "u", "w", "pitch_rate")
-CLOSURE = ("x", "z", *PITCH_STATE)
-CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])  # residuals that matter, in the units of CLOSURE
+
+@dataclass(frozen=True)
+class Unknowns:
+    """Names, bounds and scales of the unknowns: the pitch state at phase 0, then the free parameters.
+
+    Theory: equation ``unknowns``.
+
+    Parameters
+    ----------
+    names : of the unknowns.
+    lower, upper : bounds, SI and radians, shape (unknowns,).
+    scale : differences that matter, shape (unknowns,); the optimiser's scale is in multiples of them.
+    """
+
+    names: tuple[str, ...]
+    lower: np.ndarray
+    upper: np.ndarray
+    scale: np.ndarray
+
+
+def check_tilts(vehicle: Vehicle, free: tuple[str, ...], faults: FaultList) -> None:
+    """Add a fault for each free tilt that has no effect on this vehicle's flight.
+
+    Parameters
+    ----------
+    vehicle : the vehicle.
+    free : names of the free parameters.
+    faults : receives the faults.
+    """
+    ahead, _, above = vehicle.wing.shoulder
+    if "stroke_plane_tilt" in free and ahead == 0 and above == 0 and vehicle.tail is None:
+        rule = "changes only the body's pitch, because the shoulder is at its centre of mass and there is no tail"
+        faults.add("free", "stroke_plane_tilt", rule, "set wing.shoulder, or leave stroke_plane_tilt fixed")
+    if "tail_tilt" in free and vehicle.tail is None:
+        rule = "changes nothing, because there is no tail"
+        fix = "set tail.area, tail.arm and tail.lift_slope, or leave tail_tilt fixed"
+        faults.add("free", "tail_tilt", rule, fix)
+
+
 # Free parameters that change when or how fast the wings move along the stroke, or turn the whole stroke.
 _NOT_OF_THE_STROKE = ("frequency", "downstroke_fraction", "stroke_plane_tilt", "tail_tilt")
-FASTEST = FASTEST_CLIMB = 100.0  # largest speed, climb and descent of a problem [m/s]
 SPEED_LIMITS: dict[str, Any] = {"at_least": 0.0, "at_most": FASTEST, "unit": "m/s"}
 CLIMB_LIMITS: dict[str, Any] = {"at_least": -FASTEST_CLIMB, "at_most": FASTEST_CLIMB, "unit": "m/s"}
 
@@ -39,7 +81,7 @@ Bounds = Mapping[str, tuple[float, float]]
 
 
 @dataclass(frozen=True)
-class OrbitProblem(ReportedProblem):
+class OrbitProblem(Reported):
     """A periodic orbit at a prescribed mean velocity that minimises an objective within bounds.
 
     Parameters
@@ -66,7 +108,7 @@ class OrbitProblem(ReportedProblem):
     ------
     InvalidInputError : an impossible speed; unknown names; bounds that are missing, crossed or not finite.
 
-    >>> from wingbeat import load_species
+    >>> from wingbeat.animal.species.making import load_species
     >>> OrbitProblem(load_species("pigeon"), speed=10.0).free[0]
     'frequency'
     """
@@ -220,6 +262,24 @@ class OrbitProblem(ReportedProblem):
     def minimises_peaks(self) -> bool:
         """Whether the objective is the largest value of a series."""
         return value_count(self.minimise, self.aero.strips, self.vehicle.drive) > 1
+
+    def _report(self) -> Report:
+        """Return what is to fly, what is minimised within which limits, and the bounds of the free parameters."""
+        aero = self.aero
+        named = {"coefficients": aero.coefficients.name, "extension": aero.coefficients.extension}
+        named |= {"force_point": aero.force_point, "airspeed": aero.airspeed}
+        named |= {name: getattr(aero, name) for name in TERMS if getattr(aero, name) != "none"}
+        rows = [
+            ("species, mean speed", place_in_words(self.species.name, self.speed, self.climb)),
+            *([] if self.origin is None else model_rows(self.origin.record())),
+            ("air loads", loads_in_words(named)),
+            ("minimised", self.minimise.name.replace("_", " ")),
+            *(("limit", limit_in_words(limit)) for limit in self.subject_to),
+        ]
+        bounds = {name if name not in self.free else f"wingbeat.{name}": b for name, b in self.bounds.items()}
+        cells = [bound_cells(path, limits) for path, limits in bounds.items()]
+        bounded = [(name.removeprefix("wingbeat."), f"{ends} {unit}".rstrip()) for name, ends, unit in cells]
+        return [grouped({"orbit problem": rows, "free parameters, and limits along the path": bounded})]
 
     def _check_free(self, faults: FaultList, free: tuple[str, ...], bounds: Bounds) -> None:
         for name in free:

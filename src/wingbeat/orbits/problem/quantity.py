@@ -1,13 +1,28 @@
-"""A number or a series computed from one beat, which can be minimised or kept within a limit."""
+"""What a quantity is, and the quantities of the stroke map, of muscles, motors and springs."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from wingbeat._base import FaultList
-from wingbeat.orbits.flight.beat import Beat
+from wingbeat._base import NOMENCLATURE, FaultList, plain
+from wingbeat._jax.arrays import jax, jnp
+from wingbeat.animal.actuators import (
+    Driven,
+    MotorState,
+    activation,
+    actuated,
+    best_efficiency,
+    metabolic_power,
+    motor_state,
+    spring_torque,
+)
+from wingbeat.animal.vehicle import Springs
+
+if TYPE_CHECKING:
+    from wingbeat._jax.arrays import FiveExcesses, FourCoefficients, Moduli, Scalar, StrokeMatrix
+    from wingbeat.orbits.flight.beat import Beat
 
 
 @dataclass(frozen=True)
@@ -51,3 +66,234 @@ class Quantity:
             faults.add("quantity.of", self.of, "is not a function", "give a function of a Beat")
         faults.number("quantity.scale", self.scale, above=0, fix="a difference that matters")
         faults.raise_if_any()
+
+
+@dataclass(frozen=True)
+class SpringCost:
+    """The actuators' mean positive power with flap springs that by default exert no torque in mid-stroke."""
+
+    stiffness: float
+    rest_angle: float | None = None
+
+    def __call__(self, beat: Beat) -> Any:
+        """Return this power for a beat [W]."""
+        rest = beat.mean(beat.flap) if self.rest_angle is None else self.rest_angle
+        torque = spring_torque(self.stiffness, beat.flap, rest)
+        return beat.mean_positive(beat.hinge_power - torque * beat.flap_rate)
+
+
+# What counts as stable where nobody gives a limit: disturbances are halved in 140 beats at the latest.
+STABLE_RADIUS = 0.995
+# Disturbances of (body_pitch, u, w, pitch_rate) that count as equally large [rad, m/s, m/s, rad/s].
+_EQUAL = (0.1, 1.0, 1.0, 2.0)
+# The response to gusts is infinite at a spectral radius of 1. Up to the radius given here, it is exact.
+_STEADY = 0.999
+# The solver's limit of the spectral radius is lower than the user's by this share. Where two multipliers meet at a
+# limit, they exceed it by the square root of the residual that the solver's tolerances allow.
+_INSET = 1e-3
+# Weights of the conditions of stability; the first is the product of four distances from 1, which are small.
+_WEIGHTS = (100.0, 1.0, 1.0, 1.0, 1.0)
+# Slope of the response above the radius `_STEADY`: steep, so that a search turns back.
+_BEYOND = 1e3
+
+
+@dataclass(frozen=True)
+class MapQuantity(Quantity):
+    """A quantity of the stroke map.
+
+    Parameters
+    ----------
+    name, unit, parameter, in_hover, needs : as of a `Quantity`.
+    scale : a difference that matters, so that the optimiser sees numbers near one.
+    of : function of the derivative of (body_pitch, u, w, pitch_rate) after a beat by the same four before it, shape
+        (4, 4), in JAX-compatible Python; returns a number, or several, of which the largest counts.
+    excess : a smooth function, for a quantity that is proportional to the stroke map. It takes the stroke map
+        divided by an upper limit, and returns numbers that are all at most 0 if the quantity keeps to the limit. In
+        a search, it replaces an `of` that has kinks.
+
+    Raises
+    ------
+    InvalidInputError : as of a `Quantity`.
+
+    >>> trace = MapQuantity("trace", lambda stroke_map: stroke_map.trace())
+    >>> trace.name
+    'trace'
+    """
+
+    of: Callable[[Any], Any]
+    excess: Callable[[Any], Any] | None = None
+
+
+def _moduli(stroke_map: StrokeMatrix) -> Moduli:
+    """Return the moduli of the four multipliers."""
+    return jnp.sort(jnp.abs(jnp.linalg.eigvals(stroke_map)))
+
+
+def _characteristic(stroke_map: StrokeMatrix) -> FourCoefficients:
+    """Return the coefficients of z^3, z^2, z and 1 in the characteristic polynomial (Faddeev and LeVerrier)."""
+    found, power = [], jnp.eye(4)
+    for order in range(1, 5):
+        product = stroke_map @ power
+        found.append(-jnp.trace(product) / order)
+        power = product + found[-1] * jnp.eye(4)
+    return jnp.stack(found)
+
+
+def _beyond_circle(over_limit: StrokeMatrix) -> FiveExcesses:
+    """Return five numbers that are all at most 0 only if no multiplier has a modulus above 1.
+
+    The map ``z = (1 + s) / (1 - s)`` takes the left half-plane of s to the unit disc of multipliers z. All roots s
+    of ``b4 s^4 + ... + b0`` lie in the left half-plane if b0, b2, b3, b4 and Hurwitz's third determinant are
+    positive (Lienard and Chipart). These five numbers are smooth where two multipliers meet; each multiplier by
+    itself has an infinite derivative there. If the five are positive, b1 is positive too. It has no row of its own,
+    because the conditions would then be dependent where two multipliers meet at 1.
+
+    Theory: equation ``stability-conditions``.
+    """
+    a3, a2, a1, a0 = _characteristic(over_limit / (1.0 - _INSET))
+    b0, b4 = 1.0 + a3 + a2 + a1 + a0, 1.0 - a3 + a2 - a1 + a0
+    b1, b3 = 4.0 + 2.0 * a3 - 2.0 * a1 - 4.0 * a0, 4.0 - 2.0 * a3 + 2.0 * a1 - 4.0 * a0
+    b2 = 6.0 - 2.0 * a2 + 6.0 * a0
+    determinant = b1 * b2 * b3 - b4 * b1**2 - b0 * b3**2
+    return -jnp.stack([b0, b2, b3, b4, determinant]) * jnp.asarray(_WEIGHTS)
+
+
+def _gust_response(stroke_map: StrokeMatrix) -> Scalar:
+    """Return the root mean square of the disturbance under gusts of 1 m/s that change at random every beat.
+
+    The covariance P of the disturbances solves ``P = A P A' + G G'`` with ``G = (I - A)[:, (u, w)]``. A is the
+    stroke map.
+
+    Theory: equation ``gust-response``.
+    """
+    radius = _moduli(stroke_map)[-1]
+    steady = stroke_map * jnp.minimum(1.0, _STEADY / jax.lax.stop_gradient(radius))
+    gust = (jnp.eye(4) - stroke_map)[:, 1:3]
+    covariance = jnp.linalg.solve(jnp.eye(16) - jnp.kron(steady, steady), (gust @ gust.T).ravel()).reshape(4, 4)
+    response = jnp.sqrt(jnp.diagonal(covariance) @ jnp.asarray(_EQUAL) ** -2)
+    return response + _BEYOND * jnp.maximum(radius - _STEADY, 0.0)
+
+
+MAP_QUANTITIES = {
+    name: MapQuantity(name, of, plain(NOMENCLATURE[name].unit), scale, excess=excess)
+    for name, of, scale, excess in (
+        ("spectral_radius", _moduli, 0.1, _beyond_circle),
+        ("gust_response", _gust_response, 1.0, None),
+    )
+}
+
+
+_NO_SPRINGS = Springs()
+
+
+def driven(beat: Beat) -> Driven:
+    """Return torque, rate and acceleration of the flap actuators, with the vehicle's springs taken into account."""
+    springs = beat.drive.springs or _NO_SPRINGS
+    return actuated(springs, beat.flap, beat.flap_rate, beat.flap_torque, 1.0 / beat.frequency)
+
+
+@dataclass(frozen=True)
+class DriveQuantity:
+    """A function of a beat, computed from what its flap actuators must provide; `of` has both as arguments."""
+
+    of: Callable[[Beat, Driven], Any]
+
+    def __call__(self, beat: Beat) -> Any:
+        """Return the value, or a series along the beat."""
+        return self.of(beat, driven(beat))
+
+
+def _pitching(beat: Beat) -> Any:
+    """Return the mean positive power of the pitch hinges [W]."""
+    return beat.mean_positive(beat.pitch_torque * beat.wing_pitch_rate)
+
+
+def _metabolic_power(beat: Beat, need: Driven) -> Any:
+    # The muscles that pitch the wing are small. We assume that they work at their most efficient speed.
+    muscle = beat.drive.muscle
+    assert muscle is not None
+    flapping = sum(beat.mean_positive(part) for part in metabolic_power(muscle, need.torque, need.rate))
+    return flapping + _pitching(beat) / best_efficiency(muscle.curvature)
+
+
+def _peak_activation(beat: Beat, need: Driven) -> Any:
+    assert beat.drive.muscle is not None
+    return jnp.stack(activation(beat.drive.muscle, need.torque, need.rate), axis=1)
+
+
+def _muscle_power_per_mass(beat: Beat, need: Driven) -> Any:
+    assert beat.drive.muscle is not None
+    return beat.mean_positive(need.torque * need.rate) / beat.drive.muscle.whole_mass
+
+
+def _muscle_work_per_mass(beat: Beat, need: Driven) -> Any:
+    return _muscle_power_per_mass(beat, need) / beat.frequency
+
+
+def _muscle_efficiency(beat: Beat, need: Driven) -> Any:
+    given = beat.mean_positive(need.torque * need.rate) + _pitching(beat)
+    return given / _metabolic_power(beat, need)
+
+
+def _motor_series(beat: Beat, need: Driven) -> MotorState:
+    """Return the motor's speed, torque, current, voltage and power along the beat."""
+    assert beat.drive.motor is not None
+    return motor_state(beat.drive.motor, *need, beat.frequency)
+
+
+def _electrical_power(beat: Beat, need: Driven) -> Any:
+    # The motor only flaps the wings. The power of pitching is added, because pitching would otherwise be free.
+    return beat.mean_positive(_motor_series(beat, need).power) + _pitching(beat)
+
+
+@dataclass(frozen=True)
+class _Size:
+    """The absolute value of a series of the motor."""
+
+    name: str
+
+    def __call__(self, beat: Beat, need: Driven) -> Any:
+        return jnp.abs(getattr(_motor_series(beat, need), self.name))
+
+
+@dataclass(frozen=True)
+class _RootMeanSquare:
+    """The root mean square of a series of the motor."""
+
+    name: str
+
+    def __call__(self, beat: Beat, need: Driven) -> Any:
+        return jnp.sqrt(beat.mean(getattr(_motor_series(beat, need), self.name) ** 2))
+
+
+# Functions of a beat by the names of their quantities, each with a difference that matters.
+OF_MUSCLE: dict[str, tuple[DriveQuantity, float]] = {
+    "metabolic_power": (DriveQuantity(_metabolic_power), 5.0),
+    "peak_activation": (DriveQuantity(_peak_activation), 0.1),
+    "muscle_power_per_mass": (DriveQuantity(_muscle_power_per_mass), 20.0),
+    "muscle_work_per_mass": (DriveQuantity(_muscle_work_per_mass), 5.0),
+    "muscle_efficiency": (DriveQuantity(_muscle_efficiency), 0.1),
+}
+OF_MOTOR: dict[str, tuple[DriveQuantity, float]] = {
+    "electrical_power": (DriveQuantity(_electrical_power), 2.0),
+    "peak_motor_torque": (DriveQuantity(_Size("torque")), 0.01),
+    "rms_motor_torque": (DriveQuantity(_RootMeanSquare("torque")), 0.01),
+    "peak_motor_speed": (DriveQuantity(_Size("speed")), 100.0),
+    "peak_motor_voltage": (DriveQuantity(_Size("voltage")), 1.0),
+    "rms_motor_current": (DriveQuantity(_RootMeanSquare("current")), 0.5),
+}
+
+
+def drive_numbers(beat: Beat) -> dict[str, float]:
+    """Return all numbers of the muscles and of the motor that the vehicle has; of a series, the largest value.
+
+    Parameters
+    ----------
+    beat : with the vehicle's drive.
+    """
+    parts = ((beat.drive.muscle, OF_MUSCLE), (beat.drive.motor, OF_MOTOR))
+    there = [found for part, found in parts if part is not None]
+    if not there:
+        return {}
+    need = driven(beat)  # once: beside it, no number takes long
+    return {name: float(jnp.max(found.of(beat, need))) for each in there for name, (found, _) in each.items()}

@@ -7,6 +7,7 @@ does not affect the flight: it is a sum over the steps.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -15,10 +16,11 @@ import numpy as np
 from wingbeat._jax.arrays import fusion_barrier, jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, unpack
+from wingbeat.animal.vehicle import Vehicle
+from wingbeat.mechanics.clearance import LEADING, TRAILING, flap_angles, has_room, lateral_corner, lateral_corners
 from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
-from wingbeat.mechanics.wing_motion import WingMotion
-from wingbeat.orbits.flight.runge_kutta import ALONG, PLACES, WEIGHTS
-from wingbeat.orbits.flight.stroke_distances import ROWS, least_distances
+from wingbeat.mechanics.wing_motion import WingMotion, strips_of
+from wingbeat.mechanics.wing_shape import Strips
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import (
@@ -30,18 +32,119 @@ if TYPE_CHECKING:
         MappedTangents,
         PathJacobian,
         PitchState,
+        Samples,
         Scalar,
         Stages,
         StateTangents,
         StateVector,
+        StrokeIndices,
         StrokeJacobian,
         StrokeRows,
+        StrokeSeries,
         TableRows,
         TableTangents,
         Tangents,
     )
 
+# The state that a period closes, and residuals that matter, in the same units [m, rad, m/s, rad/s].
+PITCH_STATE = ("body_pitch", "u", "w", "pitch_rate")
+CLOSURE = ("x", "z", *PITCH_STATE)
+CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])
+# The balances of forces and moment, each with the velocity that changes over the period if it fails.
+THRUST, LIFT, MOMENT = "thrust", "lift", "pitching moment"
+BALANCES = {THRUST: "u", LIFT: "w", MOMENT: "pitch_rate"}
+PATH_NAMES = ("body_pitch", "flap")  # bounded along the whole path; flap is that of arm and hand
 
+# --- The classical Runge-Kutta method of order 4 as a table, so that its stages are one loop, compiled once. ---
+# Each stage starts from the state at the start of the step, plus the share `ALONG` of the step times the rate of
+# the stage before. The rate of the whole step is the mean of the stages' rates, weighted by `WEIGHTS`.
+# Time of each stage: the start (0), the middle (1) or the end (2) of the step.
+PLACES = np.array([0, 1, 1, 2])
+ALONG = np.array([0.0, 0.5, 0.5, 1.0])
+WEIGHTS = np.array([1.0, 2.0, 2.0, 1.0]) / 6.0
+
+
+# --- How close a stroke comes to its limits: the plane of symmetry, and the range of the shoulder. ---
+# The distances depend on the wingbeat alone; their phase does not matter to first order. Each row is the least
+# distance from a limit: of the strips' leading and trailing corners in each quarter of the beat, of the flap angles
+# of arm and hand over the whole beat.
+QUARTERS = 4
+# Name of the corners' limit among the active bounds.
+SYMMETRY = "plane_of_symmetry"
+# Number of sampled phases, and of steps of Newton's method from the least sample to the minimum. The eighth and
+# highest harmonic has eight samples in each period. One step leaves an error of 7e-5 in the derivative,
+# two steps leave 1e-8.
+_SAMPLES, _NEWTON = 64, 2
+# Name and sign of each row's limit.
+ROWS = (*[(SYMMETRY, ">=")] * 2 * QUARTERS, *[("flap", ">=")] * 2, *[("flap", "<=")] * 2)
+
+# Phases between which the minimum of each row is sought: for corners a quarter of the beat, for angles the whole
+# beat.
+_BEGIN = np.array([*np.tile(np.arange(QUARTERS) / QUARTERS, 2), *[0.0] * 4])
+_END = np.array([*np.tile((np.arange(QUARTERS) + 1) / QUARTERS, 2), *[1.0] * 4])
+
+
+def _series(vehicle: Vehicle, wingbeat: Wingbeat, phase: Samples, strips: int) -> StrokeSeries:
+    """Return the series whose minima are the rows: corner distances in wing lengths, and angles; (4 N + 4, K)."""
+    corners = [edge / vehicle.wing.semi_span for edge in lateral_corners(vehicle, wingbeat, phase, count=strips)]
+    angles = flap_angles(wingbeat, phase)
+    return jnp.concatenate([*corners, angles, -angles])
+
+
+def _places(sampled: StrokeSeries, strips: int) -> tuple[StrokeIndices, StrokeIndices]:
+    """Return, for each row, the index of the series with the least value, and the index of that sample.
+
+    The sample is found first, from the minimum over all corners at each phase. XLA on CPU vectorises a minimum, but
+    not the search for its index.
+    """
+    part = (sampled.shape[1] - 1) // QUARTERS
+    quarters = np.arange(QUARTERS)[:, None] * part + np.arange(part + 1)
+    corners = sampled[: 4 * strips].reshape(2, 2 * strips, -1)
+    nearest = jnp.min(corners, axis=1)[:, quarters]
+    place = quarters[:, 0] + jnp.argmin(nearest, axis=-1)
+    corner = jnp.argmin(jnp.take_along_axis(corners, place[:, None], axis=2), axis=1)
+    series = jnp.append((2 * strips * np.arange(2)[:, None] + corner).ravel(), 4 * strips + np.arange(4))
+    return series, jnp.append(place.ravel(), jnp.argmin(sampled[4 * strips :], axis=-1))
+
+
+def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> StrokeRows:
+    """Return the least distance of each row, shape (12,).
+
+    Derivatives are computed at a fixed corner and phase. They are exact, because the derivative by phase is 0 at a
+    minimum.
+    """
+    samples = jnp.arange(_SAMPLES + 1) / _SAMPLES
+    series, place = _places(jax.lax.stop_gradient(_series(vehicle, wingbeat, samples, strips)), strips)
+    phase = place / _SAMPLES
+    trailing, corner = jnp.divmod(series[: 2 * QUARTERS], 2 * strips)
+    outer, strip = jnp.divmod(corner, strips)
+    of_corners = Strips(*(a[strip] for a in strips_of(vehicle.wing, strips)))
+
+    def distance(at: Samples) -> Samples:
+        share, side = jnp.where(trailing, TRAILING, LEADING), 2.0 * outer - 1.0
+        return lateral_corner(vehicle, wingbeat, of_corners, share, side, at, strips) / vehicle.wing.semi_span
+
+    def angle(at: Samples) -> Samples:
+        angles = flap_angles(wingbeat, at)
+        return jnp.stack([angles[0, 0], angles[1, 1], -angles[0, 2], -angles[1, 3]])
+
+    corners = slice(2 * QUARTERS)
+    angles = slice(2 * QUARTERS, None)
+    return jnp.concatenate([_at_least(distance, phase, corners), _at_least(angle, phase, angles)])
+
+
+def _at_least(value: Callable[[Any], Any], phase: StrokeRows, rows: slice) -> Samples:
+    """Return the minima of some rows, by Newton's method from the phases of the least samples."""
+    phase = phase[rows]
+    for _ in range(_NEWTON):
+        one = jnp.ones_like(phase)
+        slope, bend = jax.jvp(lambda at: jax.jvp(value, (at,), (one,))[1], (phase,), (one,))  # noqa: B023
+        step = jnp.where(bend > 0, -slope / jnp.where(bend > 0, bend, 1.0), 0.0)
+        phase = jnp.clip(phase + jnp.clip(step, -1.0 / _SAMPLES, 1.0 / _SAMPLES), _BEGIN[rows], _END[rows])
+    return value(jax.lax.stop_gradient(phase))
+
+
+# --- The march. ---
 # One compiled march has this many steps; finer flights chain several marches.
 STEPS = 32
 
@@ -291,3 +394,29 @@ def _then(before: Flown, part: Flown) -> Flown:
         end_jacobian=end_jacobian,
         path_jacobian=np.concatenate([before.path_jacobian, from_start(part.path_jacobian)[1:]]),
     )
+
+
+class StrokeLimits:
+    """Margins of a stroke within its limits, as rows of the inequalities; `names` has name and sign of each row.
+
+    There are no rows unless the stroke is `limited`. `low` and `high` are the bounds of the flap angle, `clearance`
+    the least distance of strip corners from the plane of symmetry in wing lengths, `free` the number of free
+    parameters.
+    """
+
+    def __init__(
+        self, vehicle: Vehicle, low: float, high: float, clearance: float, free: int, *, limited: bool
+    ) -> None:
+        beside = has_room(vehicle)
+        self._kept = slice(0 if beside else 2 * QUARTERS, None if limited else 0)
+        self.names = ROWS[self._kept]
+        self._free = free
+        if not beside:
+            low, high = np.clip([low, high], -0.5 * math.pi, 0.5 * math.pi)
+        self._limits = np.array([*[clearance] * 2 * QUARTERS, low, low, -high, -high])
+
+    def margins(self, flown: Flown) -> tuple[np.ndarray, np.ndarray]:
+        """Return the margin of each row [wing lengths, rad], and the derivative by the free parameters."""
+        if not self.names:
+            return np.zeros(0), np.zeros((0, self._free))
+        return (flown.stroke - self._limits)[self._kept], flown.stroke_jacobian[self._kept]

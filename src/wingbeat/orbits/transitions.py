@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import itertools
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat.orbits.many.branches import Branches, BranchLink
-from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.status import Status
+
+if TYPE_CHECKING:
+    from wingbeat.orbits.branches import Branches, BranchLink
+    from wingbeat.orbits.solution import Solution
 
 GAP, BRANCH, BOUNDS = "gap", "branch", "bounds"
 # Words for bounds that cease to be active, and for those that become active: for one name, and for several.

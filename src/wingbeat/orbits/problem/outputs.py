@@ -1,8 +1,8 @@
-"""Quantities as functions of one beat or its stroke map: values with derivatives, in the optimiser's scale.
+"""What the solver reads off a flight: quantities of the beat or of its stroke map, with exact derivatives.
 
 A quantity that is a number has one value. A series has one value for each quarter of the beat: its largest there.
 Several series, in columns, have one value for each column and quarter. A quantity of the stroke map has as many
-values as its function returns.
+values as its function returns. What a function reads and returns is found by tracing it.
 """
 
 from __future__ import annotations
@@ -19,15 +19,58 @@ from wingbeat._base import Fault, InvalidInputError, first_line
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported, jit_soon
 from wingbeat.animal.vehicle import Drive
-from wingbeat.orbits.flight.beat import Beat
-from wingbeat.orbits.flight.path_maxima import PARTS, WeightedSamples, highest
-from wingbeat.orbits.problem.limits import Constraint
-from wingbeat.orbits.problem.map_quantities import MapQuantity
-from wingbeat.orbits.problem.quantity import Quantity
-from wingbeat.orbits.problem.traced import ALL_FIELDS, SAMPLES, fields_read, given_by
+from wingbeat.orbits.flight.beat import BY_STRIP, NUMBERS, PARTS, Beat, WeightedSamples, highest
+from wingbeat.orbits.problem.quantity import MapQuantity, Quantity
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import StrokeMatrix
+    from wingbeat.orbits.problem.quantities import Constraint
+
+ALL_FIELDS = tuple(name for name in Beat._fields if name != "drive")
+# Samples of a beat that serves for its shapes only.
+SAMPLES = 1 + 2 * PARTS
+
+
+# Tracing a function takes 2.5 ms, and every problem of a curve or study needs the shapes.
+@functools.lru_cache(256)
+def given_by(function: Callable[[Any], Any], strips: int, drive: Any, of_map: bool) -> Any:
+    """Return the shapes of the arrays that a quantity's function of a beat, or of a stroke map, returns.
+
+    Parameters
+    ----------
+    function, of_map : the function, and whether it reads the stroke map.
+    strips : number of strips of the wing.
+    drive : structure of the vehicle's drive, as a tree.
+    """
+    if of_map:
+        return jax.eval_shape(function, jax.ShapeDtypeStruct((4, 4), jnp.float64))
+    return jax.eval_shape(function, _any_beat(strips, drive))
+
+
+@functools.lru_cache(256)
+def fields_read(function: Callable[[Beat], Any], strips: int, drive: Any) -> tuple[str, ...]:
+    """Return the names of the fields of a beat that a function needs; for the parameters see `given_by`."""
+    beat = _any_beat(strips, drive)
+    places = jax.tree.leaves(beat._replace(**{name: name for name in Beat._fields if name != "drive"}))
+    traced = jax.make_jaxpr(function)(beat).jaxpr
+    read = {id(var) for step in traced.eqns for var in step.invars} | {id(var) for var in traced.outvars}
+    names = {name for name, var in zip(places, traced.invars, strict=True) if id(var) in read}
+    fields = tuple(name for name in Beat._fields if name == "phase" or name in names)
+    try:
+        jax.eval_shape(function, beat.only(fields))
+    except Exception:  # a user's function may look at a field that does not matter for its value
+        return ALL_FIELDS
+    return fields
+
+
+def _any_beat(strips: int, drive: Any) -> Beat:
+    by_strip = jax.ShapeDtypeStruct((SAMPLES, strips), jnp.float64)
+    number, series = (jax.ShapeDtypeStruct(shape, jnp.float64) for shape in ((), (SAMPLES,)))
+    shapes: dict[str, Any] = dict.fromkeys(BY_STRIP, by_strip)
+    shapes |= dict.fromkeys(NUMBERS, number)
+    shapes["drive"] = drive.unflatten([number] * drive.num_leaves)
+    return Beat(*(shapes.get(name, series) for name in Beat._fields))
+
 
 # How to add what a quantity needs to a vehicle.
 _FIXES = {
@@ -151,16 +194,16 @@ class _OfMap:
         return value, np.moveaxis(along, 0, -1)
 
 
-class OutputFunctions:
-    """The values of several quantities, one after the other, each divided by its scale.
+class Outputs:
+    """The values of several quantities and limits that a flight decides, each divided by its scale.
 
     Attributes
     ----------
     counts, constraint_counts : number of values of each quantity, and of each constraint.
+    count, of_objective : number of all values, and of those that are not of constraints, which come first.
     limits : upper limits of the constraints' values.
     fields : names of the fields of a beat that the quantities read.
-    of_beat : whether any quantity reads the beat.
-    of_map : whether any quantity reads the stroke map.
+    of_beat, of_map : whether any quantity reads the beat, or the stroke map.
     """
 
     def __init__(
@@ -177,6 +220,7 @@ class OutputFunctions:
                 return _OfMap(quantity.excess, limit.limit, limit), 0.0
             return reader(quantity, quantity.of), limit.limit
 
+        self._constraints = constraints
         within = [kept(constraint) for constraint in constraints]
         self._functions = [*(reader(q, q.of) for q in quantities), *(function for function, _ in within)]
         everything = [*quantities, *(c.quantity for c in constraints)]
@@ -189,27 +233,17 @@ class OutputFunctions:
         limits = [limit / c.quantity.scale for (_, limit), c in zip(within, constraints, strict=True)]
         self.constraint_counts = self.counts[len(quantities) :]
         self.limits = np.repeat(limits, self.constraint_counts)
+        self.count, self.of_objective = sum(self.counts), sum(self.counts[: len(quantities)])
 
     def values(self, read: Read, *, exact: bool = False) -> np.ndarray:
         """Return the values; for a series, its highest sample in each quarter of the beat.
 
         With `exact`, a limit for which the search uses smooth numbers is judged by the quantity itself.
-
-        Raises
-        ------
-        InvalidInputError : a quantity is not finite although the flight is.
         """
         return self._joined(read, [f.exactly(read) if exact else f.value(read) for f in self._functions])
 
     def linearised(self, read: Read, changes: Read) -> tuple[np.ndarray, np.ndarray]:
-        """Return the values and their derivatives, shape (values, directions).
-
-        The values of a series are the peaks of a smooth curve through it.
-
-        Raises
-        ------
-        InvalidInputError : a quantity is not finite although the flight is.
-        """
+        """Return values (for a series, the peaks of a smooth curve) and their derivatives, (values, directions)."""
         found = [f.linearised(read, changes) for f in self._functions]
         derivatives = [along.reshape(-1, along.shape[-1]) for _, along in found]
         return self._joined(read, [value for value, _ in found]), np.concatenate(derivatives) / self._scale[:, None]
@@ -220,6 +254,15 @@ class OutputFunctions:
                 fix = "the quantity's function must be finite for every flight"
                 raise InvalidInputError([Fault(f"quantity {name}", float(value.flat[0]), "is not finite", fix)])
         return np.concatenate([value.ravel() for value in values]) / self._scale
+
+    def values_of(self, index: int) -> range:
+        """Return the indices of one constraint among the constraints' values."""
+        counts = self.constraint_counts
+        return range(sum(counts[:index]), sum(counts[: index + 1]))
+
+    def with_active(self, active: np.ndarray) -> list[int]:
+        """Return the indices of constraints with an active value; `active` flags the values of all constraints."""
+        return [i for i in range(len(self._constraints)) if active[self.values_of(i)].any()]
 
 
 def value_count(quantity: Quantity, strips: int, drive: Drive) -> int:

@@ -7,21 +7,20 @@ pitch rate changes. We divide forces by the weight and moments by weight times c
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from wingbeat._jax.arrays import jnp
 from wingbeat.mechanics.flight_model import motion_table
+from wingbeat.orbits.flight.period import BALANCES, CLOSURE, CLOSURE_SCALE, LIFT, MOMENT, THRUST
 from wingbeat.orbits.nlp.levenberg_marquardt import least_squares
-from wingbeat.orbits.nlp.transcription import Transcription
-from wingbeat.orbits.problem.problem import CLOSURE, CLOSURE_SCALE, OrbitProblem
 
-THRUST, LIFT, MOMENT = "thrust", "lift", "pitching moment"
-LAWS = (THRUST, LIFT, MOMENT)
-# The velocity that changes over the beat if a balance fails.
-_STATES = {THRUST: "u", LIFT: "w", MOMENT: "pitch_rate"}
+if TYPE_CHECKING:
+    from wingbeat.orbits.nlp.transcription import Candidate, Transcription
+    from wingbeat.orbits.problem.problem import OrbitProblem
 
 
 @dataclass(frozen=True)
@@ -100,12 +99,14 @@ class Balance:
         weight = vehicle.mass * gravity
         self.units = {THRUST: weight, LIFT: weight, MOMENT: weight * vehicle.wing.mean_chord}
         inertias = {THRUST: vehicle.mass, LIFT: vehicle.mass, MOMENT: _pitch_inertia(problem)}
-        self._rows = {law: CLOSURE.index(state) for law, state in _STATES.items()}
+        self._rows = {law: CLOSURE.index(state) for law, state in BALANCES.items()}
         # Share of the weight for a residual of 1 in the optimiser's scale, divided by the frequency.
-        self._per_hertz = {law: inertias[law] * CLOSURE_SCALE[self._rows[law]] / self.units[law] for law in LAWS}
+        self._per_hertz = {
+            law: inertias[law] * CLOSURE_SCALE[self._rows[law]] / self.units[law] for law in BALANCES
+        }
 
     def nearest(
-        self, scaled: np.ndarray, broken: Iterable[str] = LAWS, evaluations: int | None = None
+        self, scaled: np.ndarray, broken: Iterable[str] = tuple(BALANCES), evaluations: int | None = None
     ) -> Unbalanced:
         """Search from scaled unknowns for the beat closest to an orbit if only these balances may fail."""
         options, weight = self._options, self._options.violation_weight
@@ -158,7 +159,7 @@ class Balance:
         if best.closes:
             return best
         for evaluations in (trial, None):
-            alone = [self.nearest(best.scaled, [law], evaluations) for law in LAWS]
+            alone = [self.nearest(best.scaled, [law], evaluations) for law in BALANCES]
             if keeping := [c for c in alone if c.keeps_the_rest]:
                 least = min(keeping, key=lambda c: (c.is_excess, c.size))
                 return self.nearest(least.scaled, least.shares)
@@ -176,3 +177,32 @@ def _pitch_inertia(problem: OrbitProblem) -> float:
     first = [float(part[0]) for part in motion.first_moment]
     offset = sum(part**2 for part in first) / problem.vehicle.mass
     return float(problem.vehicle.body.pitch_inertia + motion.inertia[0] - offset)
+
+
+@dataclass(frozen=True)
+class Nearest:
+    """The closest wingbeat, in the optimiser's scale, and its deficits, the largest first."""
+
+    scaled: np.ndarray
+    deficits: tuple[Deficit, ...]
+    closes: bool
+
+
+def nearest_beat(programme: Transcription, found: Sequence[Candidate]) -> Nearest:
+    """Return the closest wingbeat; the search for it starts where the local searches ended."""
+    balance, options = Balance(programme), programme.options.diagnosis
+    apart, ends = options.ends_apart * (programme.upper - programme.lower), []
+    for end in (c.scaled for c in sorted(found, key=lambda c: c.violation)):
+        if len(ends) < options.nearest_ends and all((np.abs(end - other) > apart).any() for other in ends):
+            ends.append(end)
+    beat = balance.failing(ends)
+    return Nearest(beat.scaled, balance.deficits(beat), beat.closes)
+
+
+def words_of(programme: Transcription, deficits: Sequence[Deficit]) -> str:
+    """Return the deficits as part of a sentence."""
+    problem, least = programme.problem, programme.options.diagnosis.mentioned * abs(deficits[0].share)
+    words = [str(d) for d in deficits if abs(d.share) >= least]
+    place = f"at {problem.speed:g} m/s" if problem.speed else "in hover"
+    limits = ", ".join(str(c) for c in problem.subject_to)
+    return f"{place}{f' with {limits}' if limits else ''}, {' and '.join(words)}"

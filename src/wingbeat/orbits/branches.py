@@ -1,10 +1,11 @@
-"""Branches of orbits along a number. Each optimum is continued up and down; a jump to another one ends a branch."""
+"""The number that changes along a branch of orbits: speed, or the share of terms of the air loads."""
 
 from __future__ import annotations
 
 import bisect
 import dataclasses
 import math
+import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import NamedTuple, TypeVar
@@ -12,15 +13,63 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 
 from wingbeat._workers.tuning import core_count
-from wingbeat.orbits.many.along import SPEED, Along
-from wingbeat.orbits.nlp.local_search import Candidate, as_candidate, refine
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
-from wingbeat.orbits.nlp.transcription import Transcription
-from wingbeat.orbits.options.solver import DEFAULTS, SolverOptions
+from wingbeat.orbits.nlp.transcription import Candidate, Transcription, as_candidate, refine
+from wingbeat.orbits.options import DEFAULTS, ContinuationOptions, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.solution import Solution
-from wingbeat.orbits.solve import Progress, certified_optimum, find_optima, find_orbit
+from wingbeat.orbits.solution import Solution, certified_optimum, optimal
+from wingbeat.orbits.solve import Progress, Settings, find_orbit, first_searches
 from wingbeat.orbits.status import Status
+
+
+class Along(NamedTuple):
+    """A number of a problem along which orbits are continued.
+
+    Attributes
+    ----------
+    name, unit : of the number.
+    of : function that returns the number of a problem.
+    moved : function that returns a problem with another value of the number.
+    steps : first and smallest step of the continuation, from its options.
+    """
+
+    name: str
+    unit: str
+    of: Callable[[OrbitProblem], float]
+    moved: Callable[[OrbitProblem, float], OrbitProblem]
+    steps: Callable[[ContinuationOptions], tuple[float, float]]
+
+
+def with_share(problem: OrbitProblem, share: float) -> OrbitProblem:
+    """Return a problem with another share of the terms of its air loads.
+
+    Parameters
+    ----------
+    problem : the problem.
+    share : 0 for none, 1 for all of each term.
+
+    Raises
+    ------
+    InvalidInputError : a share outside 0 to 1.
+    """
+    return dataclasses.replace(problem, aero=dataclasses.replace(problem.aero, share=share))
+
+
+SPEED = Along(
+    "speed",
+    "m/s",
+    lambda problem: problem.speed,
+    lambda problem, speed: dataclasses.replace(problem, speed=speed),
+    lambda options: (options.first_speed_step, options.least_speed_step),
+)
+SHARE = Along(
+    "share",
+    "",
+    lambda problem: problem.aero.share,
+    with_share,
+    lambda options: (options.first_share_step, options.least_share_step),
+)
+
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -152,9 +201,8 @@ class _BranchTracer:
         self._grow()
         lost = [i for i, met in enumerate(self._met) if not met and self._along.of(self._problems[i]) not in failed]
         twice = 2 * starts
-        again = self._each(
-            lambda i: find_orbit(self._problems[i], twice, seed, None, 1, twice, options=self._options), lost
-        )
+        settings = Settings(twice, seed, twice, options=self._options)
+        again = self._each(lambda i: find_orbit(self._problems[i], settings, threads=1), lost)
         for place, solution in zip(lost, again, strict=True):
             self._searches[place] += solution.starts
             if solution.status is Status.CONVERGED:
@@ -259,6 +307,31 @@ class _BranchTracer:
             for (place, low, high), steps in self._links.items()
         ]
         return Branches(tuple(optima), tuple(sorted(links)), self._along)
+
+
+def find_optima(
+    problem: OrbitProblem, starts: int, seed: int = 0, options: SolverOptions = DEFAULTS
+) -> list[Solution]:
+    """Return every distinct optimum that the starts find and the certifier confirms, the best first.
+
+    Parameters
+    ----------
+    problem, starts, seed, options : as in `find_orbit`; the starts run one after the other.
+    """
+    begun = time.perf_counter()
+    found = first_searches(Transcription(problem, options), starts, seed, 1)
+    each = (time.perf_counter() - begun) / starts
+    optima: list[Solution] = []
+    known: list[np.ndarray] = []
+    for candidate in optimal(found):
+        if any(np.abs(candidate.scaled - other).max() <= options.search.same_optimum for other in known):
+            continue
+        optimum = certified_optimum(candidate, each)
+        if optimum is not None:
+            known.append(candidate.scaled)
+            if not any(optimum.same_as(other) for other in optima):
+                optima.append(optimum)
+    return optima
 
 
 def carry(optimum: Solution, problem: OrbitProblem, along: Along = SPEED) -> Landing:

@@ -1,0 +1,259 @@
+"""The certificate: an independent adaptive flight of one period.
+
+It shares nothing with the solver's flights: Dopri8, with error control at rtol 1e-10, evaluates the wing's motion
+at its own instants.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from wingbeat._jax.arrays import fusion_barrier, jax, jnp
+from wingbeat._jax.exported import exported
+from wingbeat.animal.kinematics import Wingbeat, parameter
+from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
+from wingbeat.mechanics.flights import RTOL, Steps, fly_through
+from wingbeat.orbits.flight.period import ALONG, PLACES, WEIGHTS, Flown, flier
+
+if TYPE_CHECKING:
+    from wingbeat._jax.arrays import Stretches, StretchMaps, StretchStates
+
+SAMPLES = 256
+# Number of samples of a flight that serves only the correction.
+_ROUGH_SAMPLES = 32
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """One period flown by the certifier.
+
+    Attributes
+    ----------
+    phase : phases of the samples, shape (K,).
+    states : (x, z, body_pitch, u, w, pitch_rate) there, shape (K, 6) [m, m, rad, m/s, m/s, rad/s].
+    steps : the integrator's steps.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> flown = wb.certify(orbit.problem.model, orbit.wingbeat, orbit.initial_state[2:])
+    >>> round(float(flown.end[0]) * orbit.wingbeat.frequency, 3), flown.pitch.shape  # mean speed, body pitch
+    (12.0, (257,))
+    """
+
+    phase: np.ndarray
+    states: np.ndarray
+    steps: Steps
+
+    @property
+    def end(self) -> np.ndarray:
+        """The state at the end of the period."""
+        return self.states[-1]
+
+    @property
+    def pitch(self) -> np.ndarray:
+        """Body pitch along the path [rad]."""
+        return self.states[:, 2]
+
+
+def certify(
+    model: FlightModel, wingbeat: Wingbeat, pitch_state: np.ndarray, rtol: float = RTOL, *, rough: bool = False
+) -> Certificate:
+    """Fly one period from x = z = 0 and the given (body_pitch, u, w, pitch_rate).
+
+    Theory: equation ``certificate``.
+
+    Parameters
+    ----------
+    model, wingbeat : the flight model and its wingbeat.
+    pitch_state : initial pitch state, shape (4,) [rad, m/s, m/s, rad/s].
+    rtol : relative tolerance of the flight.
+    rough : whether to sample the path at only a few phases, which takes half the time.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> flown = wb.certify(orbit.problem.model, orbit.wingbeat, orbit.initial_state[2:])
+    >>> bool(abs(flown.end[2:] - flown.states[0, 2:]).max() < 1e-6)
+    True
+    """
+    # A rough flight has the same number of phases, the last ones all at the end. One compiled program thus serves
+    # both kinds of flight.
+    phase = np.minimum(np.linspace(0.0, SAMPLES / _ROUGH_SAMPLES if rough else 1.0, SAMPLES + 1), 1.0)
+    start = State(0.0, 0.0, *pitch_state)
+    return Certificate(phase, *fly_through(model, wingbeat, start, phase, rtol))
+
+
+# Number of steps in each step of the certifier, whose steps are short at the kinks of the loads. With two, the
+# multipliers of unstable bats are within 1e-5 of those of an adaptive flight.
+_STEPS = 2
+# Distances from the path at which flights start: (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s]. The first
+# derivatives of a flight are exact to 1e-13, so one-sided differences of them can have steps as short as this.
+_BESIDE = np.array([1e-7, 1e-6, 1e-6, 1e-6])
+# Number of stretches of the path that are flown at once, as lanes: few enough for the processor's first cache.
+_LANES = 64
+
+
+@exported
+def _state_maps(
+    model: FlightModel, wingbeat: Wingbeat, begin: Stretches, end: Stretches, path: StretchStates
+) -> StretchMaps:
+    """Return the derivative of each stretch's last pitch state by its first, shape (K, 4, 4).
+
+    Each stretch is flown from its start on the path, shape (K, 4), and from disturbed starts near the path.
+    """
+    length = (end - begin) / _STEPS
+    seconds = length / wingbeat.frequency
+
+    def stage(carry: Any, given: Any) -> tuple[Any, None]:
+        state, rate, total = carry
+        motion, along, weight = given
+        here = fusion_barrier(state + along * seconds * rate)
+        rate = fusion_barrier(jax.vmap(lambda at: body_rates(model, motion, at))(here))
+        return (state, rate, total + weight * rate), None
+
+    def step(state: Any, index: Any) -> tuple[Any, None]:
+        phases = begin + length * (index + jnp.array([0.0, 0.5, 1.0])[:, None])
+        motion = motion_table(model, wingbeat, phases.ravel())
+        rows = jax.tree_util.tree_map(
+            lambda leaf: jnp.moveaxis(leaf.reshape(*leaf.shape[:-1], 3, -1), -2, 0)[PLACES], motion
+        )
+        nothing = jnp.zeros_like(state)
+        stages = rows, jnp.asarray(ALONG), jnp.asarray(WEIGHTS)
+        (_, _, change), _ = jax.lax.scan(stage, (state, nothing, nothing), stages)
+        return state + seconds * change, None
+
+    beside = jnp.concatenate([jnp.zeros((1, 4)), jnp.diag(_BESIDE)])
+    there, _ = jax.lax.scan(step, path.T + beside[..., None], jnp.arange(_STEPS))
+    return ((there[1:] - there[0]) / _BESIDE[:, None, None]).transpose(2, 1, 0)
+
+
+def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarray:
+    """Return the multipliers of (body_pitch, u, w, pitch_rate) over a period, largest modulus first, shape (4,).
+
+    They are the eigenvalues of the `monodromy` matrix; not-a-number if the flight diverges.
+
+    Parameters
+    ----------
+    steps : the certifier's steps.
+    model, wingbeat : the flight model and its wingbeat.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> steps = wb.certify(orbit.problem.model, orbit.wingbeat, orbit.initial_state[2:]).steps
+    >>> multipliers = wb.floquet_multipliers(orbit.problem.model, orbit.wingbeat, steps)
+    >>> round(float(abs(multipliers[0])), 2)
+    1.35
+    """
+    return multipliers_of(monodromy(model, wingbeat, steps))
+
+
+def multipliers_of(matrix: np.ndarray) -> np.ndarray:
+    """Return the eigenvalues of a monodromy matrix, largest modulus first, shape (4,).
+
+    They are not-a-number if the matrix is.
+
+    Theory: equation ``multipliers``.
+    """
+    if not np.isfinite(matrix).all():
+        return np.full(4, np.nan + 0j)
+    found = np.linalg.eigvals(matrix)
+    return found[np.lexsort((-found.imag, -found.real, -np.round(np.abs(found), 9)))]
+
+
+def monodromy(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarray:
+    """Return the derivative of (body_pitch, u, w, pitch_rate) at the end of a period by those at its start.
+
+    Its shape is (4, 4). It is not-a-number if the flight diverges.
+
+    Theory: equation ``monodromy``.
+
+    Parameters
+    ----------
+    model, wingbeat, steps : as of `floquet_multipliers`.
+    """
+    phase, path = steps.phase, steps.states[:, 2:]
+    if phase[-1] < 1.0:
+        return np.full((4, 4), np.nan)
+    maps_of, count, blocks = _state_maps.bind(model, wingbeat), len(phase) - 1, []
+    for first in range(0, count, _LANES):
+        # Spare lanes repeat the last stretch.
+        lanes = np.minimum(np.arange(first, first + _LANES), count - 1)
+        blocks.append(maps_of(phase[lanes], phase[lanes + 1], path[lanes]))
+    return _chained(np.concatenate(blocks)[:count])
+
+
+def _chained(maps: np.ndarray) -> np.ndarray:
+    """Return the product of linear maps, shape (K, 4, 4), by pairwise multiplication; the first map acts first."""
+    while len(maps) > 1:
+        last = maps[len(maps) // 2 * 2 :]
+        maps = np.concatenate([maps[1::2] @ maps[: len(maps) // 2 * 2 : 2], last])
+    return maps[0]
+
+
+class StrokeMap(NamedTuple):
+    """Derivatives of (z, body_pitch, u, w, pitch_rate) after one beat, and of the pitch state along the beat.
+
+    Attributes
+    ----------
+    by_state : by the same five numbers before the beat, shape (5, 5).
+    by_parameters : by parameters of the wingbeat, which hold for the whole beat, shape (5, parameters).
+    transition : derivatives of (body_pitch, u, w, pitch_rate) at equal phases from 0 to 1 by the same four at
+        phase 0, shape (K, 4, 4).
+    path : the four numbers at these phases, shape (K, 4) [rad, m/s, m/s, rad/s].
+    """
+
+    by_state: np.ndarray
+    by_parameters: np.ndarray
+    transition: np.ndarray
+    path: np.ndarray
+
+
+def stroke_map(
+    model: FlightModel, wingbeat: Wingbeat, pitch_state: np.ndarray, parameters: tuple[str, ...], blocks: int
+) -> StrokeMap:
+    """Differentiate one beat, exactly for its fixed steps.
+
+    Theory: equation ``stroke-map``.
+
+    Parameters
+    ----------
+    model, wingbeat : what flies.
+    pitch_state : (body_pitch, u, w, pitch_rate) at phase 0, shape (4,) [rad, m/s, m/s, rad/s].
+    parameters : names of the parameters of the wingbeat, at least one.
+    blocks : number of blocks of 32 steps.
+    """
+    fly = flier(model, wingbeat, parameters, whole_path=True)
+    values = np.array([parameter(wingbeat, name) for name in parameters], dtype=float)
+    flown = fly(values, np.asarray(pitch_state, dtype=float), blocks)
+    end = np.asarray(flown.end_jacobian)[1:]
+    height = np.eye(5, 1)  # the flight does not depend on the height
+    return StrokeMap(
+        np.hstack([height, end[:, :4]]),
+        end[:, 4:],
+        np.asarray(flown.path_jacobian)[..., :4],
+        np.asarray(flown.path),
+    )
+
+
+def map_and_changes(
+    fly: Callable[..., Flown], values: np.ndarray, start: np.ndarray, blocks: int, flown: Flown
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the stroke map of (body_pitch, u, w, pitch_rate), shape (4, 4), and its derivatives by the unknowns.
+
+    The derivatives have the shape (unknowns, 4, 4). They are second derivatives of the flight, which do not depend
+    on the order of differentiation. So we shift each of the four states in turn, and take the change of the exact
+    first derivatives by all unknowns. This takes four flights, however many parameters are free.
+
+    Parameters
+    ----------
+    fly : as `flier` returns it.
+    values, start, blocks : the arguments of `fly`.
+    flown : the flight with these arguments.
+    """
+    here = np.asarray(flown.end_jacobian)[2:]
+    beside = [np.asarray(fly(values, start + step, blocks).end_jacobian)[2:] for step in np.diag(_BESIDE)]
+    changes = [(there - here) / step for there, step in zip(beside, _BESIDE, strict=True)]
+    return here[:, :4], np.stack(changes, axis=-1).transpose(1, 0, 2)

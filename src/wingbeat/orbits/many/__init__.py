@@ -1,1 +1,0 @@
-"""Many orbits: batches, series, branches along speed, and spreads."""

@@ -1,1 +1,0 @@
-"""The tuning numbers of the solvers, in frozen records that a user can pass."""

@@ -1,0 +1,98 @@
+"""What an orbit problem says of itself: the model that made it with its choices, and its parts in words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from wingbeat._base import NOMENCLATURE, for_people
+
+if TYPE_CHECKING:
+    from wingbeat.orbits.problem.quantities import Constraint
+
+
+class Choice(NamedTuple):
+    """One choice of a model.
+
+    Attributes
+    ----------
+    what : what is chosen, in words.
+    value : the choice, in words or as a number with its unit.
+    reason : why.
+    """
+
+    what: str
+    value: str
+    reason: str
+
+
+class Origin(NamedTuple):
+    """The model with which a problem was made.
+
+    Attributes
+    ----------
+    name : of the model, ``"paper"`` or ``"animal"``.
+    choices : all its choices.
+    changed : names of the air loads and of the parameters of `OrbitProblem` that the user chose differently. The
+        list omits changed numbers of the species; their sources name the change.
+    """
+
+    name: str
+    choices: tuple[Choice, ...]
+    changed: tuple[str, ...] = ()
+
+    def record(self) -> dict[str, Any]:
+        """Return the origin as lists and texts, for JSON.
+
+        >>> Origin("paper", (Choice("coefficients", "su-fan", "measured"),)).record()["choices"]
+        [{'what': 'coefficients', 'value': 'su-fan', 'reason': 'measured'}]
+        """
+        choices = [choice._asdict() for choice in self.choices]
+        return {"name": self.name, "choices": choices, "changed": list(self.changed)}
+
+
+def origin_from(record: dict[str, Any]) -> Origin:
+    """Return the origin from its record.
+
+    Parameters
+    ----------
+    record : name, choices and changes, as from `Origin.record`.
+
+    Raises
+    ------
+    KeyError, TypeError : the dictionary was not made by `Origin.record`.
+    """
+    choices = tuple(Choice(**choice) for choice in record["choices"])
+    return Origin(record["name"], choices, tuple(record["changed"]))
+
+
+TERMS = ("unsteady", "inflow")
+
+
+def limit_in_words(limit: Constraint) -> str:
+    """Return a limit in the unit that readers prefer."""
+    factor, unit = for_people(limit.quantity.unit)
+    sign = "<=" if limit.at_most else ">="
+    return f"{limit.quantity.name} {sign} {limit.limit * factor:.6g} {unit}".rstrip()
+
+
+def place_in_words(species: str | None, speed: float | None, climb: float | None) -> str:
+    """Return which species flies, and how fast."""
+    if speed is None:
+        return str(species)
+    (factor, unit), (factor_up, unit_up) = (for_people(NOMENCLATURE[name].unit) for name in ("speed", "climb"))
+    climbing = f", climbing {climb * factor_up:.4g} {unit_up}" if climb else ""
+    return f"{species} at {speed * factor:.4g} {unit}{climbing}"
+
+
+def loads_in_words(aero: Mapping[str, Any]) -> str:
+    """Return the coefficients and the terms of the air loads, from their names in a record."""
+    named = [str(aero[name]) for name in ("coefficients", "extension", "force_point") if name in aero]
+    terms = [f"{aero[name]} {name}" for name in TERMS if name in aero]
+    return ", ".join([*named, *(["full airspeed"] if aero.get("airspeed") == "full" else []), *terms])
+
+
+def model_rows(origin: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Return the name of the model that made the problem, and the choices that the user changed."""
+    changed = [name.replace("_", "-") for name in origin["changed"]]
+    return [("model", origin["name"] + (f"; changed: {', '.join(changed)}" if changed else ""))]

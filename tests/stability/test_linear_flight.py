@@ -15,8 +15,7 @@ from wingbeat.animal.kinematics import parameter, with_parameters
 from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.mechanics.flights import state_rates
 from wingbeat.mechanics.glide import held_still
-from wingbeat.orbits.flight.certificate import certify
-from wingbeat.orbits.flight.certificate import stroke_map
+from wingbeat.orbits.flight.certificate import certify, stroke_map
 from wingbeat.stability.modes import averaged_jacobian, averaged_modes, modes_of
 
 # Steps of differences of flights by SciPy: (z, body_pitch, u, w, pitch_rate), and of the wingbeat's parameters.

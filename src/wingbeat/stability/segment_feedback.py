@@ -18,8 +18,7 @@ from wingbeat.animal.kinematics import Wingbeat, parameter, stroke_phase, with_p
 from wingbeat.mechanics.beat_by_beat import air_at, check_wind
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import air_phases, fly_through
-from wingbeat.orbits.flight.period import flier
-from wingbeat.orbits.flight.period import PITCH_STATE
+from wingbeat.orbits.flight.period import PITCH_STATE, flier
 from wingbeat.orbits.status import Status
 from wingbeat.stability.options import FEEDBACK, FeedbackOptions
 from wingbeat.stability.riccati import multipliers_over, periodic_linear_quadratic

@@ -311,7 +311,7 @@ def test_the_schema_knows_every_key_and_is_json() -> None:
 
 def test_loading_imports_no_data_sets_no_figures_and_no_scipy() -> None:
     code = (
-        "import sys; from wingbeat.animal.species import load_species; load_species('pigeon');"
+        "import sys; from wingbeat.animal.species.making import load_species; load_species('pigeon');"
         "print(sorted({'xarray', 'matplotlib', 'scipy', 'pandas', 'rich', 'cyclopts'} & set(sys.modules)))"
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

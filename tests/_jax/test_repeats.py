@@ -4,7 +4,7 @@ import jax.export
 import numpy as np
 
 from wingbeat._jax.arrays import cos, jax, jnp, sin
-from wingbeat._jax.exported import without_repeats
+from wingbeat._jax.private import without_repeats
 
 ANGLES = np.linspace(-3, 3, 8)
 

@@ -6,7 +6,6 @@ Here the traced program itself (`jax.export`) is stored. Its name is a digest of
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 import hashlib
 import math
@@ -14,7 +13,7 @@ import os
 import pickle
 import platform
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -26,14 +25,7 @@ from jax.core import Tracer
 
 from wingbeat._base.errors import ForkError
 from wingbeat._jax.config import in_own_settings, jnp, keep_program, kept_program, own_settings
-from wingbeat._jax.private import (
-    backends_are_initialized,
-    ir,
-    make_ir_context,
-    passmanager,
-    stablehlo,
-    trace_state_clean,
-)
+from wingbeat._jax.private import backends_are_initialized, trace_state_clean, without_repeats
 from wingbeat._version import __version__
 
 # Threads that trace at the same time slow one another down. If they take turns, XLA compiles one program while the
@@ -283,55 +275,3 @@ def exported(
     if function is None:
         return functools.partial(exported, static=static, hot=hot, kept=kept)
     return StoredFunction(function, static, hot, kept)
-
-
-# --- traced programs without repeated operations ---
-# XLA removes repeats too, but only after some seventy passes over the program. In a flight with its derivatives,
-# two thirds of the operations are repeats, most of them sines of one angle. Without repeats, a program compiles in
-# 0.55 to 0.9 of the time.
-
-
-def without_repeats(program: jax.export.Exported) -> jax.export.Exported:
-    """Return the traced program with equal operations, and equal calls of its functions, merged into one."""
-    with make_ir_context():
-        module = ir.Module.parse(program.mlir_module())
-        merge = passmanager.PassManager.parse("builtin.module(cse)")
-        merge.run(module.operation)
-        while _merge_calls(module):  # merged calls make more operations equal, and so more calls
-            merge.run(module.operation)
-        version = stablehlo.get_current_version()
-        return dataclasses.replace(
-            program, mlir_module_serialized=stablehlo.serialize_portable_artifact(module, version)
-        )
-
-
-def _merge_calls(module: ir.Module) -> bool:
-    """Merge calls of one function with the same arguments; return whether there were any.
-
-    The compiler pass does not merge calls. Merging them is safe here: functions of a traced program have no side
-    effects.
-    """
-    return any([_merge_calls_of(block) for block in _blocks(module.operation)])
-
-
-def _merge_calls_of(block: ir.Block) -> bool:
-    first: dict[Any, Any] = {}
-    found = False
-    for operation in [o.operation for o in block.operations if o.operation.name == "func.call"]:
-        key = (str(operation.attributes["callee"]), *operation.operands)
-        same = first.setdefault(key, operation)
-        if same is not operation:
-            for result, kept in zip(operation.results, same.results, strict=True):
-                result.replace_all_uses_with(kept)
-            operation.erase()
-            found = True
-    return found
-
-
-def _blocks(operation: ir.Operation) -> Iterator[ir.Block]:
-    """Yield all blocks within an operation: those of functions, loops and branches."""
-    for region in operation.regions:
-        for block in region.blocks:
-            yield block
-            for inner in block.operations:
-                yield from _blocks(inner.operation)

@@ -12,7 +12,7 @@ import numpy as np
 from animal_wings_data import Glides, HalfWing, reduced
 from measured_data import Array
 
-from wingbeat.aero.cambered import CamberedCurves, CamberedTerms
+from wingbeat.aero.formula_terms import CamberedCurves, CamberedTerms
 from wingbeat.experiment import CurveFit, CurveForm, fit_curve
 
 # The aspect ratio to which all wings are brought: near those of a gull, a jackdaw and a pigeon.

@@ -28,7 +28,7 @@ import numpy as np
 import wingbeat as wb
 from wingbeat.bench import median_seconds
 from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
-from wingbeat.mechanics.frames import stroke_pitch
+from wingbeat.mechanics.wing_shape import stroke_pitch
 
 LANES = (64, 256, 1024, 4096)
 STEPS, REPEATS = 8, 30

@@ -257,11 +257,7 @@ def test_a_pair_that_is_none_is_refused():
 def test_faults_of_terms():
     with pytest.raises(InvalidInputError) as caught:
         FormulaTerms(math.nan, 1.0, "2", 0.0, decay_amplitude=0.1)
-    assert [fault.where for fault in caught.value.faults] == [
-        "terms.constant",
-        "terms.rate",
-        "terms.decay_rate",
-    ]
+    assert [fault.where for fault in caught.value.faults] == ["terms.constant", "terms.rate", "terms.decay_rate"]
     with pytest.raises(InvalidInputError, match="decay_rate = -1"):
         FormulaTerms(0.0, 1.0, 2.0, 0.0, 0.1, -1.0)
     with pytest.raises(InvalidInputError) as caught:

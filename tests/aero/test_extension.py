@@ -210,22 +210,7 @@ def test_su_fan_derivative_by_complex_step(degrees):
     np.testing.assert_allclose(slopes, [part.imag / h for part in (lift, drag, centre)], rtol=1e-13)
 
 
-HUGE = [
-    0.0,
-    -0.0,
-    RIGHT,
-    -RIGHT,
-    math.pi,
-    -math.pi,
-    WIDTH,
-    -WIDTH,
-    5e-324,
-    -5e-324,
-    1e-200,
-    1e5,
-    -1e17,
-    1e300,
-]
+HUGE = [0.0, -0.0, RIGHT, -RIGHT, math.pi, -math.pi, WIDTH, -WIDTH, 5e-324, -5e-324, 1e-200, 1e5, -1e17, 1e300]
 
 
 @pytest.mark.parametrize(("name", "extension"), ALL)

@@ -140,10 +140,7 @@ FAULTS = [
     ("", "bad.csv row 1 = '': the file holds no table"),
     ("# nothing but a comment\n", "the file holds no table"),
     ("alpha_deg,c_l\n0,0\n", "bad.csv row 1, column C_D = 'alpha_deg,c_l': the column is missing"),
-    (
-        GOOD,
-        "row 1 = '0,0,0.1': holds numbers, but the first row of the table must name the columns",
-    ),
+    (GOOD, "row 1 = '0,0,0.1': holds numbers, but the first row of the table must name the columns"),
     ("alpha_deg,c_l,c_d,CD\n0,0,0.1,0\n", "row 1, column 4 = 'CD': appears twice (above as c_d)"),
     ("alpha [rad],c_l,c_d\n0,0,0.1\n", "row 1, column 1 = 'rad': is not the expected unit, [deg]"),
     (HEADER + "0,0,0.1\n30,1\n", "bad.csv row 3 = '30,1': has 2 cells, but the header names 3 columns"),
@@ -155,18 +152,12 @@ FAULTS = [
         HEADER + GOOD.replace("60", "30"),
         "row 3, column alpha_deg = 30.0: also stands in row 4, and a model needs one curve (1 of 3 angles repeats)",
     ),
-    (
-        HEADER + GOOD.replace("60", "20"),
-        "row 4, column alpha_deg = 20.0: must be above the 30 before it; sort",
-    ),
+    (HEADER + GOOD.replace("60", "20"), "row 4, column alpha_deg = 20.0: must be above the 30 before it; sort"),
     (HEADER + GOOD.replace("90", "190"), "row 5, column alpha_deg = 190.0: must lie between -180 and 180 degrees"),
     (HEADER + GOOD.replace("1.5", "-1.5"), "row 4, column c_d = -1.5: must be > 0: every wing has drag"),
     (HEADER + "0,0,0.1\n45,1,1\n90,0,2\n", "rows = 3: must be at least 4 for a curve"),
     (HEADER, "row 1 = '': has no row of numbers"),
-    (
-        HEADER + GOOD.replace("90", "80"),
-        "row 5, column alpha_deg = 80.0: the table must reach at least 90 degrees",
-    ),
+    (HEADER + GOOD.replace("90", "80"), "row 5, column alpha_deg = 80.0: the table must reach at least 90 degrees"),
     (HEADER + GOOD.replace("0,0,0.1", "2,0,0.1"), "row 2, column alpha_deg = 2.0: the table must begin at 0"),
     (
         HEADER + "0,0,0.1\n0.5,1,0.5\n1,0.9,1.5\n1.571,0,2\n",

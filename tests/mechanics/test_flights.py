@@ -10,7 +10,7 @@ from scipy.interpolate import CubicSpline
 
 import wingbeat as wb
 from tests.helpers.driven import BETWEEN, KNOTS, spline_torques
-from wingbeat.mechanics.beat_by_beat import fly_beats
+from wingbeat.mechanics.flights import fly_beats
 from wingbeat.records.flight_dataset import evaluate
 from wingbeat.records.result_files import load_dataset
 

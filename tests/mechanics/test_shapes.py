@@ -174,7 +174,7 @@ def test_every_kernel_gets_and_gives_the_shapes_it_says(flown, calls):
     traced("wingbeat.mechanics.wing_points.strip_corners", model, wingbeat, state, phases)
     traced("wingbeat.mechanics.flights._fly", model, wingbeat, np.zeros(6), phases, np.array(1e-10))
     many = np.zeros((6, 3)), np.zeros(3), np.zeros((3, 9, 2)), np.array(0.01), np.zeros(5)
-    traced("wingbeat.mechanics.fixed_steps.fly_beat_in_steps", model, wingbeat, *many)
+    traced("wingbeat.mechanics.flights.fly_beat_in_steps", model, wingbeat, *many)
     traced("wingbeat.mechanics.glide._required", model, wingbeat, np.zeros(5))
     eom = importlib.import_module("wingbeat.mechanics.equations_of_motion")
     for function, rows in ((eom._terms, 0), (eom._air_forces, 0), (eom._torque, 1)):
@@ -206,8 +206,8 @@ def test_every_kernel_gets_and_gives_the_shapes_it_says(flown, calls):
         "wingbeat.aero.blade_element.strip_forces",
         "wingbeat.animal.kinematics.with_harmonics",
         "wingbeat.animal.kinematics.unpack",
-        "wingbeat.mechanics.body_dynamics.accelerations",
-        "wingbeat.mechanics.clearance.lateral_corner",
+        "wingbeat.mechanics.flight_model.accelerations",
+        "wingbeat.mechanics.wing_shape.lateral_corner",
         "wingbeat.mechanics.hinge_torques.hinge_loads",
         "wingbeat.mechanics.wing_motion.wing_motion",
         "wingbeat.mechanics.wing_points.point_motion",

@@ -13,8 +13,7 @@ from tests.helpers.models import changed
 from tests.helpers.programs import compiled
 from tests.helpers.tail_oracle import moment, tail_load
 from wingbeat._jax.arrays import jax, jnp, unchecked
-from wingbeat.mechanics.body_dynamics import body_air
-from wingbeat.mechanics.flight_model import body_rates, motion_table
+from wingbeat.mechanics.flight_model import body_air, body_rates, motion_table
 from wingbeat.orbits.problem.parameters import parameters_of
 
 PIGEON = wb.load_species("pigeon")
@@ -32,7 +31,7 @@ def with_tail(tail, vehicle=PIGEON.vehicle):
 def pitching_moment(tail, body_pitch=0.0, pitch_rate=0.0):
     """Return the moment on a body without drag that flies level at a pitch [rad] and a pitch rate [rad/s]."""
     velocity = SPEED * np.cos(body_pitch), -SPEED * np.sin(body_pitch)
-    return float(body_air(with_tail(tail), DENSITY, velocity, pitch_rate).moment)
+    return float(body_air(with_tail(tail), DENSITY, velocity, pitch_rate)[1])
 
 
 @pytest.mark.parametrize("arm", [TAIL.arm, -TAIL.arm])
@@ -63,7 +62,7 @@ def test_without_a_tail_nothing_is_added_to_a_program():
     assert len(leaves(TAILED.vehicle)) == len(leaves(PIGEON.vehicle)) + 6
     tilted = dataclasses.replace(PIGEON.wingbeat, tail_tilt=0.1)
     assert len(leaves(tilted)) == len(leaves(PIGEON.wingbeat)) + 1
-    assert body_air(PIGEON.vehicle, DENSITY, (SPEED, 0.0), 0.0).moment is None
+    assert body_air(PIGEON.vehicle, DENSITY, (SPEED, 0.0), 0.0)[1] is None
 
 
 # --- Glide
@@ -110,13 +109,7 @@ def test_derivatives_by_state_and_numbers_are_those_of_differences():
     def rates(numbers):
         state, (area, arm, slope, drag, height, incidence, tilt) = numbers[:4], numbers[4:]
         tail = changed_record(
-            TAIL,
-            area=area,
-            arm=arm,
-            lift_slope=slope,
-            drag_coefficient=drag,
-            height=height,
-            incidence=incidence,
+            TAIL, area=area, arm=arm, lift_slope=slope, drag_coefficient=drag, height=height, incidence=incidence
         )
         flown = changed(model, vehicle=changed_record(model.vehicle, tail=tail))
         beat = changed_record(TAILED.wingbeat, tail_tilt=tilt)

@@ -30,8 +30,8 @@ from tests.helpers.unsteady_flights import (
     states_at,
 )
 from wingbeat._jax.arrays import jax, jnp, unchecked
-from wingbeat.mechanics.beat_by_beat import fly_beats
 from wingbeat.mechanics.flight_model import body_rates, motion_table
+from wingbeat.mechanics.flights import fly_beats
 from wingbeat.records.flight_dataset import evaluate
 
 # --- The oracle

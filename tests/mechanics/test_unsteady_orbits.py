@@ -21,8 +21,8 @@ from tests.helpers.unsteady_flights import (
     states_at,
 )
 from wingbeat._jax.arrays import jnp
-from wingbeat.mechanics.beat_by_beat import fly_beats
 from wingbeat.mechanics.flight_model import air_loads, motion_table
+from wingbeat.mechanics.flights import fly_beats
 from wingbeat.mechanics.wing_motion import stroke_attitude
 from wingbeat.orbits.solution import search_near
 from wingbeat.records.flight_dataset import evaluate

@@ -12,8 +12,8 @@ from hypothesis import strategies as st
 import wingbeat as wb
 from tests.helpers.programs import compiled
 from wingbeat._jax.arrays import jax, jnp
-from wingbeat.mechanics.frames import stroke_pitch, to_world
-from wingbeat.mechanics.wing_motion import mass_points, shape_at, strips_of, wing_motion, with_time_axes
+from wingbeat.mechanics.wing_motion import wing_motion
+from wingbeat.mechanics.wing_shape import mass_points, shape_at, strips_of, stroke_pitch, to_world, with_time_axes
 
 STRIPS = 8
 VEHICLE = wb.Vehicle(

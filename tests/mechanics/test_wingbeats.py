@@ -29,9 +29,9 @@ from wingbeat.animal.kinematics import (
     with_parameters,
 )
 from wingbeat.animal.species.reading import template
-from wingbeat.mechanics.clearance import lateral_corners
 from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.mechanics.wing_points import strip_corners
+from wingbeat.mechanics.wing_shape import lateral_corners
 from wingbeat.orbits.flight.period import flier
 from wingbeat.records.flight_dataset import evaluate
 

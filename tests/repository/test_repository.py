@@ -195,8 +195,8 @@ ONCE = {
     r"get_close_matches\(": "_base/errors.py",
     r"quarter-chord\W+(or )?centre-of-pressure[\".]": "aero/blade_element.py",
     r"FASTEST_CLIMB = 100|at_most\W+100(\.0)?, .*m/s": "orbits/problem/problem.py",
-    r"\bexp\(-[^)]*decay_rate\W* \*": "aero/formula.py",
-    r"\b1\.19, .*1\.74\b": "aero/published.py",
+    r"\bexp\(-[^)]*decay_rate\W* \*": "aero/formula_terms.py",
+    r"\b1\.19, .*1\.74\b": "aero/formula_models.py",
     r"[\"']#[0-9A-Fa-f]{6}[\"']|font\.size|axes\.spines\.": "_base/style.py",
 }
 

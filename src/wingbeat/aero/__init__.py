@@ -6,26 +6,21 @@
 """
 
 from wingbeat.aero import winds as winds
-from wingbeat.aero.animal_wings import (
-    WING_ESTIMATES,
-    Estimate,
+from wingbeat.aero.blade_element import AIRSPEEDS, FORCE_POINTS, BladeElement, coefficients_of, load_coefficients
+from wingbeat.aero.closed_forms import INFLOWS, UNSTEADY
+from wingbeat.aero.coefficient_model import CoefficientModel
+from wingbeat.aero.extension import EXTENSIONS
+from wingbeat.aero.formula_models import CamberedCoefficients, FormulaCoefficients
+from wingbeat.aero.formula_terms import CamberedTerms, CentreTerms, FormulaTerms
+from wingbeat.aero.function import FunctionCoefficients
+from wingbeat.aero.library import (
+    LIBRARY,
+    Byl,
+    Dickinson,
     Feathered,
     FeatheredFlapping,
     FeatheredRevolving,
     Membrane,
-)
-from wingbeat.aero.blade_element import AIRSPEEDS, FORCE_POINTS, BladeElement, coefficients_of, load_coefficients
-from wingbeat.aero.cambered import CamberedCoefficients, CamberedTerms
-from wingbeat.aero.closed_forms import INFLOWS, UNSTEADY
-from wingbeat.aero.coefficient_model import CoefficientModel
-from wingbeat.aero.extension import EXTENSIONS
-from wingbeat.aero.formula import CentreTerms, FormulaCoefficients, FormulaTerms
-from wingbeat.aero.function import FunctionCoefficients
-from wingbeat.aero.library import LIBRARY
-from wingbeat.aero.model_file import load_model
-from wingbeat.aero.published import (
-    Byl,
-    Dickinson,
     ParslewCrowther,
     SuFan,
     Wang2004,
@@ -34,7 +29,9 @@ from wingbeat.aero.published import (
     thin_aerofoil_lift,
     thin_aerofoil_moment,
 )
+from wingbeat.aero.model_file import load_model
 from wingbeat.aero.table import TableCoefficients, load_table
+from wingbeat.aero.wing_estimates import WING_ESTIMATES, Estimate
 
 __all__ = [
     "AIRSPEEDS",

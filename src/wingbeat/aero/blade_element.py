@@ -11,7 +11,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -21,11 +21,10 @@ import numpy as np
 from wingbeat._base import Fault, FaultList, InvalidInputError, read_text, suggest
 from wingbeat._base.sheets import seems_to_be
 from wingbeat._jax.arrays import atan2, elementwise_jvp, jnp
-from wingbeat.aero.cambered import CamberedCoefficients
 from wingbeat.aero.closed_forms import INFLOWS, UNSTEADY, damping_couple, rotation_force
 from wingbeat.aero.coefficient_model import CoefficientModel, check_curve
 from wingbeat.aero.derived_kernels import ArmHandKernel, UpstrokeKernel, count_arm_strips, sectional_kernel
-from wingbeat.aero.formula import FormulaCoefficients
+from wingbeat.aero.formula_models import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.function import FunctionCoefficients
 from wingbeat.aero.library import LIBRARY
 from wingbeat.aero.model_file import load_model
@@ -168,6 +167,10 @@ class SpanPart(NamedTuple):
 
 FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
 AIRSPEEDS = ("planar", "full")
+# What the choices of `BladeElement` may be, for every door that asks for them: words, and limits of numbers.
+ELEMENT_WORDS = {"force_point": FORCE_POINTS, "airspeed": AIRSPEEDS, "unsteady": UNSTEADY, "inflow": INFLOWS}
+_PART = {"at_least": 0, "at_most": 1}
+ELEMENT_LIMITS = {"induced_factor": {"at_least": 0}, "share": _PART, "hand_from": _PART, "upstroke_factor": _PART}
 
 
 @dataclass(frozen=True)
@@ -236,31 +239,25 @@ class BladeElement:
             except InvalidInputError as error:
                 faults.faults.extend(error.faults)
         faults.whole("aero.strips", self.strips, 1, 1000, "Su et al. use 10")
-        faults.choice("aero.force_point", self.force_point, FORCE_POINTS)
-        faults.choice("aero.airspeed", self.airspeed, AIRSPEEDS)
-        faults.choice("aero.unsteady", self.unsteady, UNSTEADY)
-        faults.choice("aero.inflow", self.inflow, INFLOWS)
-        faults.number("aero.induced_factor", self.induced_factor, at_least=0, fix="1 is an ideal disc")
-        faults.number("aero.share", self.share, at_least=0, at_most=1, fix="1 applies each term in full")
+        for name, words in ELEMENT_WORDS.items():
+            faults.choice(f"aero.{name}", getattr(self, name), words)
+        self._check_number(faults, "induced_factor", fix="1 is an ideal disc")
+        self._check_number(faults, "share", fix="1 applies each term in full")
         if self.share != 1 and self.unsteady == self.inflow == "none":
-            rule, fix = (
-                "has no effect without unsteady terms or inflow",
-                "set unsteady or inflow, or leave share out",
-            )
-            faults.add("aero.share", self.share, rule, fix)
-        faults.number("aero.hand_from", self.hand_from, at_least=0, at_most=1, fix="a fraction of the span")
+            rule = "has no effect without unsteady terms or inflow"
+            faults.add("aero.share", self.share, rule, "set unsteady or inflow, or leave share out")
+        self._check_number(faults, "hand_from", fix="a fraction of the span")
         if self.hand == "none" and self.hand_from != type(self).hand_from:
-            faults.add(
-                "aero.hand_from",
-                self.hand_from,
-                "has no effect without a hand",
-                "set hand to the coefficients of the hand",
-            )
-        faults.number("aero.upstroke_factor", self.upstroke_factor, at_least=0, at_most=1, fix="1 is off")
+            rule = "has no effect without a hand"
+            faults.add("aero.hand_from", self.hand_from, rule, "set hand to the coefficients of the hand")
+        self._check_number(faults, "upstroke_factor", fix="1 is off")
         faults.raise_if_any()
         for part in self.parts:
             self._check_part(part.coefficients, faults)
         faults.raise_if_any()
+
+    def _check_number(self, faults: FaultList, name: str, fix: str) -> None:
+        faults.number(f"aero.{name}", getattr(self, name), **ELEMENT_LIMITS[name], fix=fix)
 
     def _check_part(self, coefficients: CoefficientModel, faults: FaultList) -> None:
         if self.inflow != "none":
@@ -290,6 +287,11 @@ class BladeElement:
         arm, *hand = (own(part.coefficients) for part in self.parts)
         whole = ArmHandKernel(arm, hand[0], self.parts[0].strips.stop) if hand else arm
         return whole if self.upstroke_factor == 1 else UpstrokeKernel(whole, self.upstroke_factor)
+
+
+# The choices of the air loads besides the coefficients, in the order of the constructor; `share` is for studies of
+# single terms and no choice of a user's.
+OF_ELEMENTS = tuple(field.name for field in fields(BladeElement) if field.name not in ("coefficients", "share"))
 
 
 def blade_element_of(aero: Any) -> BladeElement:

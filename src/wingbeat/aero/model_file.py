@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import Fault, FaultList, InvalidInputError, read_text, toml_tables
-from wingbeat.aero.cambered import CamberedCoefficients, CamberedTerms
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.aero.extension import check_extension
-from wingbeat.aero.formula import CentreTerms, FormulaCoefficients, FormulaTerms
+from wingbeat.aero.formula_models import CamberedCoefficients, FormulaCoefficients
+from wingbeat.aero.formula_terms import CamberedTerms, CentreTerms, FormulaTerms
 
 
 class FittedCurve(NamedTuple):

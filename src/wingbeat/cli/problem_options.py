@@ -82,7 +82,8 @@ class ModelOptions:
         float | None, Parameter(help="Half width [deg] of the blends at 0, 90 and 180 degrees; default 1.")
     ] = None
     force_point: Annotated[
-        str | None, Parameter(help=f"Where the force acts: {' or '.join(FORCE_POINTS)}; default quarter-chord.")
+        str | None,
+        Parameter(help=f"Where the force acts: {' or '.join(FORCE_POINTS)}; default {BladeElement.force_point}."),
     ] = None
     airspeed: Annotated[
         str | None,
@@ -91,7 +92,9 @@ class ModelOptions:
             "or full (with this component)."
         ),
     ] = None
-    strips: Annotated[Whole | None, Parameter(help="Number of strips of one wing; default 10.")] = None
+    strips: Annotated[
+        Whole | None, Parameter(help=f"Number of strips of one wing; default {BladeElement.strips}.")
+    ] = None
     unsteady: Annotated[
         str | None,
         Parameter(help="Unsteady terms: none (default), or thin-aerofoil (rotation, added mass and couples)."),
@@ -101,7 +104,8 @@ class ModelOptions:
         Parameter(help="Induced flow: none (default), or momentum (for coefficients whose aspect ratio is known)."),
     ] = None
     induced_factor: Annotated[
-        float | None, Parameter(help="Ratio of induced power to that of an ideal disc; default 1.2.")
+        float | None,
+        Parameter(help=f"Ratio of induced power to that of an ideal disc; default {BladeElement.induced_factor}."),
     ] = None
     hand: Annotated[
         str | None,
@@ -111,7 +115,8 @@ class ModelOptions:
         ),
     ] = None
     hand_from: Annotated[
-        float | None, Parameter(help="Fraction of the span at which --hand begins; default 0.5.")
+        float | None,
+        Parameter(help=f"Fraction of the span at which --hand begins; default {BladeElement.hand_from}."),
     ] = None
     upstroke_factor: Annotated[
         float | None,

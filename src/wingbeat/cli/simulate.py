@@ -41,8 +41,8 @@ from wingbeat.cli.problem_options import (
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import answer, plain_console
 from wingbeat.experiment.film_fit import FilmedBeat
-from wingbeat.mechanics.beat_by_beat import check_samples
 from wingbeat.mechanics.flight_model import FlightModel, State
+from wingbeat.mechanics.flights import check_samples
 from wingbeat.orbits.problem.filmed import filmed_species
 from wingbeat.plots import film_page
 from wingbeat.records.numbers import beat_mean

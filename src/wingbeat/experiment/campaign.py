@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from wingbeat._base import FaultList, write_atomically
 from wingbeat.aero import SuFan
-from wingbeat.aero.formula import CentreTerms, FormulaTerms
+from wingbeat.aero.formula_models import CentreTerms, FormulaTerms
 from wingbeat.experiment.curve_forms import value_and_slopes
 from wingbeat.experiment.load_cell_run import CHANNELS, COLUMN_UNITS, CONSTANT_UNITS, OPTIONAL_UNITS, LoadCellRun
 

@@ -15,9 +15,8 @@ from numpy.typing import NDArray
 
 from wingbeat._base import FaultList
 from wingbeat._jax.arrays import jax, unchecked
-from wingbeat.aero.cambered import CamberedTerms
 from wingbeat.aero.coefficient_model import at_angles
-from wingbeat.aero.formula import CentreTerms, FormulaTerms
+from wingbeat.aero.formula_terms import CamberedTerms, CentreTerms, FormulaTerms
 
 Array = NDArray[np.float64]
 Kind = type[FormulaTerms] | type[CentreTerms] | type[CamberedTerms]

@@ -16,9 +16,8 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat._base import FaultList
-from wingbeat.aero.animal_wings import WING_ESTIMATES
-from wingbeat.aero.cambered import CamberedTerms
-from wingbeat.aero.formula import CentreTerms, FormulaTerms
+from wingbeat.aero.formula_models import CamberedTerms, CentreTerms, FormulaTerms
+from wingbeat.aero.library import WING_ESTIMATES
 from wingbeat.experiment.curve_forms import Array, BoxForm, CurveForm, any_terms, formula_of, value_and_slopes
 from wingbeat.experiment.regression import CurveFit, distrust, fit_curve
 

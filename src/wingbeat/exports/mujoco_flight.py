@@ -10,9 +10,9 @@ from wingbeat._base import FaultList, FileError, install_extra
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.exports.gait import Laws, check_certified, gait_of, laws_at
 from wingbeat.exports.mujoco_model import BODY_JOINTS, KEY, SIDES, WingJoints, mujoco_xml, wing_parts
-from wingbeat.mechanics.beat_by_beat import Controller, commanded
 from wingbeat.mechanics.equations_of_motion import air_forces
 from wingbeat.mechanics.flight_model import State
+from wingbeat.mechanics.flights import Controller, commanded
 
 if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit

@@ -20,7 +20,8 @@ from wingbeat._base import FaultList
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.vehicle import Tail, Vehicle, Wing
 from wingbeat.exports.gait import LAW_NAMES, Gait, Laws, laws_at
-from wingbeat.mechanics.wing_motion import strips_of, twist_factors
+from wingbeat.mechanics.wing_motion import strips_of
+from wingbeat.mechanics.wing_shape import twist_factors
 from wingbeat.viewer.look import body_axes, tail_corners
 
 SIDES = {"left": 1.0, "right": -1.0}

@@ -3,7 +3,7 @@
 Coordinates q = (x, z, body pitch psi, flap phi, root wing pitch theta); both wings are counted. Span and fold are
 functions of time, so the equations are rheonomic; for rigid wings h vanishes and they are those of Su et al. 2023
 (doi 10.48550/arXiv.2302.09602). Every term is a sum over mass points of partial velocities ``dr/dq``, which are
-exact derivatives of the wing's position (`wing_motion.wing_shape`).
+exact derivatives of the wing's position (`wing_shape.wing_shape`).
 """
 
 from __future__ import annotations
@@ -12,16 +12,38 @@ import functools
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+from numpy.typing import ArrayLike
+
+from wingbeat._base import FaultList
 from wingbeat._jax.arrays import in_own_settings, jax, jnp
 from wingbeat._jax.exported import jit_soon
 from wingbeat.animal.kinematics import Wingbeat
-from wingbeat.mechanics.air_forces import AirForces, air_forces_on
 from wingbeat.mechanics.flight_model import FlightModel, is_unsteady
-from wingbeat.mechanics.wing_motion import strips_of
-from wingbeat.mechanics.wing_points import bias_accelerations, partial_velocities, point_motion
+from wingbeat.mechanics.flights import integrate
+from wingbeat.mechanics.wing_points import (
+    AirForces,
+    WingPoints,
+    air_forces_on,
+    partial_velocities,
+    point_motion,
+    wing_points,
+)
+from wingbeat.mechanics.wing_shape import strips_of
 
 if TYPE_CHECKING:
-    from wingbeat._jax.arrays import CoordinateMatrix, Coordinates, Pair, PerStrip, Phases
+    from wingbeat._jax.arrays import (
+        CoordinateMatrix,
+        Coordinates,
+        Integrated,
+        MassPoints,
+        Pair,
+        PerStrip,
+        Phases,
+        Samples,
+        Scalar,
+        StartState,
+    )
 
 
 class EquationsOfMotion(NamedTuple):
@@ -51,6 +73,35 @@ def _point_masses(model: FlightModel) -> PerStrip:
     return strips_of(model.vehicle.wing, model.strips).mass
 
 
+def drift_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
+    """Return ``dr/dt`` of all wing points at fixed q [m/s]: their velocity due to span, fold, sweep and twist.
+
+    Theory: equation ``drift``.
+    """
+    return jax.jvp(lambda t: wing_points(model, wingbeat, q, t), (time,), (jnp.ones_like(time),))[1]
+
+
+def bias_accelerations(
+    model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Scalar
+) -> tuple[MassPoints, MassPoints]:
+    """Return the mass points' ``d(dr/dq)/dq q'`` (last axis of five) and ``d2r/dt2 + 2 d2r/dqdt q'``.
+
+    Theory: equations ``time-force`` and ``frozen-motion``.
+    """
+
+    def by_q(at: Coordinates) -> Any:
+        return partial_velocities(model, wingbeat, at, time).mass
+
+    def by_time(at: Coordinates, when: Scalar) -> Any:
+        return drift_velocities(model, wingbeat, at, when).mass
+
+    still, one = jnp.zeros_like(time), jnp.ones_like(time)
+    partial_rate = jax.jvp(by_q, (q,), (q_dot,))[1]
+    return partial_rate, jax.jvp(by_time, (q, time), (2.0 * q_dot, still))[1] + jax.jvp(
+        by_time, (q, time), (jnp.zeros_like(q), one)
+    )[1]
+
+
 def _terms(
     model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases
 ) -> EquationsOfMotion:
@@ -77,11 +128,6 @@ def accelerations_from_torques(
     """Return q'' of a vehicle whose hinges are driven by torques, at one instant, shape (5,) [m/s2, rad/s2].
 
     Theory: equation ``torque-driven``.
-
-    Parameters
-    ----------
-    model, wingbeat, q, q_dot, time : as in `equations_of_motion`, without axes of times.
-    torques : of flap and pitch, both wings together [N m].
     """
     terms = _terms(model, wingbeat, q, q_dot, time)
     air = _air_forces(model, wingbeat, q, q_dot, time)
@@ -228,3 +274,45 @@ def generalised_torques(
     9.81
     """
     return _over_axes(_torque, model, wingbeat, time, q, q_dot, q_acceleration)
+
+
+# Most steps of the integrator in a flight with driven wings, see `integrate`.
+_IN_A_FLIGHT = 4096
+
+
+@functools.partial(jit_soon, static_argnums=0)
+def _drive(
+    torques: Any, model: FlightModel, wingbeat: Wingbeat, start: StartState, times: Samples, args: Any
+) -> Integrated:
+    def rates(time: Scalar, state: Any, args: Any) -> Any:
+        q, q_dot = state[:5], state[5:]
+        flown, beat, more = args
+        torque = torques(time, more)
+        return jnp.concatenate([q_dot, accelerations_from_torques(flown, beat, q, q_dot, time, torque)])
+
+    return integrate(rates, start, times, (model, wingbeat, args), _IN_A_FLIGHT)
+
+
+def fly_torque_driven(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    coordinates: ArrayLike,
+    rates: ArrayLike,
+    torques: Callable[[Any, Any], Any],
+    times: ArrayLike,
+    args: Any = None,
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Fly as `simulate_torque_driven` does; return times (K,), q and q' (K, 5)."""
+    faults = FaultList()
+    q, q_dot, when = (np.asarray(a, dtype=float) for a in (coordinates, rates, times))
+    for name, value in (("coordinates", q), ("rates", q_dot)):
+        if value.shape != (5,) or not np.isfinite(value).all():
+            faults.add(name, value, "must be five finite numbers", "x, z, body_pitch, flap, pitch")
+        elif name == "coordinates":
+            for i, angle in enumerate(value[2:].tolist(), start=2):
+                faults.angle(f"coordinates[{i}]", angle, advice=f"write np.radians({angle:g})")
+    if when.ndim != 1 or when.size < 2 or not np.isfinite(when).all() or not (np.diff(when) > 0).all():
+        faults.add("times", when, "must be at least two increasing times", "in seconds")
+    faults.raise_if_any()
+    states = np.asarray(_drive(torques, model, wingbeat, np.concatenate([q, q_dot]), when, args)[0])
+    return when, states[:, :5], states[:, 5:]

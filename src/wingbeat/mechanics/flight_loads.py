@@ -7,12 +7,20 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
-from wingbeat.mechanics.air_forces import air_forces_on
-from wingbeat.mechanics.body_dynamics import missing_loads
-from wingbeat.mechanics.flight_model import FlightModel, State, air_loads, body_rates, is_unsteady, motion_table
+from wingbeat.mechanics.flight_model import (
+    BodyLoads,
+    FlightModel,
+    State,
+    air_loads,
+    balance,
+    body_rates,
+    is_unsteady,
+    motion_table,
+)
 from wingbeat.mechanics.hinge_torques import hinge_loads, hinge_motion
-from wingbeat.mechanics.wing_motion import air_chord, strips_of, stroke_attitude, time_rates
-from wingbeat.mechanics.wing_points import point_motion
+from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude
+from wingbeat.mechanics.wing_points import air_forces_on, point_motion
+from wingbeat.mechanics.wing_shape import air_chord, dot, from_world, strips_of, time_rates, to_world
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import (
@@ -157,9 +165,8 @@ def carried_loads(
         motion = motion_table(model, wingbeat, when)
         attitude = stroke_attitude(model.vehicle.wing, motion, body.body_pitch)
         loads = air_loads(model, motion, attitude, body.u, body.w, body.pitch_rate, given)
-        rates, gravity = (given[0], given[1], given[2]), model.air.gravity
-        missing = missing_loads(model.vehicle, gravity, motion, loads, attitude, body.pitch_rate, rates)
-        return _loads(model, wingbeat, body, when, given), MissingLoads(*missing)
+        missing = missing_loads(model, motion, loads, attitude, body.pitch_rate, given)
+        return _loads(model, wingbeat, body, when, given), missing
 
     return jax.lax.map(at, (state, phase, acceleration))
 
@@ -250,3 +257,28 @@ def _whole_body(
         "kinetic_energy": kinetic,
         "potential_energy": total * model.air.gravity * centre[1],
     }
+
+
+def missing_loads(
+    model: FlightModel,
+    motion: WingMotion,
+    loads: BodyLoads,
+    attitude: Phases,
+    pitch_rate: Phases,
+    acceleration: PhasesAcceleration,
+) -> MissingLoads:
+    """Return what must act, in addition to the air loads and gravity, to give x'', z'' and psi'' of the body.
+
+    Each is the left side minus the right side of an equation of `accelerations`; `loads` are the air loads that act
+    at this acceleration.
+
+    Theory: equation ``missing-loads``.
+    """
+    mass, force_forward, force_up, turn, arm, inertia = balance(
+        model.vehicle, model.air.gravity, motion, loads, attitude, pitch_rate
+    )
+    along, turning = from_world(attitude, acceleration[0], acceleration[1]), acceleration[2]
+    forward = mass * along[0] + turning * arm[0] - force_forward
+    up = mass * along[1] + turning * arm[1] - force_up
+    x, z = to_world(attitude, forward, up)
+    return MissingLoads(x, z, dot(arm, along) + turning * inertia - turn)

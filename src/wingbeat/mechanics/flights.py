@@ -1,33 +1,44 @@
-"""Flights from an initial state with an adaptive integrator, wings prescribed or driven by torques."""
+"""Flights from an initial state with prescribed wings: one beat, several through moving air, many at once.
+
+A single flight takes the adaptive steps of Dopri8, many flights at once take fixed Runge-Kutta steps. Flights are
+then the last axis, because XLA on CPU works along the last axis; the equations are those of one flight.
+"""
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from wingbeat._base import FaultList
+from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat._jax.arrays import jax, jnp
-from wingbeat._jax.exported import exported, jit_soon
+from wingbeat._jax.exported import exported
+from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat
-from wingbeat.mechanics.equations_of_motion import accelerations_from_torques
 from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
 
 if TYPE_CHECKING:
-    from wingbeat._jax.arrays import AirTable, AirVelocity, Integrated, Samples, Scalar, StartState, StateVector
-
+    from wingbeat._jax.arrays import (
+        AirOfFlights,
+        AirTable,
+        AirVelocity,
+        Flights,
+        FlightStates,
+        Integrated,
+        Samples,
+        Scalar,
+        StartState,
+        StateVector,
+    )
 
 RTOL = 1e-10
 # Absolute tolerance divided by the relative one; states are in SI units and of order one.
 _ATOL = 1e-2
-# The integrator steps onto every fourth of the times asked for (_BETWEEN). It may take _IN_A_BEAT further steps in
-# a beat, and _IN_A_FLIGHT in a flight with driven wings. The polynomials of all steps are kept.
+# The integrator steps onto every fourth of the times asked for (_BETWEEN) and may take _IN_A_BEAT further steps in
+# a beat. The polynomials of all steps are kept.
 _BETWEEN = 4
 _IN_A_BEAT = 1024
-_IN_A_FLIGHT = 4096
 # The air's velocity is tabulated at this many equal phases of a beat. Between two of them, it is a cubic that
 # depends on the nearest four.
 _AIR_SAMPLES = 64
@@ -40,12 +51,6 @@ def state_rates(model: FlightModel, wingbeat: Wingbeat, phase: Scalar, state: St
     """Return d/dt of (x, z, body_pitch, u, w, pitch_rate), with the wing's motion evaluated exactly at this phase.
 
     Theory: equation ``state-rates``.
-
-    Parameters
-    ----------
-    model, wingbeat : what flies.
-    phase : one phase.
-    state : shape (6,) [m, rad, m/s, rad/s].
     """
     motion = motion_table(model, wingbeat, phase, _VECTOR)
     return jnp.concatenate([state[3:5], body_rates(model, motion, state[2:])])
@@ -56,22 +61,12 @@ def integrate(
 ) -> Integrated:
     """Integrate with Dopri8.
 
+    `rates` takes (time, state, args); the absolute tolerance is a hundredth of `rtol`; `most_steps` does not count
+    steps that end at a given time. Returns the states at `times`, NaN after the integrator gave up, then times and
+    states of its own steps, in arrays of the largest length, filled with infinity after the last step.
+
     A step ends exactly at every fourth of the times; the integrator's own polynomials give the states at the times
     between. Steps that end at every time would take a third longer, and longer steps fail at kinks of the loads.
-
-    Parameters
-    ----------
-    rates : of (time, state, args).
-    start : state at the first time, shape (n,).
-    times : increasing, shape (K,).
-    args : passed to `rates`.
-    most_steps : largest number of steps, not counting those that end at a given time.
-    rtol : relative tolerance; the absolute one is a hundredth of it.
-
-    Returns
-    -------
-    States at `times`, shape (K, n), NaN after the integrator gave up; times and states of its own steps, in arrays
-    of the largest length, filled with infinity after the last step.
     """
     import diffrax  # half a second to import, and not needed where the traced program is on disk
 
@@ -139,12 +134,10 @@ def _fly_in_wind(
 def air_between(table: AirTable, place: Scalar) -> AirVelocity:
     """Return the air's velocity between the places of a table, by cubics (Catmull-Rom).
 
-    The slope of the cubics at a place is half the difference of the velocities at the two neighbouring places.
+    `table` holds velocities at equal steps, from one step before place 0 to one step after the last place; `place`
+    counts steps from place 0; the first and last cubics go on beyond the ends.
 
-    Parameters
-    ----------
-    table : velocity at equal steps, from one step before place 0 to one step after the last place [m/s].
-    place : steps from place 0; the first and last cubics go on beyond the ends.
+    The slope of the cubics at a place is half the difference of the velocities at the two neighbouring places.
     """
     first = jnp.clip(jnp.floor(place), 0, table.shape[0] - 4)
     before, here, there, behind = jax.lax.dynamic_slice_in_dim(table, first.astype(int), 4)
@@ -164,17 +157,8 @@ def fly_through(
 ) -> tuple[np.ndarray, Steps]:
     """Fly an initial state with prescribed wings.
 
-    Parameters
-    ----------
-    model, wingbeat : what flies.
-    state : at phase 0 [m, rad, m/s, rad/s].
-    phases : in increasing order from 0, shape (K,); equal phases are allowed.
-    rtol : relative tolerance.
-    air : velocity of the air at the phases of `air_phases`, forward and up [m/s]; None for still air.
-
-    Returns
-    -------
-    States (x, z, body_pitch, u, w, pitch_rate), shape (K, 6), NaN after the integrator gave up; and the
+    `state` is at phase 0; `phases` increase from 0, and equal ones are allowed; `air` is its velocity at the phases
+    of `air_phases`, None for still air. Returns the states, shape (K, 6), NaN after the integrator gave up, and the
     integrator's steps.
     """
     given = model, wingbeat, np.array(state, dtype=float), phases, rtol
@@ -189,44 +173,175 @@ def air_phases() -> np.ndarray:
     return np.arange(-1, _AIR_SAMPLES + 2) / _AIR_SAMPLES
 
 
-@functools.partial(jit_soon, static_argnums=0)
-def _drive(
-    torques: Any, model: FlightModel, wingbeat: Wingbeat, start: StartState, times: Samples, args: Any
-) -> Integrated:
-    def rates(time: Scalar, state: Any, args: Any) -> Any:
-        q, q_dot = state[:5], state[5:]
-        flown, beat, more = args
-        torque = torques(time, more)
-        return jnp.concatenate([q_dot, accelerations_from_torques(flown, beat, q, q_dot, time, torque)])
+def state_of(given: Any) -> State:
+    """Return a state that was given as a `State` or as its six numbers.
 
-    return integrate(rates, start, times, (model, wingbeat, args), _IN_A_FLIGHT)
-
-
-def fly_torque_driven(
-    model: FlightModel,
-    wingbeat: Wingbeat,
-    coordinates: ArrayLike,
-    rates: ArrayLike,
-    torques: Callable[[Any, Any], Any],
-    times: ArrayLike,
-    args: Any = None,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Fly as `simulate_torque_driven` does; return times (K,), q and q' (K, 5).
+    Parameters
+    ----------
+    given : a `State`, or x, z [m], body_pitch [rad], u, w [m/s] and pitch_rate [rad/s] in a list, a tuple or an
+        array, shape (6,).
 
     Raises
     ------
-    InvalidInputError : wrong shapes, numbers that are not finite, angles above pi, or times that do not increase.
+    InvalidInputError : not six numbers, some number is not finite, a body pitch above pi.
+
+    >>> state_of(np.array([0.0, 0.0, 0.1, 10.0, 0.0, 0.0])).u
+    10.0
     """
     faults = FaultList()
-    q, q_dot, when = (np.asarray(a, dtype=float) for a in (coordinates, rates, times))
-    for name, value in (("coordinates", q), ("rates", q_dot)):
-        if value.shape != (5,) or not np.isfinite(value).all():
-            faults.add(name, value, "must be five finite numbers", "x, z, body_pitch, flap, pitch")
-        elif name == "coordinates":
-            for i, angle in enumerate(value[2:].tolist(), start=2):
-                faults.angle(f"coordinates[{i}]", angle, advice=f"write np.radians({angle:g})")
-    if when.ndim != 1 or when.size < 2 or not np.isfinite(when).all() or not (np.diff(when) > 0).all():
-        faults.add("times", when, "must be at least two increasing times", "in seconds")
+    if isinstance(given, State):
+        values = list(given)
+    else:
+        values = np.asarray(given).tolist() if hasattr(given, "__array__") else given
+        if not isinstance(values, list | tuple) or np.shape(values) != (len(State._fields),):
+            told = f"shape {np.shape(given)}" if hasattr(given, "__array__") else given
+            rule = "must be a State or six numbers: x, z [m], body_pitch [rad], u, w [m/s], pitch_rate [rad/s]"
+            faults.add("initial_state", told, rule, "for example wb.State(u=10.0), or flight.states[-1]")
+            faults.raise_if_any()
+    for name, value in zip(State._fields, values, strict=True):
+        where = f"initial_state.{name}"
+        if name == "body_pitch":  # a body that has turned over has a pitch within half a turn too
+            faults.angle(where, value, advice=f"write np.radians({value}), or take whole turns away")
+        else:
+            faults.number(where, value)
     faults.raise_if_any()
-    states = np.asarray(_drive(torques, model, wingbeat, np.concatenate([q, q_dot]), when, args)[0])
-    return when, states[:, :5], states[:, 5:]
+    return State(*values)
+
+
+def fly_beat_in_steps(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    start: FlightStates,
+    begun: Flights,
+    air: AirOfFlights,
+    spacing: Scalar,
+    pitch: Samples,
+    first: Scalar | float = 0.0,
+    last: Scalar | float = 1.0,
+) -> tuple[FlightStates, Flights]:
+    """Fly one beat of many flights, or a part of it, with the classical Runge-Kutta method of order 4.
+
+    `start` holds the states at phase `first`, shape (6, flights), `begun` the time at phase 0 of each flight. `air`
+    holds tables of the air's velocity, shape (flights, places, 2), `spacing` seconds apart. Returns the states at
+    phase `last`, and the largest deviation of the body pitch from `pitch`, that of the undisturbed orbit at the
+    ends of all steps.
+    """
+    several, size = start.shape[1:], (last - first) / (pitch.shape[0] - 1)
+
+    def motion_at(phase: Scalar) -> Any:
+        return motion_table(model, wingbeat, jnp.broadcast_to(phase, several))
+
+    def rates(motion: Any, phase: Scalar, state: FlightStates) -> FlightStates:
+        place = (begun + phase / wingbeat.frequency) / spacing
+        wind = jax.vmap(air_between, out_axes=1)(air, place)
+        # The loads depend on the velocity through the air, and both frames have the same accelerations.
+        by_time = body_rates(model, motion, state[2:].at[1:3].add(-wind))
+        return jnp.concatenate([state[3:5], by_time]) / wingbeat.frequency
+
+    def step(carry: Any, i: Scalar) -> tuple[Any, None]:
+        state, motion, largest = carry
+        phase = first + i * size
+        middle, end = phase + 0.5 * size, phase + size
+        half, whole = motion_at(middle), motion_at(end)
+        k1 = rates(motion, phase, state)
+        k2 = rates(half, middle, state + 0.5 * size * k1)
+        k3 = rates(half, middle, state + 0.5 * size * k2)
+        k4 = rates(whole, end, state + size * k3)
+        state = state + size / 6.0 * (k1 + 2.0 * (k2 + k3) + k4)
+        away = jnp.abs(state[2] - pitch[i.astype(int) + 1])
+        return (state, whole, jnp.maximum(largest, away)), None
+
+    count = jnp.arange(pitch.shape[0] - 1, dtype=float)
+    at_start = start, motion_at(jnp.asarray(first, dtype=float)), jnp.abs(start[2] - pitch[0])
+    return jax.lax.scan(step, at_start, count)[0][::2]
+
+
+# Takes the number of beats flown and the state at the top of the stroke; returns the wingbeat of the next beat.
+Controller = Callable[[int, State], Wingbeat]
+
+
+class FlownBeats(NamedTuple):
+    """A flight of several beats.
+
+    Attributes
+    ----------
+    phase : beats since the start, shape (K,).
+    states : (x, z, body_pitch, u, w, pitch_rate) there, shape (K, 6), NaN after the integrator gave up.
+    wingbeats : the wingbeat of each beat.
+    air : velocity of the air there, forward and up [m/s], shape (K, 2); None for still air.
+    """
+
+    phase: np.ndarray
+    states: np.ndarray
+    wingbeats: tuple[Wingbeat, ...]
+    air: np.ndarray | None
+
+
+def check_samples(faults: FaultList, beats: int, samples: int) -> None:
+    """Note numbers of beats, and of samples in each, that no flight can have."""
+    faults.whole("beats", beats, 1, 10_000)
+    faults.whole("samples", samples, 1, 4096)
+
+
+def check_wind(faults: FaultList, wind: object) -> None:
+    """Note a wind that is neither two finite velocities nor a function."""
+    if isinstance(wind, tuple | list):
+        if len(wind) != 2:
+            faults.add("wind", wind, "must be two velocities", "forward and up [m/s]")
+        for name, value in zip("uw", wind, strict=False):
+            faults.number(f"wind.{name}", value, unit="m/s")
+    elif wind is not None and not callable(wind):
+        fix = "for example wb.winds.CosineGust(w=2.0)"
+        faults.add("wind", wind, "must be two velocities or a function of times", fix)
+
+
+def fly_beats(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    state: State,
+    beats: int,
+    samples: int,
+    wind: Wind | tuple[float, float] | None = None,
+    controller: Controller | None = None,
+) -> FlownBeats:
+    """Fly several beats with prescribed wings, ``beats * samples + 1`` samples in all.
+
+    `wind` is two numbers or a function of times, None for still air; `controller` gives the wingbeat of each beat.
+    """
+    one_beat, current, begun = np.linspace(0.0, 1.0, samples + 1), state, 0.0
+    pieces, wingbeats, airs = [np.array([state], dtype=float)], [], []
+    for beat in range(beats):
+        now = wingbeat if controller is None else commanded(controller, beat, current)
+        wingbeats.append(now)
+        table = None
+        if wind is not None:
+            table = air_at(wind, begun + air_phases() / now.frequency)
+            airs.append(air_at(wind, begun + one_beat[beat > 0 :] / now.frequency))
+        flown, _ = fly_through(model, now, current, one_beat, air=table)
+        current = State(*flown[-1])
+        pieces.append(flown[1:])
+        begun += 1.0 / now.frequency
+    phase = np.linspace(0.0, beats, beats * samples + 1)
+    return FlownBeats(phase, np.concatenate(pieces), tuple(wingbeats), np.concatenate(airs) if airs else None)
+
+
+def commanded(controller: Controller, beat: int, state: State) -> Wingbeat:
+    """Return the wingbeat that a controller asks for."""
+    wingbeat = controller(beat, state)
+    if not isinstance(wingbeat, Wingbeat):
+        rule = f"returned {type(wingbeat).__name__} after {beat} beats"
+        raise InvalidInputError([Fault("controller", wingbeat, rule, "return a Wingbeat")])
+    return wingbeat
+
+
+def air_at(wind: Wind | tuple[float, float], times: np.ndarray) -> np.ndarray:
+    """Return the velocity of the air at given times, forward and up [m/s], shape (K, 2)."""
+    velocity = wind(times) if callable(wind) else wind
+    try:
+        columns = [np.broadcast_to(np.asarray(part, dtype=float), times.shape) for part in velocity]
+    except (TypeError, ValueError):
+        columns = []
+    if len(columns) != 2 or not np.isfinite(columns).all():
+        rule = f"must return two finite velocities for each of {len(times)} times"
+        raise InvalidInputError([Fault("wind", velocity, rule, "forward and up [m/s]")])
+    return np.column_stack(columns)

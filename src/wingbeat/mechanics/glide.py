@@ -20,7 +20,7 @@ from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, unpack
 from wingbeat.mechanics.equations_of_motion import air_forces, equations_of_motion
 from wingbeat.mechanics.flight_model import FlightModel, at_velocity
-from wingbeat.mechanics.frames import stroke_pitch
+from wingbeat.mechanics.wing_shape import stroke_pitch
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import Coordinates, Scalar

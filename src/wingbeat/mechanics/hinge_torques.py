@@ -14,19 +14,34 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
-from wingbeat.mechanics.body_dynamics import strip_loads, strip_moments
-from wingbeat.mechanics.flight_model import FlightModel, is_unsteady, unsteady_density, velocity_at_wings
-from wingbeat.mechanics.frames import dot, from_world, quarter_turn
-from wingbeat.mechanics.strip_sums import mass_moments, sum_over_strips
-from wingbeat.mechanics.unsteady_air import StripSpeeds, UnsteadyLoad, mid_speed, strip_motion, unsteady_load
+from wingbeat.mechanics.flight_model import (
+    FlightModel,
+    is_unsteady,
+    strip_loads,
+    strip_moments,
+    unsteady_density,
+    velocity_at_wings,
+)
 from wingbeat.mechanics.wing_motion import (
-    Strips,
+    StripSpeeds,
+    UnsteadyLoad,
     WingMotion,
     WingShape,
+    mid_speed,
+    strip_motion,
+    stroke_attitude,
+    unsteady_load,
+)
+from wingbeat.mechanics.wing_shape import (
+    Strips,
     air_chord,
+    dot,
+    from_world,
+    mass_moments,
+    quarter_turn,
     shape_at,
     strips_of,
-    stroke_attitude,
+    sum_over_strips,
     time_rates,
     wing_shape,
     with_time_axes,
@@ -140,13 +155,7 @@ def _chords(shape: WingShape, strips: Strips) -> _Chords:
 
 
 def hinge_motion(model: FlightModel, wingbeat: Wingbeat, phase: Phases) -> HingeMotion:
-    """Tabulate the motions that the hinges cause, at given phases.
-
-    Parameters
-    ----------
-    model, wingbeat : the wing and how it beats.
-    phase : phases, shape (...).
-    """
+    """Tabulate the motions that the hinges cause, at given phases."""
     vehicle, phase = model.vehicle, jnp.asarray(phase, dtype=float)
     strips = with_time_axes(strips_of(vehicle.wing, model.strips), phase)
 
@@ -225,13 +234,6 @@ def hinge_loads(
 
     Theory: equations ``generalised-force``, ``hinge-torques``, ``hinge-power``, ``actuator-power`` and
     ``power-parts``.
-
-    Parameters
-    ----------
-    model : the flight model.
-    motion, hinges : its tables at the same phases.
-    pitch_state : (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s], shape (4, ...).
-    body_acceleration : (x'', z'', psi'') [m/s2, m/s2, rad/s2], shape (3, ...).
     """
     body_pitch, u, w, pitch_rate = pitch_state
     ax, az, pitch_acceleration = body_acceleration

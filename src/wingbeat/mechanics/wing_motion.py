@@ -1,34 +1,50 @@
-"""The wing's motion in stroke axes, which depends on time alone: strips, mass points and their rates.
+"""The wing's motion in stroke axes, which depends on time alone: a table for air loads and body dynamics.
 
-Everything here is for the left wing; sums over mass points count both wings. Strips are the first axis and times
-the last, because XLA on CPU works along the last axis, and strips are few.
+Everything here is for the left wing; sums over mass points count both wings.
+
+The unsteady loads (rotation, added mass and couples of a thin aerofoil, `wingbeat.aero.closed_forms`) are at most
+products of two speeds, each linear in the body's motion through the air in stroke axes, ``xi = (V_x, V_z, psi')``,
+with factors that the wing's own motion sets. So the load on a motion is ``-rho (A . a + B . xi + C + psi' (D . xi +
+E))``, where a is the acceleration of the body. A to E are tabulated like the moments of the wing's mass; only the
+couple against the turning of the chord needs the airspeed of each strip.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._jax.arrays import at_default, cos, jax, jnp, sin
-from wingbeat.animal.kinematics import (
-    Wingbeat,
-    chord_ratio,
-    flap_angle,
-    fold_angle,
-    pitch_angle,
-    span_ratio,
-    sweep_angle,
-    tip_twist,
-)
+from wingbeat._jax.arrays import at_default, computed_once, jax, jnp
+from wingbeat.aero.closed_forms import added_inertia, added_mass, damping_couple, rotation_lift
+from wingbeat.animal.kinematics import Wingbeat, span_ratio
 from wingbeat.animal.vehicle import Vehicle, Wing
-from wingbeat.mechanics.frames import dot, from_world, quarter_turn, stroke_pitch
-from wingbeat.mechanics.strip_sums import mass_moments
-from wingbeat.mechanics.unsteady_air import UnsteadyLoad, strip_motion, unsteady_loads_on_body
-from wingbeat.mechanics.wing_shape import Strips, WingShape
+from wingbeat.mechanics.wing_shape import (
+    WingShape,
+    air_chord,
+    dot,
+    mass_moments,
+    padded,
+    quarter_turn,
+    shape_at,
+    strips_of,
+    stroke_pitch,
+    sum_over_strips,
+    tail_tilt,
+    time_rates,
+    with_time_axes,
+)
 
 if TYPE_CHECKING:
-    from wingbeat._jax.arrays import Pair, PerStrip, PerStripBroadcast, Phases, Scalar, Triple
+    from wingbeat._jax.arrays import (
+        ByBodyMotion,
+        Pair,
+        PerStrip,
+        PerStripBroadcast,
+        PerStripOrNone,
+        Phases,
+        Scalar,
+        Triple,
+        TripleOrNone,
+    )
 
 
 class WingMotion(NamedTuple):
@@ -43,21 +59,16 @@ class WingMotion(NamedTuple):
     flapping_speed : speed along the normal of the unpitched strip [m/s].
     flap_cosine : of the strip's flap angle.
     pitch : pitch of the strip [rad].
-    area : of the strip [m2].
-    width : of every strip, along the span [m], shape (...).
+    area, width : of the strips, and their extent along the span, shape (...) [m2, m].
     first_moment : sum of mass times position, forward and up [kg m].
     first_moment_rate, first_moment_acceleration : its time derivatives [kg m/s, kg m/s2].
     inertia, inertia_rate : sum of mass times position squared [kg m2], and its time derivative [kg m2/s].
     acceleration_moment : sum of mass times (position turned by a right angle) . acceleration [N m].
-    unpitched : unit vector along the unpitched chord, as its components in the plane of symmetry; None unless the
-        wing sweeps.
-    sweeping_speed : speed along the unpitched chord [m/s]; None unless the wing sweeps.
-    tilt : of the stroke plane [rad]; None if it is 0.
-    span : unit vector along the span, as its components in the plane of symmetry; None unless loads depend on the
-        full airspeed.
-    spanwise_speed : speed along the span [m/s]; None unless loads depend on the full airspeed.
+    unpitched, sweeping_speed : unit vector along the unpitched chord, as its components in the plane of symmetry,
+        and speed along it [m/s]; None unless the wing sweeps.
+    span, spanwise_speed : the same along the span; None unless loads depend on the full airspeed.
+    tilt, tail_tilt : of the stroke plane, and added to the tail's incidence [rad]; None if 0.
     unsteady : unsteady loads on the body, forward, up and nose-up; None without unsteady terms.
-    tail_tilt : added to the tail's incidence [rad]; None if it is 0, or without a tail.
     """
 
     ahead: Phases | PerStrip
@@ -82,64 +93,6 @@ class WingMotion(NamedTuple):
     tail_tilt: Phases | None = None
 
 
-def strips_of(wing: Wing, count: int) -> Strips:
-    """Cut a wing into equal strips.
-
-    The mass of a strip is proportional to ``(1 - s/L)**p``, normalised to the mass of the wing.
-
-    Theory: equation ``strip-mass``.
-
-    Parameters
-    ----------
-    wing : gives chord, mass and mass exponent p.
-    count : number of strips, N.
-    """
-    span_fraction = (jnp.arange(count) + 0.5) / count
-    chord = chord_at(wing, span_fraction)
-    share = (1.0 - span_fraction) ** wing.mass_exponent
-    return Strips(span_fraction, chord, wing.mass * share / jnp.sum(share))
-
-
-def chord_at(wing: Wing, span_fraction: PerStrip) -> PerStrip:
-    """Return the chord [m] at span fractions, linear between the stations of the wing.
-
-    Theory: equation ``strip-chord``.
-    """
-    stations = jnp.atleast_1d(jnp.asarray(wing.chord, dtype=float))
-    if stations.size == 1:
-        return jnp.broadcast_to(stations, span_fraction.shape)
-    return jnp.interp(span_fraction, jnp.linspace(0.0, 1.0, stations.size), stations)
-
-
-def air_chord(wingbeat: Wingbeat, chord: PerStripBroadcast, phase: Phases) -> PerStripBroadcast:
-    """Return the chord that meets the air [m]: the full chord times the wingbeat's chord law.
-
-    Theory: equation ``chord-law``.
-
-    Parameters
-    ----------
-    wingbeat : gives the law.
-    chord : the full chord of the strips [m], with an axis of length one for each axis of `phase`.
-    phase : phases, shape (...).
-    """
-    ratio = chord_ratio(wingbeat, phase)
-    return chord if ratio is None else chord * ratio
-
-
-def stroke_plane(wing: Wing, wingbeat: Wingbeat) -> Scalar:
-    """Return the angle of the stroke plane from the body axis [rad]. Theory: equation ``stroke-plane``."""
-    if at_default(wingbeat, "stroke_plane_tilt"):
-        return wing.stroke_plane_angle
-    return wing.stroke_plane_angle + wingbeat.stroke_plane_tilt
-
-
-def tail_tilt(vehicle: Vehicle, wingbeat: Wingbeat) -> Scalar | None:
-    """Return the angle that is added to the tail's incidence [rad]; None if it is off, or without a tail."""
-    if vehicle.tail is None or at_default(wingbeat, "tail_tilt"):
-        return None
-    return wingbeat.tail_tilt
-
-
 def stroke_attitude(wing: Wing, motion: WingMotion, body_pitch: Phases) -> Phases:
     """Return the nose-up pitch of stroke axes relative to world axes [rad].
 
@@ -147,125 +100,6 @@ def stroke_attitude(wing: Wing, motion: WingMotion, body_pitch: Phases) -> Phase
     """
     attitude = body_pitch + stroke_pitch(wing.stroke_plane_angle)
     return attitude if motion.tilt is None else attitude - motion.tilt
-
-
-def padded(strips: Strips, vector: int) -> Strips:
-    """Return the strips, padded to a multiple of `vector` with strips without chord and mass.
-
-    At a single time, XLA on CPU vectorises along the strips; a few left-over strips cost more than a full vector.
-    """
-    more = (0, -strips.span_fraction.size % vector)
-    return Strips(
-        jnp.pad(strips.span_fraction, more, "edge"), jnp.pad(strips.chord, more), jnp.pad(strips.mass, more)
-    )
-
-
-def with_time_axes(strips: Strips, phase: Phases) -> Strips:
-    """Return the strips with an axis of length one for each axis of `phase`."""
-    return Strips(*(jnp.expand_dims(a, tuple(range(1, 1 + jnp.ndim(phase)))) for a in strips))
-
-
-def twist_factors(wingbeat: Wingbeat, span_fraction: PerStripBroadcast) -> PerStripBroadcast:
-    """Return each strip's pitch divided by the root's, without the twist law: ``1 + (twist_ratio - 1) s/L``.
-
-    Theory: equation ``strip-angles``.
-    """
-    return 1.0 + (wingbeat.twist_ratio - 1.0) * span_fraction
-
-
-def wing_shape(
-    vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases, flap: Phases, pitch: Phases
-) -> WingShape:
-    """Place the left wing's strips at given flap and pitch angles; the phase gives span, fold, sweep and twist.
-
-    Inboard of the wrist, a strip has the flap angle of the arm; outboard, that of the hand.
-
-    Theory: equations ``strip-angles``, ``shoulder-place`` and ``strip-place``.
-
-    Parameters
-    ----------
-    vehicle : gives the wing.
-    wingbeat : gives span, fold, sweep and twist.
-    strips : of the wing.
-    phase : phases, shape (...).
-    flap, pitch : flap angle and wing pitch at the root [rad], shape (...).
-    """
-    wing = vehicle.wing
-    length = wing.semi_span * span_ratio(wingbeat, phase)
-    hand_flap = flap - fold_angle(wingbeat, phase)
-    arm = jnp.minimum(strips.span_fraction, wingbeat.wrist)
-    hand = jnp.maximum(strips.span_fraction - wingbeat.wrist, 0.0)
-    (arm_sine, arm_cosine), (hand_sine, hand_cosine) = ((sin(a), cos(a)) for a in (flap, hand_flap))
-    x, left, z = wing.shoulder
-    ahead, above = from_world(stroke_pitch(stroke_plane(wing, wingbeat)), x, z)
-    of_arm = strips.span_fraction <= wingbeat.wrist
-    strip_pitch = pitch * twist_factors(wingbeat, strips.span_fraction)
-    twist = tip_twist(wingbeat, phase)
-    if twist is not None:
-        strip_pitch = strip_pitch + twist * strips.span_fraction
-    ahead = jnp.full_like(strip_pitch, ahead)
-    sweep = sweep_angle(wingbeat, phase)
-    sweep_sine, sweep_cosine = (None, None) if sweep is None else (sin(sweep), cos(sweep))
-    if sweep is not None:
-        ahead = ahead + strips.span_fraction * (length * sweep_sine)
-        length = length * sweep_cosine
-    return WingShape(
-        ahead,
-        left + arm * (length * arm_cosine) + hand * (length * hand_cosine),
-        above + arm * (length * arm_sine) + hand * (length * hand_sine),
-        jnp.where(of_arm, arm_sine, hand_sine),
-        jnp.where(of_arm, arm_cosine, hand_cosine),
-        strip_pitch,
-        sin(strip_pitch),
-        cos(strip_pitch),
-        sweep_sine,
-        sweep_cosine,
-    )
-
-
-def shape_at(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases) -> WingShape:
-    """Place the strips at a phase of the prescribed wingbeat. Theory: equation ``strip-place``."""
-    flap, pitch = flap_angle(wingbeat, phase), pitch_angle(wingbeat, phase)
-    return wing_shape(vehicle, wingbeat, strips, phase, flap, pitch)
-
-
-def mass_points(shape: WingShape, strips: Strips) -> Triple:
-    """Return the mass points in stroke axes [m], three components of shape (2, N, ...).
-
-    Each has half the mass of its strip. Two points at mid-chord +- c/(2 sqrt 3) have the second moment of a uniform
-    strip.
-
-    Theory: equation ``mass-points``.
-    """
-    offsets = jnp.stack([strips.chord * (-0.25 + half / math.sqrt(3)) for half in (0.5, -0.5)])
-    x, y, z = (place + offsets * fore for place, fore in zip(shape.quarter_chord, shape.chordwise, strict=True))
-    return x, y, z
-
-
-def time_rates(function: Callable[[Any], Any], phase: Phases, frequency: Scalar) -> tuple[Any, Any, Any]:
-    """Return a function of phase with its first and second time derivatives, by automatic differentiation.
-
-    Theory: equations ``phase`` and ``flap-vector-rates``.
-
-    Parameters
-    ----------
-    function : of phases; returns any pytree.
-    phase : phases, shape (...).
-    frequency : [Hz].
-    """
-    one = jnp.ones_like(phase)
-
-    def rate(at: Any) -> tuple[Any, Any]:
-        return jax.jvp(function, (at,), (one,))
-
-    # Derivatives are by phase first. The frequency only scales them, so a derivative by the frequency does not
-    # differentiate the function.
-    (value, first), (_, second) = jax.jvp(rate, (phase,), (one,))
-
-    def scaled(tree: Any, factor: Any) -> Any:
-        return jax.tree_util.tree_map(lambda a: a * factor, tree)
-
-    return value, scaled(first, frequency), scaled(second, frequency * frequency)
 
 
 def wing_motion(
@@ -279,16 +113,10 @@ def wing_motion(
 ) -> WingMotion:
     """Tabulate the wing's motion at given phases in one pass, as air loads and body dynamics need it.
 
-    Theory: equations ``wing-moments`` and ``rod-moment``.
+    The strips are padded to a multiple of `vector`; `along_span` and `unsteady` add the motion along the span and
+    the unsteady loads.
 
-    Parameters
-    ----------
-    vehicle, wingbeat : the wing and how it beats.
-    phase : phases, shape (...).
-    count : number of strips, N.
-    vector : pads the strips to a multiple of this number.
-    along_span : whether to add the motion along the span.
-    unsteady : whether to add the unsteady loads.
+    Theory: equations ``wing-moments`` and ``rod-moment``.
     """
     phase = jnp.asarray(phase, dtype=float)
     strips = with_time_axes(padded(strips_of(vehicle.wing, count), vector), phase)
@@ -314,16 +142,12 @@ def wing_motion(
     width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
     chord = air_chord(wingbeat, strips.chord, phase)
     swept = shape.sweep_sine is not None
-    steady = at_default(wingbeat, "stroke_plane_tilt")
-    tilt = tail_tilt(vehicle, wingbeat)
-    span = None
+    steady, tilt = at_default(wingbeat, "stroke_plane_tilt"), tail_tilt(vehicle, wingbeat)
+    span = loads = None
     if along_span:
-        x, y, z = (jnp.broadcast_to(part, shape.pitch.shape) for part in shape.spanwise)
-        span = x, y, z
-    loads = None
+        span = tuple(jnp.broadcast_to(part, shape.pitch.shape) for part in shape.spanwise)
     if unsteady:
-        moved = strip_motion(shape, shape_rate, shape_second, chord)
-        loads = unsteady_loads_on_body(moved, chord, width)
+        loads = unsteady_loads_on_body(strip_motion(shape, shape_rate, shape_second, chord), chord, width)
     return WingMotion(
         ahead=shape.ahead if swept else shape.ahead[0],
         above=shape.above,
@@ -346,3 +170,274 @@ def wing_motion(
         unsteady=loads,
         tail_tilt=None if tilt is None else jnp.broadcast_to(tilt, phase.shape),
     )
+
+
+class StripSpeeds(NamedTuple):
+    """Speeds of the strips per unit of a motion; None stands for zero.
+
+    Attributes
+    ----------
+    chord, normal : of the quarter chord, along the chord and the normal of the unpitched strip.
+    mid : of the mid-chord, along the normal of the chord.
+    turn : of the chord about the span, leading edge up.
+    """
+
+    chord: PerStrip | None
+    normal: PerStrip | None
+    mid: PerStrip
+    turn: PerStrip | None
+
+
+class StripRates(NamedTuple):
+    """Time derivatives of the speeds in `StripSpeeds`, by the same names."""
+
+    mid: PerStrip
+    turn: PerStrip | None
+
+
+class StripMotion(NamedTuple):
+    """How the motions V_x, V_z and psi' of the body and the wing's own move the strips, and time derivatives."""
+
+    speeds: tuple[StripSpeeds, ...]
+    rates: tuple[StripRates, ...]
+
+
+def strip_motion(shape: WingShape, rate: WingShape, second: WingShape, chord: PerStripBroadcast) -> StripMotion:
+    """Return how the strips move. `rate` and `second` are the time derivatives of the shape.
+
+    Theory: equation ``chord-turning``.
+    """
+    # Without this, the tangents of every sum over the strips would compute the shape anew, and a flight would take
+    # 1.3 times as long.
+    shape, rate, second = computed_once((shape, rate, second))
+    along, along_rate, along_second = _unpitched(shape, rate, second)
+    normal, normal_rate = (None, -shape.flap_sine, shape.flap_cosine), (None, -rate.flap_sine, rate.flap_cosine)
+    places = shape.quarter_chord, rate.quarter_chord, second.quarter_chord
+    turns = (
+        (
+            None,
+            None,
+            _products((normal[2], along[0])),
+            _products((1.0, rate.pitch), *zip(normal, along_rate, strict=True)),
+        ),
+        (
+            None,
+            None,
+            _products((normal_rate[2], along[0]), (normal[2], along_rate[0])),
+            _products(
+                (1.0, second.pitch),
+                *zip(normal_rate, along_rate, strict=True),
+                *zip(normal, along_second, strict=True),
+            ),
+        ),
+    )
+    speeds, rates = [], []
+    for of_chord, of_chord_rate, of_normal, of_normal_rate, turn, turn_rate in zip(
+        *_speeds(along, along_rate, places), *_speeds(normal, normal_rate, places), *turns, strict=True
+    ):
+        mid = mid_speed(shape, of_chord, of_normal, turn, chord)
+        across = (
+            _products((1.0, of_chord_rate), (rate.pitch, of_normal)),
+            _products((1.0, of_normal_rate), (-rate.pitch, of_chord)),
+        )
+        speeds.append(StripSpeeds(of_chord, of_normal, mid, turn))
+        rates.append(StripRates(mid_speed(shape, *across, turn_rate, chord), turn_rate))
+    return computed_once(StripMotion(tuple(speeds), tuple(rates)))
+
+
+def mid_speed(
+    shape: WingShape,
+    of_chord: PerStrip | None,
+    of_normal: PerStrip | None,
+    turn: PerStrip | None,
+    chord: PerStripBroadcast,
+) -> PerStrip:
+    """Return the speed of the mid-chord along the normal of the chord."""
+    found = _products((shape.pitch_cosine, of_normal), (-shape.pitch_sine, of_chord), (-0.25 * chord, turn))
+    assert found is not None
+    return found
+
+
+def _products(*pairs: tuple[PerStripOrNone | float, PerStripOrNone]) -> Any:
+    """Return the sum of the products of pairs; None counts as 0, and a sum without terms is None."""
+    products = [a * b for a, b in pairs if a is not None and b is not None]
+    return sum(products[1:], products[0]) if products else None
+
+
+def _unpitched(shape: WingShape, rate: WingShape, second: WingShape) -> tuple[TripleOrNone, ...]:
+    """Return the unit vector along the unpitched chord, and its first two time derivatives; None means 0."""
+    if shape.sweep_sine is None:
+        return (jnp.ones_like(shape.pitch), None, None), (None, None, None), (None, None, None)
+
+    def turned(at: WingShape, along: WingShape) -> tuple[Triple, Triple]:
+        return jax.jvp(lambda one: one.unpitched, (at,), (along,))
+
+    (chord, chord_rate), (_, chord_second) = jax.jvp(turned, (shape, rate), (rate, second))
+    found = chord, chord_rate, chord_second
+    return jax.tree_util.tree_map(lambda part: jnp.broadcast_to(part, shape.pitch.shape), found)
+
+
+def _speeds(axis: TripleOrNone, axis_rate: TripleOrNone, places: tuple[Triple, Triple, Triple]) -> Any:
+    """Return the speeds along an axis due to V_x, V_z, psi' and the wing's own motion, and their time derivatives.
+
+    `places` holds the quarter chords and their first two time derivatives.
+    """
+    (x, _, z), (x_speed, _, z_speed) = places[:2]
+    (x_axis, _, z_axis), (x_rate, _, z_rate) = axis, axis_rate
+    return (
+        (x_axis, z_axis, _products((z_axis, x), (x_axis, -z)), _products(*zip(axis, places[1], strict=True))),
+        (
+            x_rate,
+            z_rate,
+            _products((z_rate, x), (x_rate, -z), (z_axis, x_speed), (x_axis, -z_speed)),
+            _products(*zip(axis_rate, places[1], strict=True), *zip(axis, places[2], strict=True)),
+        ),
+    )
+
+
+class UnsteadyLoad(NamedTuple):
+    """The generalised load of the unsteady terms on one motion of both wings, divided by the density of the air.
+
+    Without damping, the load is ``-(A . a + B . xi + C + psi' (D . xi + E))``; a contains the pitch acceleration.
+
+    Attributes
+    ----------
+    by_acceleration, by_velocity, by_spin : A, B and D, shape (3, ...).
+    own, own_spin : C, the part due to the wing's own motion, and E, shape (...).
+    damping, damping_by_spin : factors of each strip's airspeed, and of the airspeed times the pitch rate.
+    """
+
+    by_acceleration: ByBodyMotion
+    by_velocity: ByBodyMotion
+    own: Phases
+    by_spin: ByBodyMotion
+    own_spin: Phases
+    damping: PerStrip | None
+    damping_by_spin: PerStrip | None
+
+    def load(self, density: Scalar, velocity: Triple, acceleration: Triple | None, airspeed: PerStrip) -> Phases:
+        """Return the generalised force of the air on the motion.
+
+        `velocity` is xi; `acceleration` is a of the body, None for 0; `airspeed` is that of the strips.
+
+        Theory: equation ``unsteady-load``.
+        """
+        spin = velocity[2]
+        steady = dot(_rows(self.by_velocity), velocity) + self.own
+        turning = dot(_rows(self.by_spin), velocity) + self.own_spin
+        resisted = steady + spin * turning
+        if acceleration is not None:
+            resisted = resisted + dot(_rows(self.by_acceleration), acceleration)
+        if self.damping is not None:
+            resisted = resisted + sum_over_strips(airspeed * (self.damping + spin * self.damping_by_spin))
+        return -density * resisted
+
+
+def _rows(matrix: ByBodyMotion) -> Triple:
+    return matrix[0], matrix[1], matrix[2]
+
+
+class _Row(NamedTuple):
+    """The added mass and inertia times the speeds of one motion of the strips, and these speeds."""
+
+    mass: PerStrip
+    inertia: PerStrip | None
+    speeds: StripSpeeds
+
+
+def _row(speeds: StripSpeeds, chord: PerStripBroadcast, width: Phases) -> _Row:
+    inertia = None if speeds.turn is None else added_inertia(1.0, chord, width) * speeds.turn
+    return _Row(added_mass(1.0, chord, width) * speeds.mid, inertia, speeds)
+
+
+def _rotation(lift: PerStrip, moved: StripSpeeds, speeds: StripSpeeds) -> tuple[PerStrip, Any]:
+    """Return the two factors of the work that one motion's rotational lift does on another motion."""
+    minus_chord = None if moved.chord is None else -moved.chord
+    return lift, _products((moved.normal, speeds.chord), (minus_chord, speeds.normal))
+
+
+def _work(row: _Row, rates: StripRates, lift: PerStrip, moved: StripSpeeds) -> Any:
+    """Return the work on a motion of the air's inertia and of the rotational lift that another motion causes."""
+    return _products((row.mass, rates.mid), (row.inertia, rates.turn), _rotation(lift, moved, row.speeds))
+
+
+def _sums(motion: StripMotion, *rows: Any) -> Any:
+    zero = jnp.zeros_like(motion.speeds[3].mid)
+    return mass_moments(2.0, [zero if row is None else row for row in rows])
+
+
+def _load(
+    row: _Row,
+    motion: StripMotion,
+    chord: PerStripBroadcast,
+    width: Phases,
+    by_acceleration: ByBodyMotion,
+    by_velocity: ByBodyMotion,
+    own: Phases,
+    by_spin: ByBodyMotion,
+    own_spin: Phases,
+) -> UnsteadyLoad:
+    """Return the load of a motion from its tables A, B, C, D (without the turning of the axes) and E."""
+    # The axes turn with the body: xi' is its acceleration plus psi' (V_z, -V_x, 0).
+    turned = jnp.stack([-by_acceleration[1], by_acceleration[0], jnp.zeros_like(by_acceleration[0])])
+    damping = damping_by_spin = None
+    turn = row.speeds.turn
+    if turn is not None:
+        damping, damping_by_spin = (
+            -2.0 * damping_couple(1.0, chord, width, moved.turn, jnp.ones_like(turn)) * turn
+            for moved in (motion.speeds[3], motion.speeds[2])
+        )
+    return UnsteadyLoad(by_acceleration, by_velocity, own, by_spin + turned, own_spin, damping, damping_by_spin)
+
+
+def unsteady_load(
+    motion: StripMotion, speeds: StripSpeeds, chord: PerStripBroadcast, width: Phases
+) -> UnsteadyLoad:
+    """Return the unsteady load on a motion of the strips that has the given `speeds` per unit."""
+    row = _row(speeds, chord, width)
+    spin, turning = (rotation_lift(1.0, chord, width, moved.turn) for moved in motion.speeds[2:])
+    sums = _sums(
+        motion,
+        *(_products((row.mass, moved.mid), (row.inertia, moved.turn)) for moved in motion.speeds[:3]),
+        *(_work(row, rates, turning, moved) for moved, rates in zip(motion.speeds, motion.rates, strict=True)),
+        *(_products(_rotation(spin, moved, speeds)) for moved in motion.speeds),
+    )
+    return _load(row, motion, chord, width, sums[:3], sums[3:6], sums[6], sums[7:10], sums[10])
+
+
+def unsteady_loads_on_body(
+    motion: StripMotion, chord: PerStripBroadcast, width: Phases
+) -> tuple[UnsteadyLoad, UnsteadyLoad, UnsteadyLoad]:
+    """Return the loads of the unsteady terms on the motions V_x, V_z and psi' of the body.
+
+    A is symmetric, and the part of D without the turning of the axes is antisymmetric, so 24 sums give 33 tables.
+    """
+    rows = [_row(speeds, chord, width) for speeds in motion.speeds[:3]]
+    spin, turning = (rotation_lift(1.0, chord, width, moved.turn) for moved in motion.speeds[2:])
+    own, pairs = motion.speeds[3], ((0, 1), (0, 2), (1, 2))
+    moves = list(zip(motion.speeds[:3], motion.rates[:3], strict=True))
+
+    def inertia(i: int, j: int) -> Any:
+        return _products((rows[i].mass, rows[j].speeds.mid), (rows[i].inertia, rows[j].speeds.turn))
+
+    sums = _sums(
+        motion,
+        *(inertia(i, i) for i in range(3)),
+        *(inertia(i, j) for i, j in pairs),
+        *(_products(_rotation(spin, rows[j].speeds, rows[i].speeds)) for i, j in pairs),
+        *(_work(row, rates, turning, moved) for row in rows for moved, rates in moves),
+        *(_work(row, motion.rates[3], turning, own) for row in rows),
+        *(_products(_rotation(spin, own, row.speeds)) for row in rows),
+    )
+    zero = jnp.zeros_like(sums[0])
+    a, (xz, xp, zp), (d_xz, d_xp, d_zp) = sums[:3], sums[3:6], sums[6:9]
+    by_acceleration = jnp.stack([a[0], xz, xp]), jnp.stack([xz, a[1], zp]), jnp.stack([xp, zp, a[2]])
+    by_spin = jnp.stack([zero, d_xz, d_xp]), jnp.stack([-d_xz, zero, d_zp]), jnp.stack([-d_xp, -d_zp, zero])
+
+    def load(i: int) -> UnsteadyLoad:
+        by_velocity = sums[9 + 3 * i : 12 + 3 * i]
+        return _load(
+            rows[i], motion, chord, width, by_acceleration[i], by_velocity, sums[18 + i], by_spin[i], sums[21 + i]
+        )
+
+    return load(0), load(1), load(2)

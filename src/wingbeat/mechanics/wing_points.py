@@ -1,7 +1,9 @@
-"""The wing's points in the world as functions of the five coordinates and time, and their exact derivatives.
+"""The wing's points in the world as functions of the five coordinates and time, and the air loads on these.
 
 Coordinates q = (x, z, body pitch, flap, root wing pitch); partial velocities are ``dr/dq``, drift is ``dr/dt`` at
-fixed q (the velocity due to span, fold, sweep and twist), bias is ``r''`` at ``q'' = 0``.
+fixed q (the velocity due to span, fold, sweep and twist), bias is ``r''`` at ``q'' = 0``; all are exact
+derivatives. The air loads use the same formulas for a strip as `flight_model`, but their own sums over the strips,
+so that the two modules check each other.
 """
 
 from __future__ import annotations
@@ -10,17 +12,38 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported
+from wingbeat.aero.blade_element import StripForces, strip_forces, with_turning
+from wingbeat.aero.closed_forms import added_inertia, added_mass
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
 from wingbeat.animal.vehicle import Vehicle
-from wingbeat.mechanics.flight_model import FlightModel, State
-from wingbeat.mechanics.frames import stroke_pitch, to_world
-from wingbeat.mechanics.wing_motion import air_chord, chord_at, mass_points, strips_of, stroke_plane, wing_shape
-from wingbeat.mechanics.wing_shape import Strips
+from wingbeat.mechanics.flight_model import (
+    FlightModel,
+    State,
+    body_air,
+    is_unsteady,
+    pressure_offset,
+    unsteady_density,
+)
+from wingbeat.mechanics.wing_shape import (
+    Strips,
+    air_chord,
+    chord_at,
+    dot,
+    from_world,
+    mass_points,
+    strips_of,
+    stroke_pitch,
+    stroke_plane,
+    tail_tilt,
+    to_world,
+    wing_shape,
+)
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import (
         ChordFractions,
         Component,
+        CoordinateMatrix,
         Coordinates,
         Corners,
         MassPoints,
@@ -29,8 +52,11 @@ if TYPE_CHECKING:
         Scalar,
         Stations,
         StripPoints,
+        StripsByCoordinates,
+        StripVectors,
         SurfacePoints,
         Triple,
+        Vector,
         Vectors,
     )
 
@@ -57,15 +83,9 @@ def _in_world(attitude: Component, vector: Triple) -> Vectors:
 
 
 def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
-    """Place the left wing in the world.
+    """Place the left wing in the world. `q` has the shape (5,).
 
     Theory: equations ``world-place`` and ``coordinates``.
-
-    Parameters
-    ----------
-    model, wingbeat : the wing, and its laws of span, fold, sweep and twist.
-    q : (x, z, body pitch, flap, root wing pitch), shape (5,) [m, rad].
-    time : [s].
     """
     wing = model.vehicle.wing
     strips = strips_of(wing, model.strips)
@@ -87,11 +107,7 @@ CORNERS = ("leading inner", "leading outer", "trailing outer", "trailing inner")
 def corners_of(points: WingPoints, chord: PerStrip, width: Scalar) -> Corners:
     """Return the corners of the left wing's strips in the world [m], shape (N, 4, 3), in the order of `CORNERS`.
 
-    Parameters
-    ----------
-    points : of the wing.
-    chord : of the strips [m].
-    width : of a strip along the span [m].
+    `width` is that of a strip along the span.
     """
     out = 0.5 * width * jnp.cross(points.normal, points.chordwise)
     leading, trailing = (
@@ -102,15 +118,7 @@ def corners_of(points: WingPoints, chord: PerStrip, width: Scalar) -> Corners:
 
 @exported
 def strip_corners(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) -> Corners:
-    """Return the strips' corners along a flight [m], shape (K, N, 4, 3), as `corners_of` does for one instant.
-
-    Parameters
-    ----------
-    model : the flight model.
-    wingbeat : the prescribed wingbeat.
-    state : body state, fields of shape (K,) [m, rad].
-    phase : phases, shape (K,).
-    """
+    """Return the strips' corners along a flight [m], shape (K, N, 4, 3), as `corners_of` does for one instant."""
     wing = model.vehicle.wing
     chord = strips_of(wing, model.strips).chord
 
@@ -134,13 +142,8 @@ def surface_points(
 ) -> SurfacePoints:
     """Return points of the left wing's surface in the world along a flight [m], shape (K, C, S, 3).
 
-    Parameters
-    ----------
-    vehicle, wingbeat : the wing and how it beats.
-    state : body state, fields of shape (K,) [m, rad].
-    phase : phases, shape (K,).
-    span_fraction : distances from the shoulder over the length of the wing, shape (S,).
-    chord_fraction : distances from the leading edge over the chord, shape (C,).
+    `span_fraction` are distances from the shoulder over the length of the wing, shape (S,), `chord_fraction`
+    distances from the leading edge over the chord, shape (C,).
     """
     wing = vehicle.wing
     chord = chord_at(wing, span_fraction)
@@ -164,40 +167,6 @@ def partial_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, t
     Theory: equation ``partial-velocities``.
     """
     return jax.jacfwd(lambda at: wing_points(model, wingbeat, at, time))(q)
-
-
-def drift_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
-    """Return ``dr/dt`` of all wing points at fixed q [m/s]: their velocity due to span, fold, sweep and twist.
-
-    Theory: equation ``drift``.
-    """
-    return jax.jvp(lambda t: wing_points(model, wingbeat, q, t), (time,), (jnp.ones_like(time),))[1]
-
-
-def bias_accelerations(
-    model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Scalar
-) -> tuple[MassPoints, MassPoints]:
-    """Return the mass points' ``d(dr/dq)/dq q'`` (last axis of five) and ``d2r/dt2 + 2 d2r/dqdt q'``.
-
-    Theory: equations ``time-force`` and ``frozen-motion``.
-
-    Parameters
-    ----------
-    model, wingbeat, q, time : as in `wing_points`.
-    q_dot : rates of q, shape (5,) [per s].
-    """
-
-    def by_q(at: Coordinates) -> Any:
-        return partial_velocities(model, wingbeat, at, time).mass
-
-    def by_time(at: Coordinates, when: Scalar) -> Any:
-        return drift_velocities(model, wingbeat, at, when).mass
-
-    still, one = jnp.zeros_like(time), jnp.ones_like(time)
-    partial_rate = jax.jvp(by_q, (q,), (q_dot,))[1]
-    return partial_rate, jax.jvp(by_time, (q, time), (2.0 * q_dot, still))[1] + jax.jvp(
-        by_time, (q, time), (jnp.zeros_like(q), one)
-    )[1]
 
 
 class PointMotion(NamedTuple):
@@ -225,10 +194,6 @@ def point_motion(
     """Return the wing points and all their derivatives for a given motion.
 
     Theory: equation ``point-rates``.
-
-    Parameters
-    ----------
-    model, wingbeat, q, q_dot, time : as in `bias_accelerations`.
     """
 
     def place(along: Scalar) -> WingPoints:
@@ -242,3 +207,229 @@ def point_motion(
     partial = partial_velocities(model, wingbeat, q, time)
     drift = jax.tree_util.tree_map(lambda v, p: v - p @ q_dot, velocities, partial)
     return PointMotion(points, velocities, partial, drift, bias)
+
+
+class AirPower(NamedTuple):
+    """The power that a flight spends on the air [W], by cause, shape (...).
+
+    Theory: equation ``power-by-cause``.
+
+    Attributes
+    ----------
+    profile : power against the lift and drag of the strips, at their velocity relative to the air at the wings. If
+        the polar was measured on a finite wing, this power includes the induced drag of that wing.
+    induced : power spent on the induced flow v, ``-F . v`` with the force F of the wings; 0 without inflow.
+    parasite : power against the loads of body and tail.
+    unsteady : power against rotation, added mass and couples; the air stores and returns the part due to
+        added mass.
+    """
+
+    profile: Phases
+    induced: Phases
+    parasite: Phases
+    unsteady: Phases
+
+
+class AirForces(NamedTuple):
+    """Air loads of both wings and the body on the five coordinates.
+
+    Attributes
+    ----------
+    generalised : generalised forces f_aero, shape (..., 5) [N, N m].
+    power : power of the air loads on wings, body and tail [W], shape (...).
+    spent : `power` by cause, with the opposite sign.
+    strips : loads on the strips of the left wing, shape (..., N).
+    strip_force : force on each strip in the world [N], shape (..., N, 3).
+    strip_velocity : velocity of each quarter chord in the world [m/s], shape (..., N, 3).
+    added_mass : inertia of the air, which is the negative derivative of f_aero with respect to q'', shape
+        (..., 5, 5) [kg, kg m, kg m2]; zero without unsteady terms.
+    """
+
+    generalised: Coordinates
+    power: Phases
+    spent: AirPower
+    strips: StripForces
+    strip_force: StripVectors
+    strip_velocity: StripVectors
+    added_mass: CoordinateMatrix
+
+
+class _AirResistance(NamedTuple):
+    """The motions of each strip of the left wing that the air resists (thin aerofoil), and the air's inertia.
+
+    `mass` and `inertia` are the air's added mass and inertia for a strip. Each strip has a normal speed of its
+    mid-chord and a turning rate of its chord (`turning` [rad/s]). `lever`, shape (N, 5), is the derivative of the
+    normal speed with respect to q'; `normal_bias` is its time derivative at ``q'' = 0``. `turn` and `turning_bias`
+    are the same derivatives of the turning rate.
+    """
+
+    mass: PerStrip
+    inertia: PerStrip
+    lever: StripsByCoordinates
+    turn: StripsByCoordinates
+    normal_bias: PerStrip
+    turning_bias: PerStrip
+    turning: PerStrip
+
+    @property
+    def added_mass(self) -> CoordinateMatrix:
+        """The generalised added mass of the air at both wings, shape (5, 5).
+
+        Theory: equation ``air-inertia``.
+        """
+        return 2.0 * (
+            jnp.einsum("n,ni,nj->ij", self.mass, self.lever, self.lever)
+            + jnp.einsum("n,ni,nj->ij", self.inertia, self.turn, self.turn)
+        )
+
+    def forces(self, q_acceleration: Coordinates) -> tuple[PerStrip, PerStrip]:
+        """Return the force of each strip along its normal at mid-chord [N], and its couple [N m]."""
+        return (
+            -self.mass * (self.normal_bias + self.lever @ q_acceleration),
+            -self.inertia * (self.turning_bias + self.turn @ q_acceleration),
+        )
+
+
+def _air_resistance(
+    model: FlightModel, chord: PerStrip, width: Scalar, motion: PointMotion, wind: Vector | float
+) -> _AirResistance:
+    density = unsteady_density(model)
+    points, velocity, partial, bias = motion.position, motion.velocity, motion.partial, motion.bias
+
+    def mid(of: Any) -> Any:
+        quarter = 0.25 * chord.reshape(-1, *[1] * (of.chordwise.ndim - 1))
+        return of.quarter_chord - quarter * of.chordwise
+
+    def across(normal: Any, vector: Any) -> PerStrip:
+        return jnp.sum(normal * vector, axis=-1)
+
+    through_air = mid(velocity) - wind
+    return _AirResistance(
+        added_mass(density, chord, width),
+        added_inertia(density, chord, width),
+        jnp.einsum("na,nai->ni", points.normal, mid(partial)),
+        jnp.einsum("na,nai->ni", points.normal, partial.chordwise),
+        across(velocity.normal, through_air) + across(points.normal, mid(bias)),
+        across(velocity.normal, velocity.chordwise) + across(points.normal, bias.chordwise),
+        across(points.normal, velocity.chordwise),
+    )
+
+
+def air_forces_on(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    q: Coordinates,
+    q_dot: Coordinates,
+    time: Phases,
+    motion: PointMotion,
+    q_acceleration: Coordinates | None = None,
+) -> AirForces:
+    """Return the air loads from the motion of the wing points at one instant.
+
+    `q_acceleration` is q'', for the added mass; None leaves this part out.
+
+    Theory: equations ``strip-velocity``, ``generalised-air-loads`` and ``air-power``.
+    """
+    phase = wingbeat.frequency * time
+    chord = air_chord(wingbeat, strips_of(model.vehicle.wing, model.strips).chord, phase)
+    length = model.vehicle.wing.semi_span * span_ratio(wingbeat, phase)
+    width = length / model.strips
+    points, velocity, wind = motion.position, motion.velocity.quarter_chord, _wind(model)
+    through_air = velocity if wind is None else velocity - wind
+    chord_speed = jnp.sum(through_air * points.chordwise, axis=-1)
+    normal_speed = jnp.sum(through_air * points.normal, axis=-1)
+    span_speed = None
+    if model.full_airspeed:
+        span_speed = jnp.sum(through_air * jnp.cross(points.normal, points.chordwise), axis=-1)
+    forces = strip_forces(
+        model.kernel, model.air.density, width * chord, chord_speed, normal_speed, jnp.zeros_like(chord), span_speed
+    )
+    force = forces.chordwise[:, None] * points.chordwise + forces.normal[:, None] * points.normal
+    lever, drift = motion.partial.quarter_chord, motion.drift.quarter_chord
+    if model.at_centre_of_pressure:
+        ahead = pressure_offset(model.kernel, forces.alpha, chord)[:, None]
+        lever = lever + ahead[..., None] * motion.partial.chordwise
+        drift = drift + ahead * motion.drift.chordwise
+    wings = 2.0 * jnp.einsum("na,nai->i", force, lever)
+    steady_power = wings @ q_dot + 2.0 * jnp.sum(force * drift)
+    travel = from_world(q[2], q_dot[0], q_dot[1])
+    tilt = tail_tilt(model.vehicle, wingbeat)
+    own, moment = body_air(model.vehicle, model.air.density, travel, q_dot[2], tilt=tilt)
+    own_power = dot(own, travel)
+    generalised = wings.at[:2].add(jnp.stack(to_world(q[2], *own)))
+    if moment is not None:
+        generalised = generalised.at[2].add(moment)
+        own_power = own_power + moment * q_dot[2]
+    zero = jnp.zeros_like(steady_power)
+    unsteady = _Unsteady(jnp.zeros(5), zero, jnp.zeros_like(force), jnp.zeros((5, 5)))
+    if is_unsteady(model):
+        resistance = _air_resistance(model, chord, width, motion, 0.0 if wind is None else wind)
+        along = chord_speed, normal_speed
+        turned = with_turning(forces, unsteady_density(model), chord, width, resistance.turning, *along)
+        rotation = turned.chordwise - forces.chordwise, turned.normal - forces.normal, turned.couple
+        unsteady = _unsteady(motion, chord, q_dot, resistance, rotation, q_acceleration)
+    against_steady, against_unsteady = (
+        zero if wind is None else -2.0 * jnp.sum(one * wind) for one in (force, unsteady.force)
+    )
+    return AirForces(
+        generalised + unsteady.generalised,
+        steady_power + own_power + unsteady.power,
+        AirPower(
+            profile=-steady_power - against_steady,
+            induced=against_steady + against_unsteady,
+            parasite=-own_power,
+            unsteady=-unsteady.power - against_unsteady,
+        ),
+        forces,
+        force + unsteady.force,
+        velocity,
+        unsteady.added_mass,
+    )
+
+
+class _Unsteady(NamedTuple):
+    """The unsteady parts of `AirForces`: generalised forces, power, strip forces, and the added mass."""
+
+    generalised: Coordinates
+    power: Phases
+    force: StripVectors
+    added_mass: CoordinateMatrix
+
+
+def _unsteady(
+    motion: PointMotion,
+    chord: PerStrip,
+    q_dot: Coordinates,
+    resistance: _AirResistance,
+    rotation: tuple[PerStrip, PerStrip, PerStrip],
+    q_acceleration: Coordinates | None,
+) -> _Unsteady:
+    """Return the unsteady loads.
+
+    `rotation` is the load of turning strips: force along the chord, along the normal, and couple.
+    """
+    points = motion.position
+    turning = rotation[0][:, None] * points.chordwise + rotation[1][:, None] * points.normal
+    normal, couple = resistance.forces(jnp.zeros(5) if q_acceleration is None else q_acceleration)
+    couple = couple + rotation[2]
+    generalised = 2.0 * (
+        jnp.einsum("na,nai->i", turning, motion.partial.quarter_chord)
+        + normal @ resistance.lever
+        + couple @ resistance.turn
+    )
+    drifting = motion.drift.quarter_chord - 0.25 * chord[:, None] * motion.drift.chordwise
+    drift_power = 2.0 * (
+        jnp.sum(turning * motion.drift.quarter_chord)
+        + normal @ jnp.sum(points.normal * drifting, axis=-1)
+        + couple @ jnp.sum(points.normal * motion.drift.chordwise, axis=-1)
+    )
+    force = turning + normal[:, None] * points.normal
+    return _Unsteady(generalised, generalised @ q_dot + drift_power, force, resistance.added_mass)
+
+
+def _wind(model: FlightModel) -> Any:
+    """Return the velocity of the air at the wings in the world [m/s], shape (3,); None without inflow."""
+    if model.induced_flow is None:
+        return None
+    forward, up = (jnp.asarray(part, dtype=float) for part in model.induced_flow)
+    return jnp.stack([forward, jnp.zeros(()), up])

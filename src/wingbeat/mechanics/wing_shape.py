@@ -1,13 +1,109 @@
-"""The strips of a wing: their constant numbers, and where the wingbeat moves them."""
+"""Where the wingbeat puts the strips of a wing: frames, constant numbers, places, and their rates in time.
+
+World: x forward, y left, z up. Body axes: the world's, turned by the body pitch (nose-up positive). Stroke axes:
+body axes turned further, until the third axis lies in the stroke plane, in which the wings flap and retract. Stroke
+axes turn with the body. All these turns are in the plane of symmetry. Vectors in this plane are pairs (forward,
+up), others are triples (forward, left, up). Components are separate arrays because XLA, JAX's compiler, works along
+the last axis on a CPU, and an axis of three is short. Strips are the first axis and times the last.
+"""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+import functools
+import math
+import operator
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._jax.arrays import jnp
+from wingbeat._jax.arrays import at_default, cos, jax, jnp, sin
+from wingbeat._jax.exported import exported
+from wingbeat.animal.kinematics import (
+    Wingbeat,
+    chord_ratio,
+    flap_angle,
+    fold_angle,
+    pitch_angle,
+    span_ratio,
+    sweep_angle,
+    tip_twist,
+)
+from wingbeat.animal.vehicle import Vehicle, Wing
 
 if TYPE_CHECKING:
-    from wingbeat._jax.arrays import PerStripBroadcast, Phases, Triple
+    from wingbeat._jax.arrays import (
+        Component,
+        FlapAngles,
+        Pair,
+        PerStrip,
+        PerStripBroadcast,
+        Phases,
+        Scalar,
+        Sums,
+        Triple,
+    )
+
+
+def to_world(attitude: Component, forward: Component, up: Component) -> Pair:
+    """Return the world components (x, z) of an in-plane vector given in axes pitched nose-up by `attitude`.
+
+    Theory: equation ``body-axes``.
+    """
+    c, s = cos(attitude), sin(attitude)
+    return c * forward - s * up, s * forward + c * up
+
+
+def from_world(attitude: Component, x: Component, z: Component) -> Pair:
+    """Return the components of an in-plane world vector in axes pitched nose-up by `attitude`.
+
+    Theory: equation ``body-axes``.
+    """
+    c, s = cos(attitude), sin(attitude)
+    return c * x + s * z, c * z - s * x
+
+
+def stroke_pitch(stroke_plane_angle: Component) -> Component:
+    """Return the nose-up pitch of stroke axes relative to body axes [rad]; 0 for a vertical stroke plane.
+
+    The first stroke axis is ``e_c0 = (sin beta, 0, cos beta)``; the third is ``d_up = (-cos beta, 0, sin beta)``.
+
+    Theory: equation ``stroke-axes``.
+    """
+    return 0.5 * math.pi - stroke_plane_angle
+
+
+def quarter_turn(pair: Pair) -> Pair:
+    """Turn an in-plane vector nose-up by a right angle.
+
+    Theory: equation ``quarter-turn``.
+    """
+    return -pair[1], pair[0]
+
+
+def dot(a: Pair | Triple, b: Pair | Triple) -> Component:
+    """Return the scalar product of two in-plane vectors or of two vectors in space."""
+    products = [one * other for one, other in zip(a, b, strict=True)]
+    return sum(products[1:], products[0])
+
+
+_FEW_STRIPS = 32
+
+
+def sum_over_strips(a: PerStrip) -> Phases:
+    """Return the sum over the strips.
+
+    At most 32 strips are added one by one, because XLA, JAX's compiler, can vectorise this on a CPU.
+    """
+    if a.shape[0] > _FEW_STRIPS:
+        return jnp.sum(a, axis=0)
+    return functools.reduce(operator.add, [a[i] for i in range(a.shape[0])])
+
+
+def mass_moments(mass: PerStripBroadcast | float, rows: Sequence[PerStrip]) -> Sums:
+    """Return the sums over the strips of each row times the strips' mass, shape (rows, ...).
+
+    A single sum for all rows compiles in a third of the time that one sum per row needs.
+    """
+    return sum_over_strips(jnp.stack([mass * row for row in rows], axis=1))
 
 
 class Strips(NamedTuple):
@@ -103,3 +199,226 @@ class WingShape(NamedTuple):
         """Return the vector with these components along the unpitched strip's chord and normal."""
         forward, left, up = self.unpitched
         return along * forward, along * left - across * self.flap_sine, along * up + across * self.flap_cosine
+
+
+def strips_of(wing: Wing, count: int) -> Strips:
+    """Cut a wing into `count` equal strips.
+
+    The mass of a strip is proportional to ``(1 - s/L)**p``, normalised to the mass of the wing.
+
+    Theory: equation ``strip-mass``.
+    """
+    span_fraction = (jnp.arange(count) + 0.5) / count
+    chord = chord_at(wing, span_fraction)
+    share = (1.0 - span_fraction) ** wing.mass_exponent
+    return Strips(span_fraction, chord, wing.mass * share / jnp.sum(share))
+
+
+def chord_at(wing: Wing, span_fraction: PerStrip) -> PerStrip:
+    """Return the chord [m] at span fractions, linear between the stations of the wing.
+
+    Theory: equation ``strip-chord``.
+    """
+    stations = jnp.atleast_1d(jnp.asarray(wing.chord, dtype=float))
+    if stations.size == 1:
+        return jnp.broadcast_to(stations, span_fraction.shape)
+    return jnp.interp(span_fraction, jnp.linspace(0.0, 1.0, stations.size), stations)
+
+
+def air_chord(wingbeat: Wingbeat, chord: PerStripBroadcast, phase: Phases) -> PerStripBroadcast:
+    """Return the chord that meets the air [m]: the full chord times the wingbeat's chord law.
+
+    `chord` has an axis of length one for each axis of `phase`.
+
+    Theory: equation ``chord-law``.
+    """
+    ratio = chord_ratio(wingbeat, phase)
+    return chord if ratio is None else chord * ratio
+
+
+def stroke_plane(wing: Wing, wingbeat: Wingbeat) -> Scalar:
+    """Return the angle of the stroke plane from the body axis [rad]. Theory: equation ``stroke-plane``."""
+    if at_default(wingbeat, "stroke_plane_tilt"):
+        return wing.stroke_plane_angle
+    return wing.stroke_plane_angle + wingbeat.stroke_plane_tilt
+
+
+def tail_tilt(vehicle: Vehicle, wingbeat: Wingbeat) -> Scalar | None:
+    """Return the angle that is added to the tail's incidence [rad]; None if it is off, or without a tail."""
+    if vehicle.tail is None or at_default(wingbeat, "tail_tilt"):
+        return None
+    return wingbeat.tail_tilt
+
+
+def padded(strips: Strips, vector: int) -> Strips:
+    """Return the strips, padded to a multiple of `vector` with strips without chord and mass.
+
+    At a single time, XLA on CPU vectorises along the strips; a few left-over strips cost more than a full vector.
+    """
+    more = (0, -strips.span_fraction.size % vector)
+    return Strips(
+        jnp.pad(strips.span_fraction, more, "edge"), jnp.pad(strips.chord, more), jnp.pad(strips.mass, more)
+    )
+
+
+def with_time_axes(strips: Strips, phase: Phases) -> Strips:
+    """Return the strips with an axis of length one for each axis of `phase`."""
+    return Strips(*(jnp.expand_dims(a, tuple(range(1, 1 + jnp.ndim(phase)))) for a in strips))
+
+
+def twist_factors(wingbeat: Wingbeat, span_fraction: PerStripBroadcast) -> PerStripBroadcast:
+    """Return each strip's pitch divided by the root's, without the twist law: ``1 + (twist_ratio - 1) s/L``.
+
+    Theory: equation ``strip-angles``.
+    """
+    return 1.0 + (wingbeat.twist_ratio - 1.0) * span_fraction
+
+
+def wing_shape(
+    vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases, flap: Phases, pitch: Phases
+) -> WingShape:
+    """Place the left wing's strips at given flap and pitch angles; the phase gives span, fold, sweep and twist.
+
+    Inboard of the wrist, a strip has the flap angle of the arm; outboard, that of the hand.
+
+    Theory: equations ``strip-angles``, ``shoulder-place`` and ``strip-place``.
+    """
+    wing = vehicle.wing
+    length = wing.semi_span * span_ratio(wingbeat, phase)
+    hand_flap = flap - fold_angle(wingbeat, phase)
+    arm = jnp.minimum(strips.span_fraction, wingbeat.wrist)
+    hand = jnp.maximum(strips.span_fraction - wingbeat.wrist, 0.0)
+    (arm_sine, arm_cosine), (hand_sine, hand_cosine) = ((sin(a), cos(a)) for a in (flap, hand_flap))
+    x, left, z = wing.shoulder
+    ahead, above = from_world(stroke_pitch(stroke_plane(wing, wingbeat)), x, z)
+    of_arm = strips.span_fraction <= wingbeat.wrist
+    strip_pitch = pitch * twist_factors(wingbeat, strips.span_fraction)
+    twist = tip_twist(wingbeat, phase)
+    if twist is not None:
+        strip_pitch = strip_pitch + twist * strips.span_fraction
+    ahead = jnp.full_like(strip_pitch, ahead)
+    sweep = sweep_angle(wingbeat, phase)
+    sweep_sine, sweep_cosine = (None, None) if sweep is None else (sin(sweep), cos(sweep))
+    if sweep is not None:
+        ahead = ahead + strips.span_fraction * (length * sweep_sine)
+        length = length * sweep_cosine
+    return WingShape(
+        ahead,
+        left + arm * (length * arm_cosine) + hand * (length * hand_cosine),
+        above + arm * (length * arm_sine) + hand * (length * hand_sine),
+        jnp.where(of_arm, arm_sine, hand_sine),
+        jnp.where(of_arm, arm_cosine, hand_cosine),
+        strip_pitch,
+        sin(strip_pitch),
+        cos(strip_pitch),
+        sweep_sine,
+        sweep_cosine,
+    )
+
+
+def shape_at(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases) -> WingShape:
+    """Place the strips at a phase of the prescribed wingbeat. Theory: equation ``strip-place``."""
+    flap, pitch = flap_angle(wingbeat, phase), pitch_angle(wingbeat, phase)
+    return wing_shape(vehicle, wingbeat, strips, phase, flap, pitch)
+
+
+def mass_points(shape: WingShape, strips: Strips) -> Triple:
+    """Return the mass points in stroke axes [m], three components of shape (2, N, ...).
+
+    Each has half the mass of its strip. Two points at mid-chord +- c/(2 sqrt 3) have the second moment of a uniform
+    strip.
+
+    Theory: equation ``mass-points``.
+    """
+    offsets = jnp.stack([strips.chord * (-0.25 + half / math.sqrt(3)) for half in (0.5, -0.5)])
+    x, y, z = (place + offsets * fore for place, fore in zip(shape.quarter_chord, shape.chordwise, strict=True))
+    return x, y, z
+
+
+def time_rates(function: Callable[[Any], Any], phase: Phases, frequency: Scalar) -> tuple[Any, Any, Any]:
+    """Return a function of phase with its first and second time derivatives, by automatic differentiation.
+
+    `function` takes phases and returns any pytree; `frequency` is in Hz.
+
+    Theory: equations ``phase`` and ``flap-vector-rates``.
+    """
+    one = jnp.ones_like(phase)
+
+    def rate(at: Any) -> tuple[Any, Any]:
+        return jax.jvp(function, (at,), (one,))
+
+    # Derivatives are by phase first. The frequency only scales them, so a derivative by the frequency does not
+    # differentiate the function.
+    (value, first), (_, second) = jax.jvp(rate, (phase,), (one,))
+
+    def scaled(tree: Any, factor: Any) -> Any:
+        return jax.tree_util.tree_map(lambda a: a * factor, tree)
+
+    return value, scaled(first, frequency), scaled(second, frequency * frequency)
+
+
+# How far the wing is to the side of the plane of symmetry: the body pitches about the lateral axis, so this depends
+# on the prescribed wingbeat and never on the flight.
+# Chordwise place of the leading and the trailing edge from the quarter chord, in chords.
+LEADING, TRAILING = 0.25, -0.75
+
+
+@exported(static=("count",))
+def lateral_corners(
+    vehicle: Vehicle, wingbeat: Wingbeat, phase: Phases, *, count: int
+) -> tuple[PerStrip, PerStrip]:
+    """Return the distance of the left wing's strip corners to the left of the plane of symmetry [m].
+
+    Leading and trailing corners, inner ones first, shape (2 N, K) each.
+
+    Theory: equation ``strip-corners``.
+    """
+    strips = with_time_axes(strips_of(vehicle.wing, count), phase)
+    shape = shape_at(vehicle, wingbeat, strips, phase)
+    half, chord = _half_width(vehicle, wingbeat, shape, phase, count), air_chord(wingbeat, strips.chord, phase)
+
+    def edge(share: float) -> PerStrip:
+        along = _edge(shape, chord, share)
+        return jnp.concatenate([along - half, along + half])
+
+    return edge(LEADING), edge(TRAILING)
+
+
+def lateral_corner(
+    vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, share: Phases, side: Phases, phase: Phases, count: int
+) -> Phases:
+    """Return the distance of given corners to the left [m], each at its own phase; all arrays have shape (K,).
+
+    `share` is `LEADING` or `TRAILING`; `side` is -1 for an inner corner, 1 for an outer one.
+    """
+    shape = shape_at(vehicle, wingbeat, strips, phase)
+    edge = _edge(shape, air_chord(wingbeat, strips.chord, phase), share)
+    return edge + side * _half_width(vehicle, wingbeat, shape, phase, count)
+
+
+def _edge(shape: WingShape, chord: PerStripBroadcast, share: Component) -> PerStripBroadcast:
+    return shape.left + share * chord * shape.chordwise[1]
+
+
+def _half_width(
+    vehicle: Vehicle, wingbeat: Wingbeat, shape: WingShape, phase: Phases, count: int
+) -> PerStripBroadcast:
+    chordwise, normal = shape.chordwise, shape.normal
+    width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
+    return 0.5 * width * (normal[2] * chordwise[0] - normal[0] * chordwise[2])
+
+
+def has_room(vehicle: Vehicle) -> bool:
+    """Return whether the shoulder is off the plane of symmetry, so that a pitching root can stay on its own side.
+
+    If the shoulder is in the plane itself, some corner of the root crosses it in any stroke. The wing then counts
+    as on its side if neither arm nor hand flaps by more than a right angle.
+    """
+    return bool(vehicle.wing.shoulder[1] != 0.0)
+
+
+@exported
+def flap_angles(wingbeat: Wingbeat, phase: Phases) -> FlapAngles:
+    """Return the flap angles of arm and hand, up positive [rad], shape (2, K)."""
+    flap = flap_angle(wingbeat, phase)
+    return jnp.stack([flap, flap - fold_angle(wingbeat, phase)])

@@ -27,6 +27,7 @@ from wingbeat.aero import (
     TableCoefficients,
     load_coefficients,
 )
+from wingbeat.aero.blade_element import OF_ELEMENTS
 from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.animal.species.numbers import Range, number_from
 from wingbeat.animal.species.shape import shape_from, shape_record
@@ -86,11 +87,11 @@ def aero_inputs(aero: BladeElement) -> dict[str, Any]:
 
 def aero_from(aero: dict[str, Any]) -> BladeElement:
     """Set up the air loads from what `aero_inputs` returned."""
-    numbers = ("unsteady", "inflow", "induced_factor", "share", "hand_from", "upstroke_factor")
-    terms = {name: aero[name] for name in numbers if name in aero}
-    hand = _coefficients(aero["hand"]) if "hand" in aero else "none"
-    elements = aero["strips"], aero["force_point"], aero["airspeed"]
-    return BladeElement(_coefficients(aero), *elements, hand=hand, **terms)
+    always = ("strips", "force_point", "airspeed")
+    elements = {name: aero[name] for name in (*OF_ELEMENTS, "share") if name in aero or name in always}
+    if "hand" in aero:
+        elements["hand"] = _coefficients(aero["hand"])
+    return BladeElement(_coefficients(aero), **elements)
 
 
 def _named(coefficients: CoefficientModel) -> dict[str, Any]:

@@ -11,8 +11,8 @@ from wingbeat._base import NOMENCLATURE, __version__
 from wingbeat.aero import CamberedCoefficients, CoefficientModel
 from wingbeat.animal.kinematics import ANGLES, Wingbeat
 from wingbeat.animal.vehicle import Air, Vehicle
-from wingbeat.mechanics.clearance import flap_angles, has_room, lateral_corners
 from wingbeat.mechanics.flight_model import State
+from wingbeat.mechanics.wing_shape import flap_angles, has_room, lateral_corners
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantity import drive_numbers

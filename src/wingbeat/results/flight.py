@@ -15,9 +15,9 @@ from wingbeat._base import KIND, NOMENCLATURE, FaultList, __version__, attribute
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.species.species import Species
-from wingbeat.mechanics.beat_by_beat import Controller, check_samples, check_wind, fly_beats
-from wingbeat.mechanics.flight_model import FlightModel, State, state_of
-from wingbeat.mechanics.flights import fly_torque_driven
+from wingbeat.mechanics.equations_of_motion import fly_torque_driven
+from wingbeat.mechanics.flight_model import FlightModel, State
+from wingbeat.mechanics.flights import Controller, check_samples, check_wind, fly_beats, state_of
 from wingbeat.orbits.flight.beat import mean_positive
 from wingbeat.records.flight_dataset import evaluate, evaluate_carried, flight_dataset
 from wingbeat.records.inputs import shape_attribute, vehicle_record, wingbeat_record

@@ -9,8 +9,8 @@ import numpy as np
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, unpack
-from wingbeat.mechanics.fixed_steps import fly_beat_in_steps
 from wingbeat.mechanics.flight_model import FlightModel
+from wingbeat.mechanics.flights import fly_beat_in_steps
 from wingbeat.stability.inputs import Smoother, parameters_of
 
 if TYPE_CHECKING:

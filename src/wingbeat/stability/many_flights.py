@@ -12,8 +12,7 @@ import numpy as np
 
 from wingbeat._base import FaultList, Report, Reported
 from wingbeat.aero.winds import CosineGust, Wind
-from wingbeat.mechanics.beat_by_beat import air_at, check_wind
-from wingbeat.mechanics.flights import fly_through
+from wingbeat.mechanics.flights import air_at, check_wind, fly_through
 from wingbeat.orbits.flight.period import PITCH_STATE
 from wingbeat.orbits.status import Status
 from wingbeat.plots.draw_stability import survey_page

@@ -15,9 +15,8 @@ import numpy as np
 from wingbeat._base import HIGHEST_ORDER, FaultList
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat, parameter, stroke_phase, with_parameters
-from wingbeat.mechanics.beat_by_beat import air_at, check_wind
 from wingbeat.mechanics.flight_model import State
-from wingbeat.mechanics.flights import air_phases, fly_through
+from wingbeat.mechanics.flights import air_at, air_phases, check_wind, fly_through
 from wingbeat.orbits.flight.period import PITCH_STATE, flier
 from wingbeat.orbits.status import Status
 from wingbeat.stability.options import FEEDBACK, FeedbackOptions

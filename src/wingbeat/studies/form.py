@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, ValidationError
 
 from wingbeat._base import WHOLE, FaultList, is_number, read_text, suggest, toml_tables
+from wingbeat.aero.blade_element import OF_ELEMENTS, BladeElement
 from wingbeat.animal.species.file_schema import LIST, MAX_FAULTS, TABLE, dotted, rule_of
 from wingbeat.animal.species.numbers import NOTHING, shown
 
@@ -108,18 +109,25 @@ class StudyForm(BaseModel):
     blend_width_deg: _Numbers = Field(
         default=[1.0], description="half width of the blends where pieces of the coefficients meet [deg]"
     )
-    strips: _Counts = Field(default=[10], description="number of strips of a wing")
-    force_point: _Texts = Field(default=["quarter-chord"], description="where on the chord the air load acts")
-    airspeed: _Texts = Field(default=["planar"], description="airspeed that determines the loads of a strip")
-    unsteady: _Texts = Field(default=["none"], description="unsteady terms of the air loads")
-    inflow: _Texts = Field(default=["none"], description="induced flow")
-    induced_factor: _Numbers = Field(default=[1.2], description="ratio of induced power to that of an ideal disc")
-    hand: _Texts = Field(default=["none"], description="coefficient models of the hand")
+    strips: _Counts = Field(default=[BladeElement.strips], description="number of strips of a wing")
+    force_point: _Texts = Field(
+        default=[BladeElement.force_point], description="where on the chord the air load acts"
+    )
+    airspeed: _Texts = Field(
+        default=[BladeElement.airspeed], description="airspeed that determines the loads of a strip"
+    )
+    unsteady: _Texts = Field(default=[BladeElement.unsteady], description="unsteady terms of the air loads")
+    inflow: _Texts = Field(default=[BladeElement.inflow], description="induced flow")
+    induced_factor: _Numbers = Field(
+        default=[BladeElement.induced_factor], description="ratio of induced power to that of an ideal disc"
+    )
+    hand: _Texts = Field(default=[BladeElement.hand], description="coefficient models of the hand")
     hand_from: _Numbers = Field(
-        default=[0.5], description="fraction of the span at which the hand's coefficients begin"
+        default=[BladeElement.hand_from], description="fraction of the span at which the hand's coefficients begin"
     )
     upstroke_factor: _Numbers = Field(
-        default=[1.0], description="factor on lift and drag where air meets the wing from above"
+        default=[BladeElement.upstroke_factor],
+        description="factor on lift and drag where air meets the wing from above",
     )
     speed: _Numbers | None = Field(default=None, description="mean horizontal speeds [m/s]")
     climb: _Numbers = Field(default=[0.0], description="mean vertical speeds [m/s]")
@@ -310,8 +318,8 @@ def _check_numbers(form: StudyForm, faults: FaultList) -> None:
         if listed and len({repr(number(value)) for value in values}) < len(values):
             faults.add(name, shown(values), "names a value twice", "keep one of them")
     both = (
-        *("speed", "climb", "payload", "extension", "blend_width_deg", "strips", "force_point", "airspeed"),
-        *("unsteady", "inflow", "induced_factor", "hand", "hand_from", "upstroke_factor"),
+        *("speed", "climb", "payload", "extension", "blend_width_deg"),
+        *OF_ELEMENTS,
     )
     for name in both:
         if {name, f"aero.{name}"} & form.vary.keys() and name in form.model_fields_set:

@@ -17,11 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import NUMERICAL_VERSION, Fault, FaultList, InvalidInputError, WingbeatError
+from wingbeat.aero.blade_element import OF_ELEMENTS
 from wingbeat.animal.species.building import NO_SUCH_PATH, settable
 from wingbeat.animal.species.file_schema import dotted
 from wingbeat.animal.species.numbers import shown
 from wingbeat.studies.form import StudyForm, number
-from wingbeat.studies.recipe import MOTION, OF_COEFFICIENTS, OF_ELEMENTS, Recipe, makers_of
+from wingbeat.studies.recipe import MOTION, OF_COEFFICIENTS, Recipe, makers_of
 
 
 def unit_points(method: str, count: int, directions: int, seed: int) -> NDArray[np.float64]:

@@ -17,7 +17,7 @@ from typing import Any
 
 from wingbeat._base import FaultList, first_line, plain_unit, read_text, suggest
 from wingbeat.aero import BladeElement, load_coefficients
-from wingbeat.aero.blade_element import load_hand
+from wingbeat.aero.blade_element import OF_ELEMENTS, load_hand
 from wingbeat.animal.species.building import NO_SUCH_PATH, settable
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.numbers import KEYS, Key, shown, spoken
@@ -122,12 +122,8 @@ def _run(name: str, file: str, code: str) -> Quantity:
 
 # Every point has values of these, whatever is varied; the limit of the payload is that of `Species.with_payload`.
 MOTION = {"speed": SPEED_LIMITS, "climb": CLIMB_LIMITS, "payload": {"at_least": 0.0, "unit": plain_unit("payload")}}
-# The numbers and words of the coefficients, and those of the air loads, in the order of their constructors.
+# The numbers and words of the coefficients.
 OF_COEFFICIENTS = ("extension", "blend_width_deg")
-OF_ELEMENTS = (
-    *("strips", "force_point", "airspeed", "unsteady", "inflow", "induced_factor"),
-    *("hand", "hand_from", "upstroke_factor"),
-)
 _OF_COEFFICIENTS = tuple(f"aero.{name}" for name in OF_COEFFICIENTS)
 _OF_ELEMENTS = tuple(f"aero.{name}" for name in OF_ELEMENTS)
 _CHOICES = (*_OF_COEFFICIENTS, *_OF_ELEMENTS)

@@ -11,9 +11,8 @@ from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio, tip_twist
 from wingbeat.animal.species.making import load_species
 from wingbeat.mechanics.flight_model import FlightModel, State
-from wingbeat.mechanics.frames import stroke_pitch
-from wingbeat.mechanics.wing_motion import air_chord, strips_of, twist_factors
 from wingbeat.mechanics.wing_points import corners_of, wing_points
+from wingbeat.mechanics.wing_shape import air_chord, strips_of, stroke_pitch, twist_factors
 from wingbeat.records.flight_dataset import evaluate
 from wingbeat.results.orbit import Orbit
 from wingbeat.viewer.look import body_axes

@@ -11,10 +11,9 @@ from wingbeat._jax.exported import exported
 from wingbeat.aero.blade_element import BladeElement
 from wingbeat.aero.closed_forms import body_drag
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle
-from wingbeat.mechanics.air_forces import air_forces_on
 from wingbeat.mechanics.flight_model import FlightModel, State
-from wingbeat.mechanics.wing_motion import time_rates
-from wingbeat.mechanics.wing_points import point_motion
+from wingbeat.mechanics.wing_points import air_forces_on, point_motion
+from wingbeat.mechanics.wing_shape import time_rates
 from wingbeat_evidence.second_opinion.motion import Motion
 
 

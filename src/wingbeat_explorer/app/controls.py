@@ -8,11 +8,11 @@ from typing import Any
 
 from wingbeat._base import NOMENCLATURE, InvalidInputError, for_people
 from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, INFLOWS, LIBRARY, UNSTEADY
+from wingbeat.aero.blade_element import OF_ELEMENTS
 from wingbeat.animal.species.reading import species_names
 from wingbeat.animal.species.species import Species
 from wingbeat.models import model_of
 from wingbeat.orbits.problem.quantities import QUANTITIES
-from wingbeat.studies.recipe import OF_ELEMENTS
 from wingbeat_explorer import default_speeds
 from wingbeat_explorer.app.face import animals
 from wingbeat_explorer.app.formatting import from_shown, sentence

@@ -13,23 +13,18 @@ from pydantic import AfterValidator, Field, SkipValidation, Strict
 
 from wingbeat._base import FaultList, FileError, InvalidInputError
 from wingbeat.aero import (
-    AIRSPEEDS,
     EXTENSIONS,
-    FORCE_POINTS,
-    INFLOWS,
     LIBRARY,
-    UNSTEADY,
     BladeElement,
     load_coefficients,
 )
-from wingbeat.aero.blade_element import load_hand
+from wingbeat.aero.blade_element import ELEMENT_LIMITS, ELEMENT_WORDS, OF_ELEMENTS, load_hand
 from wingbeat.animal.species.making import load_species, species_of
 from wingbeat.animal.species.reading import read_species_text, species_names
 from wingbeat.animal.species.species import Species
 from wingbeat.models import MODELS, model_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.problem.quantities import FASTEST, QUANTITIES
-from wingbeat.studies.recipe import OF_ELEMENTS
 from wingbeat_explorer.models import name_of, search_starts
 
 # Limits for one visitor, because others use the machine, too.
@@ -92,15 +87,15 @@ class Scenario:
     aero: Word = "su-fan"
     extension: Word = "mirrored"
     blend_width_deg: Finite = 1.0
-    strips: Whole = 10
-    force_point: Word = "quarter-chord"
-    airspeed: Word = "planar"
-    unsteady: Word = "none"
-    inflow: Word = "none"
-    induced_factor: Finite = 1.2
-    hand: Word = "none"
-    hand_from: Finite = 0.5
-    upstroke_factor: Finite = 1.0
+    strips: Whole = BladeElement.strips
+    force_point: Word = BladeElement.force_point
+    airspeed: Word = BladeElement.airspeed
+    unsteady: Word = BladeElement.unsteady
+    inflow: Word = BladeElement.inflow
+    induced_factor: Finite = BladeElement.induced_factor
+    hand: Word = BladeElement.hand
+    hand_from: Finite = BladeElement.hand_from
+    upstroke_factor: Finite = BladeElement.upstroke_factor
     minimise: Word = "frequency"
     limits: tuple[Word, ...] = ()
     bounds: Mapping[Word, tuple[Finite, Finite]] = field(default_factory=dict)
@@ -133,14 +128,12 @@ class Scenario:
         faults.choice("aero", self.aero, tuple(LIBRARY))
         faults.choice("extension", self.extension, EXTENSIONS)
         faults.number("blend_width_deg", self.blend_width_deg, above=0, at_most=3, unit="deg")
-        faults.choice("force_point", self.force_point, FORCE_POINTS)
-        faults.choice("airspeed", self.airspeed, AIRSPEEDS)
-        faults.choice("unsteady", self.unsteady, UNSTEADY)
-        faults.choice("inflow", self.inflow, INFLOWS)
-        faults.number("induced_factor", self.induced_factor, at_least=0)
+        for name, words in ELEMENT_WORDS.items():
+            faults.choice(name, getattr(self, name), words)
+        faults.number("induced_factor", self.induced_factor, **ELEMENT_LIMITS["induced_factor"])
         faults.choice("hand", self.hand, ("none", *LIBRARY))
-        faults.number("hand_from", self.hand_from, at_least=0, at_most=1)
-        faults.number("upstroke_factor", self.upstroke_factor, at_least=0, at_most=1)
+        for name in ("hand_from", "upstroke_factor"):
+            faults.number(name, getattr(self, name), **ELEMENT_LIMITS[name])
         faults.choice("minimise", self.minimise, tuple(QUANTITIES))
         if self.within_plausible and self.bounds:
             fix = "take back the changed bounds, or switch the plausible ranges off"

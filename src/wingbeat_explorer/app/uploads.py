@@ -7,13 +7,13 @@ import itertools
 from typing import Any
 
 from wingbeat._base import FileError, read_text
+from wingbeat.aero.blade_element import OF_ELEMENTS
 from wingbeat.animal.species.writing import species_text
 from wingbeat.models import MODELS
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.records.inputs import inputs_of
 from wingbeat.records.result_files import load_dataset
 from wingbeat.results.orbit import Orbit, orbit_from
-from wingbeat.studies.recipe import OF_ELEMENTS
 from wingbeat_explorer.app.links import from_json, to_plain
 from wingbeat_explorer.app.scenario import MOST_STARTS, Scenario, problem_of, species_from_text, species_in
 

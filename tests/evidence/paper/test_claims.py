@@ -8,7 +8,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.places import ROOT
-from wingbeat.mechanics.wing_motion import strips_of
+from wingbeat.mechanics.wing_shape import strips_of
 from wingbeat_evidence.paper import claims as judging
 from wingbeat_evidence.paper.claim import (
     FAILS,

@@ -17,10 +17,17 @@ from wingbeat._jax.arrays import fusion_barrier, jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, unpack
 from wingbeat.animal.vehicle import Vehicle
-from wingbeat.mechanics.clearance import LEADING, TRAILING, flap_angles, has_room, lateral_corner, lateral_corners
 from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
 from wingbeat.mechanics.wing_motion import WingMotion, strips_of
-from wingbeat.mechanics.wing_shape import Strips
+from wingbeat.mechanics.wing_shape import (
+    LEADING,
+    TRAILING,
+    Strips,
+    flap_angles,
+    has_room,
+    lateral_corner,
+    lateral_corners,
+)
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import (

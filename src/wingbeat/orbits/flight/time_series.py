@@ -10,11 +10,17 @@ import numpy as np
 from wingbeat._jax.arrays import fusion_barrier, jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, chord_ratio, flap_angle, pitch_angle, unpack
-from wingbeat.mechanics.body_dynamics import strip_loads
-from wingbeat.mechanics.flight_model import FlightModel, air_loads, body_rates, motion_table, velocity_at_wings
-from wingbeat.mechanics.frames import to_world
+from wingbeat.mechanics.flight_model import (
+    FlightModel,
+    air_loads,
+    body_rates,
+    motion_table,
+    strip_loads,
+    velocity_at_wings,
+)
 from wingbeat.mechanics.hinge_torques import HingeMotion, hinge_loads, hinge_motion
 from wingbeat.mechanics.wing_motion import WingMotion, strips_of, stroke_attitude
+from wingbeat.mechanics.wing_shape import to_world
 from wingbeat.orbits.flight.beat import BY_STRIP, NUMBERS, Beat
 from wingbeat.orbits.flight.period import STEPS, Flown
 

@@ -1,4 +1,15 @@
-"""Coefficients as published formulas: a constant, a sine and an exponential of the angle of attack."""
+"""Formulas of coefficients: their terms as published, in degrees, and the curves that they define, in radians.
+
+One side of a plate has a constant, a sine and an exponential for lift and drag, and powers for the centre of
+pressure. A cambered wing, with ``u = slope (a - a_0)`` and ``ramp(x, w) = (x + sqrt(x^2 + w^2)) / 2``, has
+
+``C_L = lowest + ramp(u - lowest, w) - ramp(u - highest, w)``
+
+``C_D = least + induced C_L^2 + low_rise ramp(a_low - a, w_a) + high_rise ramp(a - a_high, w_a)``
+
+Lift is a line between its lowest and its highest value. Drag has an induced part, and rises beyond two onsets,
+where flow separates from the lower or from the upper side.
+"""
 
 from __future__ import annotations
 
@@ -8,16 +19,11 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._base import FaultList
 from wingbeat._jax.arrays import jnp, register_record, sin
-from wingbeat.aero.coefficient_model import CoefficientModel, check_aspect_ratio, check_range
-from wingbeat.aero.extension import ExtendedKernel, check_extension, extend
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import Angles, Scalar
 
-
 _DEG = 180 / math.pi
-# How far a model is to be trusted, and what its name then says.
-GRADES = {"A": "", "B": ", cited second-hand", "C": ", in part a guess"}
 
 
 class Wave(NamedTuple):
@@ -57,18 +63,6 @@ class PowerLaw(NamedTuple):
         """Return the centre of pressure at `alpha` > 0 [rad]."""
         decay = self.decay_amplitude * alpha * jnp.exp(-self.decay_rate * alpha)
         return self.constant + self.power_amplitude * alpha**self.exponent + decay
-
-
-# Replaces the centre of pressure in a model without one: the pytree stays the same, and every value is NaN.
-_NO_CENTRE = PowerLaw(math.nan, 0.0, 1.0, 0.0, 0.0)
-
-
-class FormulaPieces(NamedTuple):
-    """The formulas in radians, as `wingbeat.aero.extension` takes them."""
-
-    lift: Wave
-    drag: Wave
-    centre: PowerLaw
 
 
 @register_record
@@ -200,75 +194,144 @@ class CentreTerms:
         )
 
 
-@register_record(
-    static=("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg", "extension", "aspect_ratio")
-)
+def _ramp(x: Angles, width: Scalar) -> Angles:
+    """Return ``max(x, 0)`` with the corner rounded over about `width`.
+
+    Theory: equation ``ramp``.
+    """
+    return 0.5 * (x + jnp.sqrt(x * x + width * width))
+
+
+class CamberedCurves(NamedTuple):
+    """The formulas in radians, valid between the joins; a JAX pytree. The onsets are angles of attack."""
+
+    zero_lift: Scalar
+    slope: Scalar
+    lowest: Scalar
+    highest: Scalar
+    rounding: Scalar
+    least: Scalar
+    induced: Scalar
+    low_onset: Scalar
+    low_rise: Scalar
+    high_onset: Scalar
+    high_rise: Scalar
+    onset_rounding: Scalar
+
+    def lift(self, alpha: Angles) -> Angles:
+        """Return C_L at `alpha` [rad].
+
+        Theory: equation ``cambered-lift``.
+        """
+        line = self.slope * (alpha - self.zero_lift)
+        above, beyond = _ramp(line - self.lowest, self.rounding), _ramp(line - self.highest, self.rounding)
+        return self.lowest + above - beyond
+
+    def separation_drag(self, alpha: Angles) -> Angles:
+        """Return the part of C_D at `alpha` [rad] that rises beyond the two onsets."""
+        low = _ramp(self.low_onset - alpha, self.onset_rounding)
+        high = _ramp(alpha - self.high_onset, self.onset_rounding)
+        return self.low_rise * low + self.high_rise * high
+
+    def drag(self, alpha: Angles) -> Angles:
+        """Return C_D at `alpha` [rad].
+
+        Theory: equation ``cambered-drag``.
+        """
+        lift = self.lift(alpha)
+        return self.least + self.induced * lift * lift + self.separation_drag(alpha)
+
+
+@register_record
 @dataclass(frozen=True)
-class FormulaCoefficients(CoefficientModel):
-    """Quasi-steady coefficients of a wing strip, from formulas fitted to one side of a wing.
+class CamberedTerms:
+    """The terms of a cambered wing, with angles in degrees.
 
     Parameters
     ----------
-    name : name of the model.
-    lift_terms, drag_terms : formulas of C_L and C_D.
-    centre_terms : formula of the centre of pressure, or None.
-    citation, doi : where the formulas come from; no DOI is None.
-    grade : "A" if read in the source's own words, "B" if cited second-hand, "C" if in part a guess.
-    reynolds_range : chord Reynolds numbers of the fit, or None.
-    alpha_range_deg : lowest and highest angle of the fit [deg].
-    extension : how the formulas are extended to all angles (`wingbeat.aero.extension`).
-    blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
-    aspect_ratio : of the wing that was fitted [-], infinite for a section, None if not stated.
+    zero_lift_deg : angle of attack at which the line of lift is zero [deg].
+    lift_slope : slope of lift in attached flow [1/rad].
+    lift_lowest, lift_highest : constant C_L beyond the stall at negative and at positive lift [-].
+    lift_rounding : width of the rounding where the line of lift meets each stall, in C_L [-].
+    drag_least : C_D without lift or separated flow [-].
+    drag_induced : C_D over C_L squared; an ideal wing of aspect ratio A has 1 / (pi A) [-].
+    low_onset_deg, high_onset_deg : angles above zero lift where separated flow begins to add drag [deg].
+    low_rise, high_rise : C_D that separated flow adds for each radian beyond its onset [1/rad].
+    onset_rounding_deg : width of the rounding where separated flow begins to add drag [deg].
 
     Raises
     ------
-    InvalidInputError : an unknown grade or extension, a bad width, range or aspect ratio, or a signed extension of
-        a drag formula that has an exponential term.
-
-    >>> plate = FormulaCoefficients("plate", FormulaTerms(0, 1.2, 2, 0), FormulaTerms(1.4, 1.0, 2, -90))
-    >>> round(float(plate.lift(math.radians(45))), 3)
-    1.2
+    InvalidInputError : numbers that are not finite, a negative rise or induced part, a least drag, rounding or
+        slope that is not positive, limits of lift of the wrong sign, onsets in the wrong order.
     """
 
-    name: str
-    lift_terms: FormulaTerms
-    drag_terms: FormulaTerms
-    centre_terms: CentreTerms | None = None
-    citation: str = ""
-    doi: str | None = None
-    grade: str = "A"
-    reynolds_range: tuple[float, float] | None = None
-    alpha_range_deg: tuple[float, float] = (0.0, 90.0)
-    extension: str = "mirrored"
-    blend_width_deg: float = 1.0
-    aspect_ratio: float | None = None
+    zero_lift_deg: float
+    lift_slope: float
+    lift_lowest: float
+    lift_highest: float
+    lift_rounding: float
+    drag_least: float
+    drag_induced: float
+    low_onset_deg: float
+    low_rise: float
+    high_onset_deg: float
+    high_rise: float
+    onset_rounding_deg: float
 
     def __post_init__(self) -> None:
         faults = FaultList()
-        check_aspect_ratio(faults, "aspect_ratio", self.aspect_ratio)
-        faults.choice("grade", self.grade, tuple(GRADES))
-        if self.reynolds_range is not None:
-            check_range(faults, "reynolds_range", self.reynolds_range)
-        check_range(faults, "alpha_range_deg", self.alpha_range_deg)
-        check_extension(faults, self.extension, self.blend_width_deg)
-        if self.extension in ("signed", "signed-drag") and self.drag_terms.decays:
-            rule = "evaluates the drag formula at negative angles, where its exponential term diverges"
-            faults.add("extension", self.extension, rule, "use mirrored")
+        faults.number("terms.zero_lift_deg", self.zero_lift_deg, above=-45, below=45, unit="deg")
+        for name in ("lift_slope", "lift_rounding", "lift_highest", "onset_rounding_deg", "drag_least"):
+            faults.number(f"terms.{name}", getattr(self, name), above=0)
+        faults.number(
+            "terms.lift_lowest", self.lift_lowest, below=0, fix="it is C_L beyond the stall at negative lift"
+        )
+        for name in ("drag_induced", "low_rise", "high_rise"):
+            faults.number(f"terms.{name}", getattr(self, name), at_least=0)
+        onsets = [
+            faults.number(f"terms.{name}", getattr(self, name)) for name in ("low_onset_deg", "high_onset_deg")
+        ]
+        if all(onsets) and self.low_onset_deg >= self.high_onset_deg:
+            faults.add("terms.low_onset_deg", self.low_onset_deg, "must be below high_onset_deg", "exchange them")
         faults.raise_if_any()
 
-    def __str__(self) -> str:
-        return f"{self.name} ({self.citation or 'no source given'}{GRADES[self.grade]})"
+    def in_radians(self) -> CamberedCurves:
+        """Return the formulas with their angles in radians."""
+        radians = math.pi / 180
+        zero = self.zero_lift_deg * radians
+        return CamberedCurves(
+            zero_lift=zero,
+            slope=self.lift_slope,
+            lowest=self.lift_lowest,
+            highest=self.lift_highest,
+            rounding=self.lift_rounding,
+            least=self.drag_least,
+            induced=self.drag_induced,
+            low_onset=zero + self.low_onset_deg * radians,
+            low_rise=self.low_rise,
+            high_onset=zero + self.high_onset_deg * radians,
+            high_rise=self.high_rise,
+            onset_rounding=self.onset_rounding_deg * radians,
+        )
 
-    @property
-    def has_centre_of_pressure(self) -> bool:
-        """Whether the model has a centre of pressure."""
-        return self.centre_terms is not None
+    def lift_at(self, alpha_deg: Any) -> Any:
+        """Return C_L at angles [deg] by the formula alone: no join, no plate.
 
-    def kernel(self) -> ExtendedKernel:
-        """Return the JAX pytree that evaluates this model; it is differentiable with respect to its parameters."""
-        centre = self.centre_terms.in_radians() if self.centre_terms is not None else _NO_CENTRE
-        # The lift always carries its exponential, so that Su-Fan and Dickinson are one compiled function.
-        lift = self.lift_terms.in_radians(with_decay=True)
-        drag = self.drag_terms.in_radians(with_decay=self.drag_terms.decays)
-        signed = ("drag",) if self.lift_terms.decays else ("lift", "drag")
-        return extend(FormulaPieces(lift, drag, centre), self.blend_width_deg, self.extension, signed)
+        Parameters
+        ----------
+        alpha_deg : angle of attack [deg], any shape.
+
+        >>> terms = CamberedTerms(-4.0, 4.0, -0.3, 1.4, 0.15, 0.02, 0.05, 4.0, 0.5, 20.0, 2.0, 3.0)
+        >>> round(float(terms.lift_at(10.0)), 2), round(float(terms.drag_at(10.0)), 3)
+        (0.97, 0.081)
+        """
+        return self.in_radians().lift(alpha_deg * (math.pi / 180))
+
+    def drag_at(self, alpha_deg: Any) -> Any:
+        """Return C_D at angles [deg] by the formula alone: no join, no plate.
+
+        Parameters
+        ----------
+        alpha_deg : angle of attack [deg], any shape.
+        """
+        return self.in_radians().drag(alpha_deg * (math.pi / 180))

@@ -16,11 +16,7 @@ def flown(dataset: xr.Dataset) -> np.ndarray:
 
 
 def downstrokes(phase: np.ndarray, flap_rate: np.ndarray) -> list[tuple[float, float]]:
-    """Return the first and the last phase of each downstroke.
-
-    Parameters
-    ----------
-    phase, flap_rate : phase and flap rate of the samples, shape (K,) [1, rad/s].
+    """Return the first and the last phase of each downstroke, from phase and flap rate of the samples [1, rad/s].
 
     >>> downstrokes(np.array([0.0, 0.25, 0.5, 0.75, 1.0]), np.array([0.0, -1.0, 0.0, 1.0, 0.0]))
     [(0.0, 0.5)]

@@ -36,12 +36,7 @@ _SHOWN = 300
 
 
 def read_text(path: str | os.PathLike[str], *, limit: int = 1 << 20) -> str:
-    """Return the text of a UTF-8 file of at most `limit` bytes.
-
-    Raises
-    ------
-    FileError : missing, a folder, a pipe or device, unreadable, too large, not UTF-8, or with control characters.
-    """
+    """Return the text of a UTF-8 file of at most `limit` bytes without control characters, or raise `FileError`."""
     try:
         # A pipe would wait for ever and a device may have no end, so the kind is looked at first.
         if not stat.S_ISREG(os.stat(path).st_mode):
@@ -68,11 +63,7 @@ def read_text(path: str | os.PathLike[str], *, limit: int = 1 << 20) -> str:
 
 
 def toml_tables(text: str, label: str) -> dict[str, Any]:
-    r"""Return the tables of a TOML text.
-
-    Raises
-    ------
-    FileError : not TOML, nested too deeply, or a line of more than 4096 characters.
+    r"""Return the tables of a TOML text; raise `FileError` if it is none, or one that would take too long to read.
 
     >>> toml_tables("[wing]\nspan = 0.3", "a text")
     {'wing': {'span': 0.3}}
@@ -96,12 +87,7 @@ def toml_tables(text: str, label: str) -> dict[str, Any]:
 
 
 def make_folder(path: str | os.PathLike[str]) -> None:
-    """Make a folder and its parents if they are missing.
-
-    Raises
-    ------
-    FileError : it cannot be made.
-    """
+    """Make a folder and its parents if they are missing; raise `FileError` if that fails."""
     try:
         Path(path).mkdir(parents=True, exist_ok=True)
     except (OSError, ValueError) as error:
@@ -113,11 +99,8 @@ def writing(path: str | os.PathLike[str]) -> Iterator[Path]:
     """Yield a temporary path beside `path` to write to; it is renamed to `path` only if the block succeeds.
 
     The temporary path has the same suffix, because writers choose their format by it. After an error or an
-    interrupt the temporary file is deleted, and a file already at `path` is not changed.
-
-    Raises
-    ------
-    FileError : the folder is missing or cannot be written, `path` is a folder or a device, the disk is full.
+    interrupt the temporary file is deleted, and a file already at `path` is not changed. It raises `FileError` if
+    the folder is missing or cannot be written, `path` is a folder or a device, or the disk is full.
 
     >>> import tempfile
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -154,12 +137,7 @@ def writing(path: str | os.PathLike[str]) -> Iterator[Path]:
 
 
 def write_atomically(path: str | os.PathLike[str], content: str | bytes) -> None:
-    """Write text (as UTF-8) or bytes to `path`, completely or not at all.
-
-    Raises
-    ------
-    FileError : as in `writing`.
-    """
+    """Write text (as UTF-8) or bytes to `path`, completely or not at all; raise `FileError` as `writing` does."""
     data = content.encode() if isinstance(content, str) else content
     with writing(path) as beside, open(beside, "wb") as file:
         file.write(data)

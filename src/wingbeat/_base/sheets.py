@@ -157,12 +157,8 @@ def seems_to_be(text: str) -> str | None:
 def read_sheet(path: str | Path) -> Sheet:
     """Split a CSV file into its constants (``# name = value``) and its table, without converting numbers.
 
-    Blank rows are left out, and so are rows of commas alone, which spreadsheets write for them.
-
-    Raises
-    ------
-    FileError : the file is missing or cannot be read.
-    InvalidInputError : it is empty, it is of another format, or a constant appears twice in any spelling.
+    Blank rows are left out, and so are rows of commas alone, which spreadsheets write for them. A file is refused
+    if it is empty or of another format, or if a constant appears twice in any spelling.
     """
     path = Path(path)
     faults = FaultList()
@@ -215,10 +211,8 @@ def parse_numbers(
 ) -> NDArray[np.float64]:
     """Return the numbers of all rows, shape (rows, columns); a cell that is not a number is noted and becomes NaN.
 
-    Parameters
-    ----------
-    names : the columns' names in messages; the cells of a column with the name "" are not read, and become NaN.
-    blank : the columns where a cell may be empty or one of `NO_VALUE`, such as NA, which gives NaN.
+    `names` are the columns' names in messages; the cells of a column with the name "" are not read, and become NaN.
+    In the columns `blank`, a cell may be empty or one of `NO_VALUE`, such as NA, which gives NaN.
     """
     if sheet.rows and not blank and all(names):
         try:  # the quick way, for files in which nothing is wrong

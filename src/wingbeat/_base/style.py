@@ -49,12 +49,7 @@ _STYLE: dict[str, Any] = {
 
 @contextmanager
 def drawing(font: float = FONT) -> Iterator[None]:
-    """Apply this style inside a block, or a decorated function; afterwards the user's own settings are restored.
-
-    Parameters
-    ----------
-    font : font size [points].
-    """
+    """Apply this style, with a font size [points], in a block or a decorated function, and no longer."""
     from matplotlib import rc_context
 
     with rc_context({**_STYLE, "font.size": font}):  # type: ignore[arg-type]
@@ -79,14 +74,7 @@ def dress(axes: Axes, xlabel: str, ylabel: str) -> None:
 def shade_downstrokes(
     axes: Axes, first: float, last: float, strokes: Sequence[tuple[float, float]] | None = None
 ) -> None:
-    """Shade every downstroke between two phases, and make these phases the limits of the axis.
-
-    Parameters
-    ----------
-    axes : the panel.
-    first, last : phases.
-    strokes : first and last phase of each downstroke; if left out, the first half of every beat.
-    """
+    """Shade the downstrokes between two phases, the axis' limits; by default, the first half of every beat."""
     from matplotlib.collections import PolyCollection
 
     axes.set_xlim(first, last)

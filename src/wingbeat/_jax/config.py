@@ -88,10 +88,6 @@ def own_settings() -> Iterator[None]:
     """Compute under the package's settings of JAX in a block, in this thread; afterwards those of the host apply.
 
     It takes 2 us if the host has changed nothing, otherwise 40 us.
-
-    Raises
-    ------
-    InvalidInputError : JAX cannot start on the platform that was chosen.
     """
     _start()
     if all(setting.value == own for setting, own in OWN) and not any(guard.value for guard in GUARDS):
@@ -143,12 +139,7 @@ _OPENING = os.O_RDONLY | getattr(os, "O_NOFOLLOW", 0) | getattr(os, "O_NONBLOCK"
 
 
 def cache_folder() -> Path:
-    """Return the user's cache folder for wingbeat (``WINGBEAT_CACHE`` overrides it).
-
-    Raises
-    ------
-    RuntimeError : the user has no home folder.
-    """
+    """Return the user's cache folder for wingbeat, or ``WINGBEAT_CACHE``; raise if there is no home folder."""
     if chosen := os.environ.get("WINGBEAT_CACHE"):
         return Path(chosen)
     return Path(os.environ.get("XDG_CACHE_HOME") or "~/.cache").expanduser() / "wingbeat"

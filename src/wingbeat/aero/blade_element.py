@@ -114,14 +114,6 @@ def load_hand(
 ) -> CoefficientModel | str:
     """Return the coefficient model of a hand, from `load_coefficients`; if "none" is given, return "none".
 
-    Parameters
-    ----------
-    name_or_path, extension, blend_width_deg : as for `load_coefficients`.
-
-    Raises
-    ------
-    FileError, InvalidInputError : as `load_coefficients`.
-
     >>> load_hand("none"), load_hand("membrane").name
     ('none', 'membrane')
     """
@@ -364,13 +356,7 @@ def with_turning(
 ) -> StripForces:
     """Return the loads with those of a turning chord added: rotational force, and couple that resists the turning.
 
-    Parameters
-    ----------
-    forces : the loads that come from the coefficients.
-    density : of the air [kg/m3].
-    chord, width : of the strips [m].
-    turning : of the chord about the span, leading edge up [rad/s].
-    chord_speed, normal_speed : of the quarter chord along the axes of `forces` [m/s].
+    `turning` is that of the chord about the span, leading edge up.
     """
     along, across = rotation_force(density, chord, width, turning, chord_speed, normal_speed)
     return forces._replace(

@@ -1,9 +1,22 @@
-"""Induced flow by momentum theory: a uniform stream of air through the wings' disc, which carries the weight.
+"""Air loads in closed form: induced flow, unsteady loads of a thin aerofoil, tail, and drag of the body.
 
-Rankine and Froude's actuator disc in Glauert's form for any direction of flight:
-``2 rho A v |V + v n| = k T``. Here T is the mean force of the wings, n its direction, V the velocity of the
-animal, A the area of the disc that the wings span, v the induced speed and k the induced factor (1 for an ideal
-disc, 1.2 in Pennycuick 2008, Modelling the Flying Bird). The air at the wings has the velocity ``-v n``.
+Induced flow: Rankine and Froude's actuator disc in Glauert's form for any direction of flight:
+``2 rho A v |V + v n| = k T``. Here T is the mean force of the wings, n its direction, V the velocity of the animal, A the area of the
+disc that the wings span, v the induced speed and k the induced factor (1 for an ideal disc, 1.2 in Pennycuick
+2008, Modelling the Flying Bird). The air at the wings has the velocity ``-v n``.
+
+Unsteady loads: rotation, added mass and couple. With ``C_L = 2 pi sin(alpha)`` they are the loads of Theodorsen
+1935 (NACA Report 496) without the lag of the wake, ``C(k) = 1``. Rotation is that of Sane and Dickinson 2002
+(doi 10.1242/jeb.205.8.1087) about the quarter chord. All turning rates are of the chord in the plane normal to the
+span, leading edge up positive.
+
+Tail: a flat surface of low aspect ratio at any angle of attack, ``C_L = a sin(alpha) cos(alpha)``,
+``C_D = C_D0 + a sin^2(alpha) cos^2(alpha) + C_B sin^4(alpha)``. At small angles the lift grows with the slope a, which for a
+slender tail is ``pi/2`` times the aspect ratio. There is no suction at the leading edge, so that the lift tilts
+back with the surface: Thomas 1993 (Phil Trans R Soc B 340:361, doi 10.1098/rstb.1993.0079). Measured tails have
+less lift than this if they are widely spread or above 20 degrees (Maybury et al. 2001, doi 10.1098/rspb.2001.1666;
+Evans 2003, doi 10.1098/rspb.2003.2373). The sines and cosines are ours: with them the lift is largest at 45
+degrees, and at 90 degrees the surface is a plate across the flow.
 """
 
 from __future__ import annotations
@@ -26,12 +39,7 @@ _TINY = 1e-30
 
 
 def disc_area(semi_span: Scalar) -> Scalar:
-    """Return the area of the disc that the wings span, ``pi R^2`` [m2].
-
-    Parameters
-    ----------
-    semi_span : R [m].
-    """
+    """Return the area of the disc that the wings span, ``pi R^2`` [m2]."""
     return math.pi * semi_span * semi_span
 
 
@@ -40,16 +48,10 @@ def induced_flow(
 ) -> tuple[Any, Any]:
     """Return the induced velocity of the air at the wings, forward and up [m/s].
 
-    Theory: equation ``induced-flow``.
+    `factor` is k, 0 for no induced flow; `force` is the mean force of both wings and `velocity` that of the animal,
+    both forward and up; `xp` is the array module that computes, numpy or jax.numpy.
 
-    Parameters
-    ----------
-    density : of the air [kg/m3].
-    area : of the disc [m2].
-    factor : k, which multiplies the induced momentum of an ideal disc; 0 means no induced flow.
-    force : mean force of both wings, forward and up [N].
-    velocity : mean velocity of the animal, forward and up [m/s].
-    xp : the array module that computes, numpy or jax.numpy.
+    Theory: equation ``induced-flow``.
 
     >>> forward, up = induced_flow(1.225, disc_area(0.279), 1.0, (0.0, 0.316 * 9.81), (0.0, 0.0))
     >>> round(float(-up), 3)
@@ -79,15 +81,6 @@ def check_descent(
     inside of the circle through these points.
 
     Theory: equation ``vortex-ring``.
-
-    Parameters
-    ----------
-    faults : the list to which the fault is added.
-    density : of the air [kg/m3].
-    area : of the disc [m2].
-    factor : k, as in `induced_flow`.
-    weight : [N].
-    velocity : of the animal, forward and up [m/s].
     """
     hover = math.sqrt(factor * weight / (2.0 * density * area))
     speed, climb = velocity
@@ -105,11 +98,7 @@ UNSTEADY = ("none", "thin-aerofoil")
 def rotation_lift(density: Scalar, chord: PerStripBroadcast, width: Phases, turning: PerStrip) -> PerStrip:
     """Return the force normal to a turning strip's velocity, per speed [N s/m]: ``rho pi/2 c^2 omega dr``.
 
-    Parameters
-    ----------
-    density : rho [kg/m3].
-    chord, width : c and dr [m].
-    turning : omega [rad/s].
+    `chord` and `width` are c and dr; `turning` is omega.
     """
     return 0.5 * math.pi * density * chord * chord * width * turning
 
@@ -124,17 +113,12 @@ def rotation_force(
 ) -> Pair:
     """Return the force of a turning strip at its quarter chord [N], along chord and normal.
 
+    `chord` and `width` are c and dr; the speeds, v_c and v_n, are those of the quarter chord through the air.
+
     ``(F_c, F_n) = rho G dr (-v_n, v_c)`` with the circulation ``G = pi/2 c^2 omega``. It does no work at the
     quarter chord. The formula holds in any axes in the plane of chord and normal, such as the unpitched strip's.
 
     Theory: equation ``rotation-force``.
-
-    Parameters
-    ----------
-    density : rho [kg/m3].
-    chord, width : c and dr [m].
-    turning : omega [rad/s].
-    chord_speed, normal_speed : of the quarter chord through the air, v_c and v_n [m/s].
     """
     lift = rotation_lift(density, chord, width, turning)
     return -lift * normal_speed, lift * chord_speed
@@ -148,11 +132,6 @@ def added_mass(density: Scalar, chord: PerStripBroadcast, width: Phases) -> PerS
 
     Theory: equation ``added-mass``.
 
-    Parameters
-    ----------
-    density : rho [kg/m3].
-    chord, width : c and dr [m].
-
     >>> round(added_mass(1.225, 0.112, 1.0), 6)
     0.012069
     """
@@ -165,11 +144,6 @@ def added_inertia(density: Scalar, chord: PerStripBroadcast, width: Phases) -> P
     It resists the turning of the chord: couple ``-I d(omega)/dt``.
 
     Theory: equation ``unsteady-couple``.
-
-    Parameters
-    ----------
-    density : rho [kg/m3].
-    chord, width : c and dr [m].
     """
     squared = chord * chord
     return math.pi / 128 * density * squared * squared * width
@@ -180,14 +154,9 @@ def damping_couple(
 ) -> PerStrip:
     """Return the couple that opposes the turning of strips, ``-pi/16 rho c^3 |V| omega dr`` [N m].
 
-    Theory: equation ``unsteady-couple``.
+    `speed` is the airspeed of the quarter chord that determines the loads, planar or full.
 
-    Parameters
-    ----------
-    density : rho [kg/m3].
-    chord, width : c and dr [m].
-    turning : omega [rad/s].
-    speed : ``|V|``, the airspeed of the quarter chord that determines the loads, planar or full [m/s].
+    Theory: equation ``unsteady-couple``.
     """
     return -math.pi / 16 * density * chord * chord * chord * width * speed * turning
 
@@ -198,10 +167,6 @@ BROADSIDE = 1.17
 
 def slender_slope(aspect_ratio: float) -> float:
     """Return the lift slope of a slender tail [1/rad], ``pi/2`` times its aspect ratio (Thomas 1993).
-
-    Parameters
-    ----------
-    aspect_ratio : largest width squared over area.
 
     >>> round(slender_slope(2.0), 3)
     3.142
@@ -220,20 +185,13 @@ def tail_force(
 ) -> Pair:
     """Return the force on a tail [N], in the axes in which its velocity is given.
 
+    `lift_slope` is a [1/rad], `drag_coefficient` C_D0, `normal` n the unit vector to the upper side, and `velocity`
+    v that of the tail's aerodynamic centre through the air.
+
     Lift and drag add up to ``-1/2 rho S |v| (k v + a (v.n) n)`` with ``k = C_D0 + (C_B - a) sin^4(alpha)``, where n
     is the unit normal of the surface.
 
     Theory: equations ``tail-coefficients`` and ``tail-force``.
-
-    Parameters
-    ----------
-    density : rho [kg/m3].
-    area : S [m2].
-    lift_slope : a [1/rad].
-    drag_coefficient : C_D0, at zero lift.
-    normal : n, unit vector to the upper side.
-    velocity : v, of the tail's aerodynamic centre through the air [m/s].
-    xp : the array module that computes, numpy or jax.numpy.
 
     >>> forward, up = tail_force(1.225, 0.004, 3.0, 0.02, (0.0, 1.0), (10.0, 0.0))
     >>> round(float(forward), 6), abs(float(up))
@@ -254,13 +212,6 @@ def body_drag(drag_area: Scalar, density: Scalar, velocity: Pair, xp: Any = np) 
     """Return the drag of the body at its centre of mass, ``-1/2 rho S |v| v`` [N], in the axes of `velocity`.
 
     Theory: equation ``body-drag``.
-
-    Parameters
-    ----------
-    drag_area : S, drag coefficient times frontal area [m2].
-    density : rho [kg/m3].
-    velocity : v [m/s].
-    xp : the array module that computes, numpy or jax.numpy.
     """
     squared = velocity[0] * velocity[0] + velocity[1] * velocity[1]
     moving = squared > 0.0

@@ -1,4 +1,4 @@
-"""The interface of every coefficient model: NumPy arrays of angles in, coefficients out."""
+"""The interface of every coefficient model, arrays of angles in, coefficients out, and what no wing can have."""
 
 from __future__ import annotations
 
@@ -64,12 +64,8 @@ def check_range(faults: FaultList, where: str, limits: Any) -> None:
 def check_possible(faults: FaultList, quantity: str, values: Sequence[float], where: Callable[[int], str]) -> None:
     """Note one fault, at the worst row, if a column holds coefficients that no wing has.
 
-    Parameters
-    ----------
-    faults : collects the fault.
-    quantity : "c_l", "c_d" or "x_cp", in either case; other quantities have no limits.
-    values : the column; values that are not finite are left to other checks.
-    where : names a row of it.
+    `quantity` is "c_l", "c_d" or "x_cp" in either case; others have no limits. Values that are not finite are left
+    to other checks; `where` names a row.
     """
     name = quantity.lower()
     limits = {"c_l": (-MAX_LIFT, MAX_LIFT), "c_d": (0.0, MAX_DRAG), "x_cp": CENTRE_RANGE}
@@ -99,14 +95,7 @@ def check_possible(faults: FaultList, quantity: str, values: Sequence[float], wh
 
 
 def check_curve(faults: FaultList, where: str, name: str, degrees: Angles, lift: Angles, drag: Angles) -> None:
-    """Note lift that not even an ideal fluid gives, and drag that is negative or more than any wing has.
-
-    Parameters
-    ----------
-    faults : collects the faults.
-    where, name : the input and the model's name, for the faults.
-    degrees, lift, drag : angles of attack [deg] and the coefficients there, shape (n,).
-    """
+    """Note lift that not even an ideal fluid gives, and drag that is negative or more than any wing has."""
     for label, values, low, high in (("C_L", lift, -IDEAL_LIFT, IDEAL_LIFT), ("C_D", drag, 0.0, MAX_DRAG)):
         over = np.maximum(np.asarray(values) - high, low - np.asarray(values))
         worst = int(np.nanargmax(over))
@@ -121,10 +110,6 @@ def check_curve(faults: FaultList, where: str, name: str, degrees: Angles, lift:
 
 def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:
     """Return angles [rad] brought to [-pi, pi], as an exactly odd function of `alpha`; infinite angles become NaN.
-
-    Raises
-    ------
-    InvalidInputError : angles that are not numbers.
 
     >>> wrapped([0.5, 1.0 + 2 * math.pi, -math.pi]).tolist()
     [0.5, 1.0, -3.141592653589793]
@@ -153,13 +138,7 @@ def at_angles(function: Any, numbers: Any, angles: NDArray[np.float64]) -> Any:
 
 
 def kernel_lift(kernel: Kernel, alpha: ArrayLike) -> NDArray[np.float64]:
-    """Return C_L of a kernel at angles of attack.
-
-    Parameters
-    ----------
-    kernel : of a coefficient model, or of its sections.
-    alpha : angle of attack [rad], any shape.
-    """
+    """Return C_L of a kernel at angles of attack."""
     return at_angles(_lift_drag, kernel, wrapped(alpha))[0]
 
 

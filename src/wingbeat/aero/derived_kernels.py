@@ -1,8 +1,9 @@
-"""Sectional coefficients from those of a finite wing, by removing the wing's own induced flow.
+"""Kernels made of the kernels of coefficient models: sections of a finite wing, arm and hand, and the upstroke.
 
-Prandtl's lifting line: if a wing of aspect ratio A has the angle of attack ``alpha``, its sections meet the air at
-``alpha - eps`` with ``eps = C_L / (pi A)``, and their lift is normal to that air. So the section at ``alpha - eps``
-has ``c_l = C_L cos(eps) + C_D sin(eps)`` and ``c_d = C_D cos(eps) - C_L sin(eps)``.
+Sections follow from Prandtl's lifting line by removing the wing's own induced flow: if a wing of aspect ratio A
+has the angle of attack ``alpha``, its sections meet the air at ``alpha - eps`` with ``eps = C_L / (pi A)``, and
+their lift is normal to that air. So the section at ``alpha - eps`` has ``c_l = C_L cos(eps) + C_D sin(eps)`` and
+``c_d = C_D cos(eps) - C_L sin(eps)``. For arm and hand, the first axis of every array of angles counts the strips.
 """
 
 from __future__ import annotations
@@ -58,15 +59,6 @@ def sectional_kernel(model: CoefficientModel) -> Kernel:
     """Return the kernel of the sectional coefficients that follow from those of a wing of finite aspect ratio.
 
     Theory: equation ``section-coefficients``.
-
-    Parameters
-    ----------
-    model : coefficients of a wing of any aspect ratio; those of an infinite wing are returned unchanged.
-
-    Raises
-    ------
-    InvalidInputError : a model without an aspect ratio, with one so small that two angles of the wing give its
-        sections the same angle, or with less drag than its ideal induced drag.
     """
     if model.aspect_ratio is None:
         rule = f"needs the aspect ratio of the wing that was measured, and {model.name} states none"

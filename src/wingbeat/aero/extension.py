@@ -297,14 +297,9 @@ def check_drag_of_joins(
 ) -> None:
     """Note a fault for each join in whose blend C_D is not positive.
 
-    A blend keeps slope and curvature at its ends, so it can fall below both where drag is steep there.
+    `what` names C_D in the faults; `jet` gives its value, slope and curvature at an angle [rad].
 
-    Parameters
-    ----------
-    faults : collects the faults.
-    what : names C_D in the faults.
-    jet : value, slope and curvature of C_D at an angle [rad].
-    blend_width_deg, extension, signed : as for `extend`.
+    A blend keeps slope and curvature at its ends, so it can fall below both where drag is steep there.
     """
     width = blend_width_deg * (math.pi / 180)
     ends = _ends(jet, width, extension, "drag", signed)
@@ -337,12 +332,8 @@ def _extended(pieces: Pieces, width: Scalar, *, extension: str, signed: tuple[st
 def extend(pieces: Pieces, blend_width_deg: Scalar, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
     """Return the kernel of coefficients extended to every angle.
 
-    Parameters
-    ----------
-    pieces : coefficients on [0, 90] degrees (see `Pieces`); its leaves may be traced.
-    blend_width_deg : half width of the blends [deg], in (0, 3]; may be traced.
-    extension : one of `EXTENSIONS`.
-    signed : which of "lift", "drag", "centre" are also valid from -90 to 0 degrees.
+    `signed` names which of "lift", "drag", "centre" are also valid from -90 to 0 degrees; the leaves of `pieces`
+    and the width may be traced.
     """
     width = blend_width_deg * (math.pi / 180)
     return _extended(pieces, width, extension=extension, signed=signed)

@@ -53,12 +53,7 @@ class FittedModel(NamedTuple):
     def coefficients(
         self, extension: str = "mirrored", blend_width_deg: float = 1.0, **terms: Any
     ) -> FormulaCoefficients:
-        """Return the coefficient model; formulas that are given (lift_terms, ...) replace those of the file.
-
-        Raises
-        ------
-        InvalidInputError : inputs that `FormulaCoefficients` refuses.
-        """
+        """Return the coefficient model; formulas that are given (lift_terms, ...) replace those of the file."""
         own: dict[str, Any] = {name: curve.terms for name, curve in self.curves.items()}
         return FormulaCoefficients(
             self.name,
@@ -98,10 +93,6 @@ class FittedWing(NamedTuple):
         """Return the coefficient model; terms that are given (terms=...) replace those of the file.
 
         The model covers all angles, so the extension has no effect.
-
-        Raises
-        ------
-        InvalidInputError : an unknown extension; inputs that `CamberedCoefficients` refuses.
         """
         faults = FaultList()
         check_extension(faults, extension, blend_width_deg)
@@ -142,12 +133,8 @@ _FIT = ("free", "covariance", "r_squared", "aicc", "points")
 def read_model(path: str | Path) -> Fitted:
     """Read a model file with the covariance of its terms; where the file states none, the covariance is empty.
 
-    A file with the table ``[wing]`` describes a cambered wing.
-
-    Raises
-    ------
-    FileError : the file is missing, cannot be read or is not TOML.
-    InvalidInputError : wrong, missing or unknown keys, all at once.
+    A file with the table ``[wing]`` describes a cambered wing. Wrong, missing and unknown keys are raised all at
+    once.
     """
     path = Path(path)
     file, faults = path.name, FaultList()

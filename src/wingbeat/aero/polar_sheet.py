@@ -68,15 +68,8 @@ class PolarSheet(NamedTuple):
 def read_polar(path: str | Path, faults: FaultList) -> PolarSheet:
     """Read a table of coefficients from CSV, with the columns in any order and in any usual spelling.
 
-    Parameters
-    ----------
-    path : of the CSV file.
-    faults : where faults of cells and values are noted; the caller raises them with its own.
-
-    Raises
-    ------
-    FileError : the file is missing or cannot be read.
-    InvalidInputError : it is no table or has no rows, or columns are missing, given twice or in other units.
+    Faults of cells and values are noted in `faults`; a file that is no table, and columns that are missing, given
+    twice or in other units, are raised.
     """
     sheet = read_sheet(path)
     names, notes = _names(faults, sheet)
@@ -260,14 +253,7 @@ def doubtful_drag(given: NDArray[np.float64], reynolds: NDArray[np.float64] | No
 
 
 def refuse_several(faults: FaultList, path: str | Path, polar: PolarSheet) -> None:
-    """Note a fault if angles repeat: the table holds several curves, or repeats of one, and a model needs one.
-
-    Parameters
-    ----------
-    faults : where it is noted.
-    path : of the table, as the user gave it.
-    polar : its content, without faults.
-    """
+    """Note a fault if angles repeat: the table holds several curves, or repeats of one, and a model needs one."""
     angles, first, count = np.unique(np.round(polar.columns["alpha_deg"], 6), return_index=True, return_counts=True)
     twice = int((count > 1).sum())
     if not twice:
@@ -311,12 +297,7 @@ def fitting(
 ) -> str:
     """Return the command that fits a model of all angles to a table, or what to measure if no form can be fitted.
 
-    Parameters
-    ----------
-    path : of the table, as the user gave it.
-    polar : its content.
-    rows : those that are fitted, shape (rows,); all if not given.
-    more : options that choose these rows.
+    `path` is as the user gave it; `rows` are those that are fitted, and `more` the options that choose them.
     """
     alpha, lift = polar.columns["alpha_deg"][rows], polar.columns["C_L"][rows]
     low, high = float(alpha.min()), float(alpha.max())

@@ -156,10 +156,6 @@ class GlideSolver:
         """Return the glide at an angle of attack; all its numbers are NaN if the forces cannot balance.
 
         If nothing trims the glide, the body stays along the path, and `tail_moment` is the missing moment.
-
-        Parameters
-        ----------
-        angle_of_attack : [rad].
         """
         start = Posture(*self._closed_form(angle_of_attack), 0.0, self._flap, angle_of_attack, self._tilt)
         posture = self._solve(start, rows=2, free=[0, 1])

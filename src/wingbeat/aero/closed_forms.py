@@ -1,9 +1,9 @@
 """Air loads in closed form: induced flow, unsteady loads of a thin aerofoil, tail, and drag of the body.
 
-Induced flow: Rankine and Froude's actuator disc in Glauert's form for any direction of flight:
-``2 rho A v |V + v n| = k T``. Here T is the mean force of the wings, n its direction, V the velocity of the animal, A the area of the
-disc that the wings span, v the induced speed and k the induced factor (1 for an ideal disc, 1.2 in Pennycuick
-2008, Modelling the Flying Bird). The air at the wings has the velocity ``-v n``.
+Induced flow: Rankine and Froude's actuator disc in Glauert's form for any direction of flight,
+``2 rho A v |V + v n| = k T``. Here T is the mean force of the wings, n its direction, V the velocity of the animal,
+A the area of the disc that the wings span, v the induced speed and k the induced factor (1 for an ideal disc, 1.2
+in Pennycuick 2008, Modelling the Flying Bird). The air at the wings has the velocity ``-v n``.
 
 Unsteady loads: rotation, added mass and couple. With ``C_L = 2 pi sin(alpha)`` they are the loads of Theodorsen
 1935 (NACA Report 496) without the lag of the wake, ``C(k) = 1``. Rotation is that of Sane and Dickinson 2002
@@ -11,12 +11,12 @@ Unsteady loads: rotation, added mass and couple. With ``C_L = 2 pi sin(alpha)`` 
 span, leading edge up positive.
 
 Tail: a flat surface of low aspect ratio at any angle of attack, ``C_L = a sin(alpha) cos(alpha)``,
-``C_D = C_D0 + a sin^2(alpha) cos^2(alpha) + C_B sin^4(alpha)``. At small angles the lift grows with the slope a, which for a
-slender tail is ``pi/2`` times the aspect ratio. There is no suction at the leading edge, so that the lift tilts
-back with the surface: Thomas 1993 (Phil Trans R Soc B 340:361, doi 10.1098/rstb.1993.0079). Measured tails have
-less lift than this if they are widely spread or above 20 degrees (Maybury et al. 2001, doi 10.1098/rspb.2001.1666;
-Evans 2003, doi 10.1098/rspb.2003.2373). The sines and cosines are ours: with them the lift is largest at 45
-degrees, and at 90 degrees the surface is a plate across the flow.
+``C_D = C_D0 + a sin^2(alpha) cos^2(alpha) + C_B sin^4(alpha)``. At small angles the lift grows with the slope a,
+which for a slender tail is ``pi/2`` times the aspect ratio. There is no suction at the leading edge, so that the
+lift tilts back with the surface: Thomas 1993 (Phil Trans R Soc B 340:361, doi 10.1098/rstb.1993.0079). Measured
+tails have less lift than this if they are widely spread or above 20 degrees (Maybury et al. 2001,
+doi 10.1098/rspb.2001.1666; Evans 2003, doi 10.1098/rspb.2003.2373). The sines and cosines are ours: with them the
+lift is largest at 45 degrees, and at 90 degrees the surface is a plate across the flow.
 """
 
 from __future__ import annotations

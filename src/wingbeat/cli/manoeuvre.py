@@ -9,7 +9,16 @@ from cyclopts import Parameter
 
 from wingbeat._base import FaultList
 from wingbeat.cli.arguments import Seed, Whole, check_files, check_outputs, figure, flag, several
-from wingbeat.cli.problem_options import DEFAULT_MODEL, Climb, Gust, ModelOptions, Settings, saved_orbit, wind_of
+from wingbeat.cli.problem_options import (
+    DEFAULT_MODEL,
+    Climb,
+    Gust,
+    ModelOptions,
+    Settings,
+    Starts,
+    saved_orbit,
+    wind_of,
+)
 from wingbeat.cli.terminal import deliver, plain_console, print_report, progress_bar
 from wingbeat.orbits.status import Status
 from wingbeat.results.flight import Flight
@@ -33,7 +42,7 @@ def manoeuvre(
     delay: Annotated[Whole, Parameter(help="Beats between a measurement and the beat that feedback changes.")] = 0,
     climb: Climb = 0.0,
     model: ModelOptions = DEFAULT_MODEL,
-    starts: Annotated[Whole | None, Parameter(help="Number of starts, as in `wingbeat orbit`.")] = None,
+    starts: Starts = None,
     seed: Seed = 0,
     set_: Settings = None,
     gust: Gust = None,

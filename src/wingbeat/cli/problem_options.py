@@ -35,6 +35,8 @@ SPECIES = Parameter(help="Name of a species, or path of a species file.")
 SPEED = Parameter(help="Mean forward speed [m/s]; 0 is hover.")
 Climb = Annotated[float, Parameter(help="Mean climb rate [m/s].")]
 Limits = Annotated[list[str] | None, several("Limits: 'peak_power<=30' 'frequency=6' ...")]
+Minimise = Annotated[str | None, Parameter(help="Quantity to minimise, as in `wingbeat orbit`.")]
+Starts = Annotated[Whole | None, Parameter(help="Number of starts, as in `wingbeat orbit`.")]
 Stable = Annotated[bool, flag("Find an orbit on which disturbances decay: short for 'spectral_radius<=0.995'.")]
 Settings = Annotated[
     list[str] | None,

@@ -25,8 +25,10 @@ from wingbeat.cli.problem_options import (
     DEFAULT_MODEL,
     Climb,
     Limits,
+    Minimise,
     ModelOptions,
     Settings,
+    Starts,
     WithinPlausible,
     saved_orbit,
 )
@@ -56,9 +58,9 @@ def stability(
     climb: Climb = 0.0,
     model: ModelOptions = DEFAULT_MODEL,
     within_plausible: WithinPlausible = False,
-    minimise: Annotated[str | None, Parameter(help="Quantity to minimise, as in `wingbeat orbit`.")] = None,
+    minimise: Minimise = None,
     subject_to: Limits = None,
-    starts: Annotated[Whole | None, Parameter(help="Number of starts, as in `wingbeat orbit`.")] = None,
+    starts: Starts = None,
     seed: Seed = 0,
     set_: Settings = None,
     inputs: Annotated[

@@ -16,6 +16,7 @@ from wingbeat.cli.problem_options import (
     SPECIES,
     SPEED,
     Climb,
+    Minimise,
     ModelOptions,
     Settings,
     WithinPlausible,
@@ -48,7 +49,7 @@ def uncertainty(
     speed: Annotated[float, SPEED],
     climb: Climb = 0.0,
     model: ModelOptions = DEFAULT_MODEL,
-    minimise: Annotated[str | None, Parameter(help="Quantity to minimise, as in `wingbeat orbit`.")] = None,
+    minimise: Minimise = None,
     quantities: Annotated[
         list[str] | None,
         several(f"Quantities whose uncertainty to compute, as in `wingbeat orbit`; default {' '.join(_DEFAULT)}."),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json as json_format
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,10 +9,8 @@ from cyclopts import Parameter
 
 from wingbeat._base import FaultList
 from wingbeat.cli.arguments import Whole, check_files, check_outputs, figure, flag
-from wingbeat.cli.problem_options import unpacking
-from wingbeat.cli.terminal import answer, plain_console, progress_bar
-from wingbeat.plots.figure_files import save_figure
-from wingbeat.results.orbit import load_orbit
+from wingbeat.cli.problem_options import saved_orbit
+from wingbeat.cli.terminal import deliver, plain_console, progress_bar
 from wingbeat_evidence.second_opinion import LatticeOptions, compare_with_lattice
 from wingbeat_evidence.second_opinion.figure import second_opinion_page
 
@@ -50,19 +47,12 @@ def compare(
     check_files(faults, None, plot=plot)
     faults.raise_if_any()
     options = LatticeOptions(chordwise, spanwise, steps, beats)
-    orbit = load_orbit(file)
-    with unpacking(file):
-        _ = orbit.problem
+    orbit = saved_orbit(file)
     check_outputs(plot)
     with progress_bar("steps") as progress:
         opinion = compare_with_lattice(orbit, options, progress)
     record = opinion.record()
-    with answer() as given:
-        if json:
-            given.show(lambda: print(json_format.dumps(record, indent=2, allow_nan=False)))
-        else:
-            given.show(lambda: _print(record))
-        given.save(plot, lambda path: save_figure(second_opinion_page(opinion), path))
+    deliver(record, lambda: _print(record), json=json, plot=plot, page=lambda: second_opinion_page(opinion))
 
 
 def _print(record: dict[str, Any]) -> None:

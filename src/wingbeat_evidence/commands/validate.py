@@ -2,25 +2,33 @@
 
 from __future__ import annotations
 
-import json as json_format
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from cyclopts import Parameter
 
-from wingbeat._base import FaultList, write_atomically
+from wingbeat._base import FaultList, FileError, read_text, toml_tables, write_atomically
+from wingbeat._workers.tuning import core_count
 from wingbeat.aero import EXTENSIONS
+from wingbeat.animal.species.making import load_species
 from wingbeat.cli.arguments import Whole, check_files, check_outputs, figure, flag, written_to
-from wingbeat.cli.process import EXIT_GOOD
-from wingbeat.cli.terminal import answer, plain_console, print_report
-from wingbeat.plots.figure_files import save_figure
-from wingbeat_evidence.commands.whole_flights import is_whole_flights, validate_flights
+from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.cli.terminal import answer, plain_console, print_report, progress_bar
 from wingbeat_evidence.measured_motion import Validation, read_strip_case, shipped_cases
 from wingbeat_evidence.measured_motion import validate as validated
 from wingbeat_evidence.measured_motion.figure import validation_page
 from wingbeat_evidence.measured_motion.page import validation_text
 from wingbeat_evidence.measured_motion.report import validation_report
-from wingbeat_evidence.whole_flights import measured_animals
+from wingbeat_evidence.whole_flights import (
+    Prediction,
+    compared,
+    measured_animals,
+    predict_flights,
+    read_measured_flights,
+)
+from wingbeat_evidence.whole_flights.figure import flights_page
+from wingbeat_evidence.whole_flights.page import flight_text
+from wingbeat_evidence.whole_flights.report import prediction_report
 
 
 def validate(
@@ -98,13 +106,13 @@ def validate(
     loads = {"--aero": aero, "--extension": extension, "--unsteady": unsteady, "--inflow": inflow}
     loads |= {"--induced-factor": induced_factor}
     flights = {"--model": model, "--draws": draws, "--seed": seed}
-    whole = case is not None and is_whole_flights(case)
+    whole = case is not None and _is_whole_flights(case)
     for name, value in (loads if whole else flights).items():
         if value is not None:
             faults.add(name, value, f"does not apply to {'whole flights' if whole else 'strip-motion cases'}")
     faults.raise_if_any()
     if case is not None and whole:
-        return validate_flights(case, model or "animal", draws or 0, seed or 0, json, plot, output)
+        return _validate_flights(case, model or "animal", draws or 0, seed or 0, json, plot, output)
     paths = shipped_cases() if case is None else [Path(case)]
     cases = [read_strip_case(path) for path in paths]
     pictures = [] if output is None else [output.with_name(f"{output.stem}_{_slug(one.name)}.png") for one in cases]
@@ -112,23 +120,20 @@ def validate(
     factor = 1.2 if induced_factor is None else induced_factor
     found = [validated(one, aero, unsteady, inflow, factor, extension) for one in cases]
     with answer() as given:
-        given.show(lambda: _print(found, case is None, json))
-        given.save(plot, lambda path: save_figure(validation_page(found[0]), path), named=True)
+        said = [one.to_dict() for one in found]
+        record = {"cases": said, "whole_flights": measured_animals()} if case is None else said[0]
+        given.tell(record, lambda: _print(found, case is None), json)
+        given.draw(plot, lambda: validation_page(found[0]), named=True)
         if output is not None:
             page = validation_text(found, [picture.name for picture in pictures])
             given.save(output, lambda path: write_atomically(path, page), named=True)
         for picture, one in zip(pictures, found, strict=False):
-            given.save(picture, lambda path, one=one: save_figure(validation_page(one), path), named=True)
+            given.draw(picture, lambda one=one: validation_page(one), named=True)
     return EXIT_GOOD
 
 
-def _print(found: list[Validation], every: bool, json: bool) -> None:
+def _print(found: list[Validation], every: bool) -> None:
     """Print the comparisons; after those of every case of the package, the animals with measured flights."""
-    if json:
-        said = [one.to_dict() for one in found]
-        listed = {"cases": said, "whole_flights": measured_animals()} if every else said[0]
-        print(json_format.dumps(listed, indent=2, allow_nan=False))
-        return
     for one in found:
         print_report(validation_report(one))
     if every:
@@ -139,3 +144,50 @@ def _print(found: list[Validation], every: bool, json: bool) -> None:
 def _slug(name: str) -> str:
     """Return a text reduced to letters and digits, as part of a file name."""
     return "".join(sign if sign.isascii() and (sign.isalnum() or sign in "-_") else "-" for sign in name)[:80]
+
+
+# --- whole flights ---
+
+# So many draws are worth the start of another process.
+_WORTH_A_PROCESS = 200
+
+
+def _is_whole_flights(case: str) -> bool:
+    """Say whether a case is an animal, or a file of its measured flights."""
+    if case in measured_animals():
+        return True
+    try:
+        return "measured" in toml_tables(read_text(case), case)
+    except FileError:
+        return False
+
+
+def _validate_flights(
+    case: str, model: str, draws: int, seed: int, json: bool, plot: Path | None, output: Path | None
+) -> int:
+    """Fly an animal at its measured speeds and print, draw or write the comparison."""
+    faults = FaultList()
+    faults.choice("--model", model, ("paper", "animal"))
+    faults.raise_if_any()
+    picture = None if output is None else output.with_suffix(".png")
+    check_outputs(output, plot, *([] if picture is None else [picture]))
+    flights = read_measured_flights(case)
+    processes = max(1, min(core_count(), draws // _WORTH_A_PROCESS))
+    with progress_bar("flights") as progress:
+        found = predict_flights(flights, model, draws, seed, processes, progress)
+    with answer() as given:
+        given.tell(plain_flights(found), prediction_report(found), json)
+        given.draw(plot, lambda: flights_page(found), named=True)
+        if output is not None and picture is not None:
+            name = load_species(flights.species).common_name
+            text = flight_text(found, picture.name, name or flights.species)
+            given.save(output, lambda path: write_atomically(path, text), named=True)
+            given.draw(picture, lambda: flights_page(found), named=True)
+    return EXIT_GOOD if any(one.values for one in found.flown) else EXIT_NOT_CERTIFIED
+
+
+def plain_flights(found: Prediction) -> dict[str, Any]:
+    """Return a prediction and its comparison as plain values, fit for JSON."""
+    scores = [vars(score) | {"measurement": vars(score.measurement)} for score in compared(found)]
+    about = {"species": found.flights.species, "minimum_power_speed": found.minimum_power_speed}
+    return about | found.plain() | {"compared": scores}

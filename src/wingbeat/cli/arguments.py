@@ -138,15 +138,6 @@ def _check_steps(faults: FaultList, where: str, text: str, parts: list[Fraction]
 def parse_range(text: str, where: str) -> NDArray[np.float64]:
     """Return the numbers of ``start:stop:step``, both ends included exactly, or a single number, shape (n,).
 
-    Parameters
-    ----------
-    text : the user's text.
-    where : the option's name, for messages.
-
-    Raises
-    ------
-    InvalidInputError : not numbers, a step that is 0, leads away from the stop or misses it, too many values.
-
     >>> parse_range("0:0.3:0.1", "--alpha").tolist()
     [0.0, 0.1, 0.2, 0.3]
     >>> parse_range("5", "--alpha").tolist()

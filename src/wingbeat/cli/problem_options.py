@@ -126,12 +126,7 @@ class ModelOptions:
     ] = None
 
     def flown(self, name: str, settings: list[str] | None, payload: float = 0.0) -> tuple[Species, Model]:
-        """Return (species, model); the species has the model's parts, the numbers of ``--set`` and a payload.
-
-        Raises
-        ------
-        FileError, InvalidInputError : as `load_species`, `chosen` and `with_settings`.
-        """
+        """Return (species, model); the species has the model's parts, the numbers of ``--set`` and a payload."""
         species = load_species(name)
         model = self.chosen(species)
         return with_settings(model.species(species), settings, payload), model
@@ -139,23 +134,13 @@ class ModelOptions:
     def problem(
         self, name: str, speed: float, settings: list[str] | None, *, within_plausible: bool = False, **asked: Any
     ) -> OrbitProblem:
-        """Return the problem for a species given by name or file; a None in `asked` means the model's own choice.
-
-        Raises
-        ------
-        FileError, InvalidInputError : as `flown`; inputs that `OrbitProblem` refuses.
-        """
+        """Return the problem for a species given by name or file; a None in `asked` means the model's own choice."""
         species, model = self.flown(name, settings)
         given = {key: value for key, value in asked.items() if value is not None}
         return model.problem(species, speed, bounds="plausible" if within_plausible else {}, **given)
 
     def chosen(self, species: Species) -> Model:
-        """Return the model for a species, with the air loads that were given in place of its own.
-
-        Raises
-        ------
-        InvalidInputError : an unknown model, a species of unknown kind, air loads that are refused.
-        """
+        """Return the model for a species, with the air loads that were given in place of its own."""
         whole = model_of(self.model, species)
         given = self.given()
         if not given:
@@ -260,17 +245,7 @@ _KEYS = tuple(field.name for field in fields(CosineGust))
 
 
 def wind_of(gust: list[str] | None, turbulence: str | None, seed: int, airspeed: float) -> Wind | None:
-    """Return the wind that the options ask for, the sum if they ask for several; None for still air.
-
-    Parameters
-    ----------
-    gust, turbulence, seed : as typed.
-    airspeed : of the flight [m/s].
-
-    Raises
-    ------
-    InvalidInputError : keys or numbers of a gust that cannot be read, and what the winds themselves refuse.
-    """
+    """Return the wind that the options ask for, the sum if they ask for several; None for still air."""
     parts: list[Wind] = []
     if gust is not None:
         faults = FaultList()

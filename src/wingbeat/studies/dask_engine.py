@@ -49,17 +49,7 @@ _KEPT = 60.0
 
 
 class Order(NamedTuple):
-    """A batch on its way to a Dask worker.
-
-    Parameters
-    ----------
-    batch : its number.
-    units : its points.
-    work : what the processes run, ``module:function``.
-    timeout : a process that sends nothing for this time is ended [s].
-    driver : name of the driver that sends the batch.
-    numerical_version : of that driver.
-    """
+    """A batch on its way to a Dask worker."""
 
     batch: int
     units: list[Unit]
@@ -126,9 +116,7 @@ def dismiss(driver: str) -> None:
 def solve_batch(order: bytes) -> Ended:
     """Solve an order in a process, and return how it ended.
 
-    Raises
-    ------
-    ClusterError : this machine has another version of wingbeat, or no process can be started here.
+    A `ClusterError` says that this machine has another version of wingbeat, or can start no process.
     """
     asked: Order = pickle.loads(order)
     here = socket.gethostname()
@@ -186,17 +174,9 @@ def check_dask(faults: FaultList, where: str, value: Any) -> None:
 class DaskEngine:
     """The workers of a Dask cluster; each of their threads takes one batch and runs it in a separate process.
 
-    Parameters
-    ----------
-    where : ``tcp://HOST:PORT`` of a scheduler, ``local:N`` for a cluster of this machine with N workers, or a
-        Dask cluster object, for example of dask-jobqueue.
-    timeout : a process that has work and sends nothing for this time is ended [s].
-    told : called with notices for the user: no workers yet, other versions on the workers.
-
-    Raises
-    ------
-    ClusterError : Dask is not installed, the scheduler does not answer, a worker has another version of wingbeat.
-    InvalidInputError : `where` names no cluster.
+    The cluster is ``tcp://HOST:PORT`` of a scheduler, ``local:N`` for one of this machine with N workers, or a Dask
+    cluster object, for example of dask-jobqueue. A process that has work and sends nothing for `timeout` [s] is
+    ended. `told` is called with notices for the user: no workers yet, other versions on the workers.
     """
 
     def __init__(self, where: str | Cluster, timeout: float, told: Callable[[str], None]) -> None:

@@ -138,13 +138,7 @@ def drive(
 ) -> Tally:
     """Solve all points of a store that have no result yet, and save the results of each batch as soon as it ends.
 
-    Parameters
-    ----------
-    store : holds the plan; this is its only writer.
-    engine : solves the points; it is always closed at the end.
-    stop : checked between batches.
-    progress : called with the tally whenever it changes.
-    retry_failed : points that failed before are tried again.
+    This is the only writer of the store. The engine is always closed at the end.
     """
     run = store.begin_run()
     counts = store.counts()

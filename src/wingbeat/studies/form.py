@@ -163,12 +163,7 @@ class StudyForm(BaseModel):
 
 
 def read_form(source: str | os.PathLike[str]) -> tuple[StudyForm | None, FaultList]:
-    """Return the form of a study file, and the faults in its structure; the form is None if there are any faults.
-
-    Raises
-    ------
-    FileError : the file is missing, unreadable, or not TOML.
-    """
+    """Return the form of a study file, and the faults in its structure; the form is None if there are any."""
     return check_form(toml_tables(read_text(source, limit=1 << 18), os.fspath(source)))
 
 
@@ -218,13 +213,14 @@ def _translate(error: ValidationError, raw: Mapping[str, Any], faults: FaultList
             rule = "must be a list"
         elif fault["type"] in ("model_type", "dict_type") and loc[:1] == ("vary",) and len(loc) == 2:
             fix = "for example { grid = [6.0, 8.0] }"
-        faults.add(dotted(map(_word, loc)), shown(value), rule.replace("numbers", "values"), fix)
+        faults.add(
+            dotted(part if isinstance(part, int) else str(part) for part in loc),
+            shown(value),
+            rule.replace("numbers", "values"),
+            fix,
+        )
     if len(found) > MAX_FAULTS:
         faults.add("file", f"{len(found)} faults", "too many to list", "is it a study file?")
-
-
-def _word(part: Any) -> Any:
-    return part if isinstance(part, int) else str(part)
 
 
 def _at(raw: Any, loc: tuple[Any, ...]) -> Any:

@@ -31,12 +31,6 @@ def unit_points(method: str, count: int, directions: int, seed: int) -> NDArray[
     Sobol's sequence (scrambled with the seed) begins with the same points for every count, so that points can be
     added later. A Latin hypercube has different points for each count.
 
-    Parameters
-    ----------
-    method : "sobol" or "latin-hypercube".
-    count, directions : numbers of points and of coordinates.
-    seed : of the scrambling, or of the hypercube.
-
     >>> bool((unit_points("sobol", 4, 2, 0) == unit_points("sobol", 8, 2, 0)[:4]).all())
     True
     """
@@ -124,12 +118,12 @@ class Plan:
     @property
     def chain_length(self) -> int:
         """Number of points in one unit of work; 1 without a chain."""
-        return len(_values_of(self.form, self.form.chain)) if self.form.chain else 1
+        return len(self.form.vary[self.form.chain].values) if self.form.chain else 1
 
     def __len__(self) -> int:
         kinds, form = self._kinds, self.form
-        rows = len(_values_of(form, kinds["list"][0])) if kinds["list"] else 1
-        grid = math.prod(len(_values_of(form, path)) for path in kinds["grid"])
+        rows = len(form.vary[kinds["list"][0]].values) if kinds["list"] else 1
+        grid = math.prod(len(form.vary[path].values) for path in kinds["grid"])
         return len(self.bases) * (form.sample.n if form.sample else 1) * rows * grid
 
     @functools.cached_property
@@ -153,9 +147,9 @@ class Plan:
         unit = 0
         for index, base in enumerate(self.bases):
             stock = {path: base.recipe.value(path) for path in self.paths}
-            rows = list(zip(*(_values_of(form, path) for path in kinds["list"]), strict=True)) or [()]
-            grids = [_scaled(form, path, stock[path], _values_of(form, path)) for path in kinds["grid"]]
-            ends = [_scaled(form, path, stock[path], _values_of(form, path)) for path in kinds["range"]]
+            rows = list(zip(*(form.vary[path].values for path in kinds["list"]), strict=True)) or [()]
+            grids = [_scaled(form, path, stock[path], form.vary[path].values) for path in kinds["grid"]]
+            ends = [_scaled(form, path, stock[path], form.vary[path].values) for path in kinds["range"]]
             for sample in samples:
                 drawn = [_between(low, high, float(u)) for (low, high), u in zip(ends, sample, strict=True)]
                 before: list[Any] = []
@@ -179,10 +173,6 @@ def _point(
     return Point(hashlib.sha256(canonical(told).encode()).hexdigest(), index, unit, changes, list(values.values()))
 
 
-def _values_of(form: StudyForm, path: str | None) -> list[Any]:
-    return form.vary[path or ""].values
-
-
 def _between(low: Any, high: Any, share: float) -> Any:
     """Return the value at a share of the way from one number, or list of numbers, to another."""
     if isinstance(low, list):
@@ -200,15 +190,7 @@ def _scaled(form: StudyForm, path: str, stock: Any, values: list[Any]) -> list[A
 def make_plan(form: StudyForm | None, faults: FaultList, folder: Path) -> Plan:
     """Return the plan of a form.
 
-    Parameters
-    ----------
-    form : the form, None if its structure is wrong.
-    faults : the faults in the form's structure; further faults are added.
-    folder : the folder to which paths of species and coefficient files are relative.
-
-    Raises
-    ------
-    InvalidInputError : all faults at once.
+    `faults` are those in the structure of the form; all faults are raised at once.
     """
     if form is None or any(fault.where.startswith(("vary", "sample", "chain")) for fault in faults.faults):
         faults.raise_if_any()
@@ -300,9 +282,9 @@ def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
                 rule, fix = "needs a value other than zero to be relative to", "use grid or range"
                 if isinstance(stock, str):
                     rule, fix = "would multiply a word", "use grid"
-                faults.add(where, shown(_values_of(form, path)), rule, fix)
+                faults.add(where, shown(form.vary[path].values), rule, fix)
                 continue
-        values = _values_of(form, path)
+        values = form.vary[path].values
         values = values if stock is None else _scaled(form, path, stock, values)
         for i, value in enumerate(values):
             own = FaultList()
@@ -312,7 +294,7 @@ def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
                 own.faults += error.faults
             except (TypeError, ValueError, OverflowError) as error:
                 own.add(path, shown(value), f"is impossible there ({error})")
-            told = _values_of(form, path)[i]
+            told = form.vary[path].values[i]
             named = [Fault(f"{where}[{i}]", _text(told), fault.rule, fault.fix) for fault in own.faults]
             if any(fault.rule == NO_SUCH_PATH for fault in named):
                 named = [Fault(dotted(("vary", path)), _text(told), named[0].rule, named[0].fix)]

@@ -37,12 +37,7 @@ _MARK = ".py:"  # of a text that names a function of a file
 
 
 def as_inputs(text: str, folder: Path) -> dict[str, str]:
-    """Return inputs from which a worker makes an objective; a function's file is included as text.
-
-    Raises
-    ------
-    InvalidInputError, FileError : an unknown name, a file that cannot be read or run, no such function.
-    """
+    """Return inputs from which a worker makes an objective; a function's file is included as text."""
     if _MARK not in text:
         return {"name": named_objective(text).name}
     file, _, name = text.rpartition(":")
@@ -64,10 +59,7 @@ def described(inputs: Mapping[str, str]) -> dict[str, str]:
 def changed_code(ours: Iterable[Mapping[str, str]], kept: Iterable[Mapping[str, Any]]) -> str:
     """Return in words which functions of a study's files differ from those that a store's points were made with.
 
-    Parameters
-    ----------
-    ours : inputs of the study's objectives, in the form of `as_inputs`.
-    kept : inputs of the bases in the store, in the form of `Recipe.described`.
+    `ours` is in the form of `as_inputs`, `kept` in that of `Recipe.described`.
     """
     theirs = [described(inputs["objective"]) for inputs in kept]
     changed = {
@@ -87,12 +79,7 @@ def named(text: str) -> str:
 
 
 def from_inputs(inputs: dict[str, str]) -> Quantity:
-    """Return the objective that `as_inputs` described.
-
-    Raises
-    ------
-    InvalidInputError : its code cannot be run, or does not define it.
-    """
+    """Return the objective that `as_inputs` described."""
     if "code" not in inputs:
         return named_objective(inputs["name"])
     return _run(inputs["name"], inputs["file"], inputs["code"])
@@ -154,13 +141,7 @@ class Recipe:
     def problem(self, changes: Mapping[str, Any]) -> OrbitProblem:
         """Return the problem of a point.
 
-        Parameters
-        ----------
-        changes : values by path; speed must be among them.
-
-        Raises
-        ------
-        InvalidInputError : values that species, air loads or problem refuse.
+        `changes` are values by path; speed must be among them.
         """
         numbers = {path: value for path, value in changes.items() if _key(path) is not None}
         species = self.species.with_values(numbers) if numbers else self.species
@@ -255,7 +236,7 @@ class Recipe:
         return kept | {
             "objective": self.objective,
             "free": list(self.free),
-            "bounds": _listed(self.bounds),
+            "bounds": bounds if isinstance(bounds := self.bounds, str) else {n: list(b) for n, b in bounds.items()},
             "subject_to": list(self.subject_to),
             "search": self.search,
         }
@@ -263,10 +244,6 @@ class Recipe:
     def described(self) -> dict[str, Any]:
         """Return what a store holds of the inputs: everything but the code of a user's objective."""
         return self.inputs() | {"objective": described(self.objective)}
-
-
-def _listed(bounds: dict[str, tuple[float, float]] | str) -> dict[str, list[float]] | str:
-    return bounds if isinstance(bounds, str) else {name: list(pair) for name, pair in bounds.items()}
 
 
 def recipe_from(inputs: Mapping[str, Any]) -> Recipe:

@@ -76,11 +76,7 @@ class Row(NamedTuple):
 class Store:
     """A store, open for one driver, or for reading; use `Store.open` and `Store.read`.
 
-    Parameters
-    ----------
-    path : of the file itself, not of a symbolic link to it, because its log is beside it.
-    connection : to it.
-    lock : the store's lock, if this process is to check that it still has it.
+    The path is that of the file itself, not of a symbolic link to it, because its log is beside it.
     """
 
     def __init__(self, path: Path, connection: sqlite3.Connection, lock: Lock | None = None) -> None:
@@ -95,12 +91,7 @@ class Store:
     @classmethod
     @contextmanager
     def open(cls, path: Path, lock: Lock | None = None) -> Iterator[Store]:
-        """Open a store for its only writer; create the store if there is none.
-
-        Raises
-        ------
-        FileError : the store cannot be written, is damaged, is not a store, or is of another numerical version.
-        """
+        """Open a store for its only writer; create the store if there is none."""
         begun = cls.is_begun(path, mine=True)
         with in_words(path), closing(connect(path, "mode=rwc"), path) as connection:
             if begun:
@@ -126,14 +117,7 @@ class Store:
     def is_begun(path: Path, mine: bool = False) -> bool:
         """Return whether there is a store, or another file in its place; an empty database does not count.
 
-        Parameters
-        ----------
-        path : of the store.
-        mine : whether this process holds the store's lock, so that no other process writes to the store.
-
-        Raises
-        ------
-        FileError : its files are damaged.
+        `mine` says that this process holds the store's lock, so that no other process writes to the store.
         """
         if not path.is_file():
             return False
@@ -147,13 +131,7 @@ class Store:
     @classmethod
     @contextmanager
     def read(cls, path: Path) -> Iterator[Store]:
-        """Open a store for reading; a driver may write to it at the same time.
-
-        Raises
-        ------
-        FileError : the store is missing, cannot be read, is damaged, is not a store, or is of another numerical
-            version.
-        """
+        """Open a store for reading; a driver may write to it at the same time."""
         if not cls.is_begun(path):
             raise FileError(f"there is no store {str(path)!r} yet; run the study first")
         with in_words(path), closing(connect_reader(path), path) as connection:
@@ -224,10 +202,8 @@ class Store:
     def save(self, outcomes: Iterable[Outcome], worker: str, attempt: int, run: int) -> None:
         """Save outcomes of points of the plan, all or none of them; a result is never overwritten.
 
-        Raises
-        ------
-        FileError : the disk is full or gone; or others have deleted or replaced the store, or run the study, too.
-            The outcomes are then saved first if they can be, and the message says where.
+        If others have deleted or replaced the store, or run the study too, the outcomes are saved first if they
+        can be.
         """
         question = (
             "SELECT b.hash, p.changes FROM plan p JOIN plan_bases b USING (base) LEFT JOIN points q USING (key) "
@@ -264,12 +240,8 @@ class Store:
     def waiting(self, retry_before: int = 0) -> Iterator[Waiting]:
         """Yield the units that contain points without a result, in the order of the plan that was set.
 
-        Their recipes are the plan's and never the store's, because a recipe may hold a user's code.
-
-        Parameters
-        ----------
-        retry_before : number of a run. A point that failed in a run with a lower number counts as missing; with 0,
-            failed points are not retried.
+        Their recipes are the plan's and never the store's, because a recipe may hold a user's code. A point that
+        failed in a run with a lower number than `retry_before` counts as missing.
         """
         chained = self._about.get("chained") == "1"
         missing = f"(q.status IS NULL OR (q.status IN {_FAILED} AND q.run_number < {int(retry_before)}))"
@@ -388,15 +360,6 @@ def salvage(path: Path, plan: Plan) -> Salvaged:
     """Replace a damaged store by a new one that holds every result whose digest matches.
 
     The caller must hold the store's lock. An undamaged store is not changed.
-
-    Parameters
-    ----------
-    path : of the store.
-    plan : the plan whose points the new store gets.
-
-    Raises
-    ------
-    FileError : there is no store, it has no intact result, or the folder cannot be written to.
     """
     if not path.is_file():
         raise FileError(f"there is no store {str(path)!r} to salvage; check the path, or run the study")

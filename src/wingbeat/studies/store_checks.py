@@ -80,13 +80,7 @@ def _beside(store: Path) -> Path:
 class Lock:
     """The lock of a store, held by this process; made by `only_one`.
 
-    Parameters
-    ----------
-    store : real path of the store.
-
-    Raises
-    ------
-    FileError : another process holds it, the folder cannot be written to, or its file system has no locks.
+    It is of the real path of a store.
     """
 
     def __init__(self, store: Path) -> None:
@@ -124,12 +118,7 @@ class Lock:
         return False
 
     def renew(self) -> None:
-        """Take the lock again if its file was deleted.
-
-        Raises
-        ------
-        FileError : as of `Lock`: meanwhile another process has taken it.
-        """
+        """Take the lock again if its file was deleted."""
         if not self._is_of(self._descriptor):
             fresh = self._taken()
             os.close(self._descriptor)
@@ -147,13 +136,7 @@ class Lock:
 def only_one(store: Path) -> Iterator[Lock]:
     """Hold the lock of a store during a block.
 
-    Parameters
-    ----------
-    store : real path of the store.
-
-    Raises
-    ------
-    FileError : as of `Lock`, or the store has several names (hard links).
+    `store` is its real path; a store with several names (hard links) is refused.
     """
     names = 1
     with suppress(OSError):
@@ -190,14 +173,7 @@ class _Damaged(Exception):
 def check_files(path: Path, mine: bool) -> None:
     """Refuse a store with damaged files before SQLite opens them, because SQLite would truncate a damaged log.
 
-    Parameters
-    ----------
-    path : of the store.
-    mine : whether this process holds the store's lock, so that no other process is writing to the log.
-
-    Raises
-    ------
-    FileError : the store is damaged, or cannot be read.
+    `mine` says that this process holds the store's lock, so that no other process is writing to the log.
     """
     fault = log_fault(path)
     if fault is not None and not mine:  # perhaps a driver was just writing: look again if no driver is running
@@ -227,11 +203,6 @@ def check_contents(connection: sqlite3.Connection, path: Path) -> None:
 
     Every row of every table is read, which takes about 30 us per point. If this process has already found the same
     files undamaged, it reads nothing.
-
-    Raises
-    ------
-    FileError : the file is one of these; the message says which, and what to do.
-    sqlite3.Error : SQLite itself cannot read the file.
     """
     stamp = _stamp(path)
     if _SOUND.get(path) == stamp:
@@ -324,19 +295,13 @@ def _check_tables(connection: sqlite3.Connection, about: dict[str, str]) -> None
     if found != expected:
         raise _Damaged(f"the {found.rows} results in it are not the {expected.rows} that were written")
     for table in PLAN_TABLES:
-        if digest_of(connection, table) != about.get(table, digest_of_nothing()):
+        if digest_of(connection, table) != about.get(table, table_digest([])):
             raise _Damaged("the stored points of the study do not match their digest")
 
 
 def digest_of(connection: sqlite3.Connection, table: str) -> str:
     """Return the digest of a table that a plan determines."""
     return table_digest(_rows(connection, table, PLAN_TABLES[table]))
-
-
-@functools.cache
-def digest_of_nothing() -> str:
-    """Return the digest of a table without rows."""
-    return table_digest([])
 
 
 def _rows(connection: sqlite3.Connection, table: str, order: str) -> Iterator[tuple]:
@@ -351,11 +316,7 @@ def _rows(connection: sqlite3.Connection, table: str, order: str) -> Iterator[tu
 class Watch:
     """A watch over the files of a store that this process writes to.
 
-    Parameters
-    ----------
-    path : of the store.
-    connection : to it; it is still of use if the store's name is gone.
-    lock : the store's lock, if this process holds it.
+    The connection is still of use if the store's name is gone.
     """
 
     def __init__(self, path: Path, connection: sqlite3.Connection, lock: Lock | None) -> None:
@@ -364,12 +325,7 @@ class Watch:
         self._store, self._logged = identity_of(path), identity_of(self._log)
 
     def check(self) -> None:
-        """Keep all results if others have deleted or replaced the store or its log, or taken its lock.
-
-        Raises
-        ------
-        FileError : they have; the message says where the results are.
-        """
+        """Keep all results if others have deleted or replaced the store or its log, or taken its lock."""
         name = repr(str(self._path))
         if identity_of(self._path) != self._store:
             what = "was deleted, moved or replaced while the study ran"

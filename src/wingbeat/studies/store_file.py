@@ -44,10 +44,6 @@ def _told(values: Iterable[Any]) -> bytes:
 def row_digest(values: Iterable[Any]) -> bytes:
     """Return the BLAKE2b digest of a row: of the value, type and length of each column.
 
-    Parameters
-    ----------
-    values : as SQLite gives them: text, whole numbers, floats, bytes or None.
-
     >>> row_digest(["3f2a", 1.0]) == row_digest(["3f2a", 1])
     False
     """
@@ -114,21 +110,17 @@ def whole_answers(path: Path) -> dict[str, tuple[Any, ...]]:
     """Return the intact rows of the table ``points``, by key; the store's files may be damaged in any way.
 
     If a point has two results, the one that did not fail is used, or else that of the later run.
-
-    Parameters
-    ----------
-    path : of the store; its write-ahead log is read as well.
     """
+
+    def rank(row: tuple[Any, ...]) -> tuple[bool, int]:
+        return row[_STATUS] not in FAILED, row[_NUMBER]
+
     found: dict[str, tuple[Any, ...]] = {}
     for row in _rows(path):
         with suppress(ValueError, TypeError, UnicodeError):
             if len(row) == len(POINT_COLUMNS) and row_digest(row[:-1]) == row[-1]:
-                found[row[0]] = max(found.get(row[0], row), row, key=_rank)
+                found[row[0]] = max(found.get(row[0], row), row, key=rank)
     return found
-
-
-def _rank(row: tuple[Any, ...]) -> tuple[bool, int]:
-    return row[_STATUS] not in FAILED, row[_NUMBER]
 
 
 def _rows(path: Path) -> Iterator[tuple[Any, ...]]:
@@ -399,12 +391,7 @@ def refusal(path: Path, reason: str) -> DamagedStoreError:
 
 @contextmanager
 def in_use(path: Path) -> Iterator[None]:
-    """Turn an error in the use of a store's content into a `FileError`: its digests match, but no study wrote it.
-
-    Raises
-    ------
-    FileError : in place of any error that is neither wingbeat's nor SQLite's.
-    """
+    """Turn an error in using a store's content into a `FileError`: no study wrote it, though its digests match."""
     try:
         yield
     except (WingbeatError, sqlite3.Error):
@@ -416,12 +403,7 @@ def in_use(path: Path) -> Iterator[None]:
 
 @contextmanager
 def in_words(path: Path) -> Iterator[None]:
-    """Turn errors of SQLite into a `FileError` in words.
-
-    Raises
-    ------
-    FileError : in place of an error of SQLite.
-    """
+    """Turn errors of SQLite into a `FileError` in words."""
     try:
         yield
     except sqlite3.Error as error:

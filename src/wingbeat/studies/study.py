@@ -10,16 +10,7 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base import (
-    Fault,
-    FaultList,
-    FileError,
-    InvalidInputError,
-    Report,
-    Reported,
-    label_of,
-    plain_unit,
-)
+from wingbeat._base import Fault, FaultList, FileError, InvalidInputError, Report, Reported, label_of, plain_unit
 from wingbeat._workers.tuning import core_count
 from wingbeat.animal.species.numbers import shown
 from wingbeat.orbits.batch import check_processes
@@ -301,13 +292,7 @@ def _unit(name: str) -> str:
 
 
 def engine_for(processes: Any, timeout: Any, dask: Any, told: Callable[[str], None]) -> Engine:
-    """Return an engine: processes of this machine or a Dask cluster, whose notices go to `told`.
-
-    Raises
-    ------
-    InvalidInputError : a study cannot be run with these settings.
-    ClusterError : see `DaskEngine`.
-    """
+    """Return an engine: processes of this machine or a Dask cluster, whose notices go to `told`."""
     check_run(processes, timeout, dask)
     if dask is None:
         return LocalProcesses(processes or core_count(), timeout)

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
 
-    from wingbeat.studies.store import Row, Store
+    from wingbeat.studies.store import Store
 
 SUFFIXES = (".nc", ".csv", ".parquet")
 KIND = "study"
@@ -48,7 +48,17 @@ def frame_of(store: Store) -> pd.DataFrame:
     rows, columns = [], ({}, {}, {})
     for row in store.rows():
         status = {"key": row.key, "status": row.status or "waiting"}
-        parts = status | asked[row.base] | dict(flat(row.told)), _found(row), _kept(row)
+        record = {} if row.record is None else dict(flat(json.loads(row.record)))
+        record.pop("status", None)
+        run = {
+            "certificate": row.certificate,
+            "error": row.error or "",
+            "run_seconds": row.seconds,
+            "run_finished": None if row.finished is None else datetime.fromtimestamp(row.finished, UTC).isoformat(),
+            "run_worker": row.worker or "",
+            "run_attempt": row.attempt,
+        }
+        parts = status | asked[row.base] | dict(flat(row.told)), record, run
         for names, part in zip(columns, parts, strict=True):
             names.update(dict.fromkeys(part))
         # The record's own names take precedence: they say what was solved, in SI units.
@@ -90,22 +100,6 @@ def _asked(bases: list[tuple[dict[str, Any], dict[str, Any]]]) -> list[dict[str,
     ]
 
 
-def _found(row: Row) -> dict[str, Any]:
-    record = {} if row.record is None else dict(flat(json.loads(row.record)))
-    return {name: value for name, value in record.items() if name != "status"}
-
-
-def _kept(row: Row) -> dict[str, Any]:
-    return {
-        "certificate": row.certificate,
-        "error": row.error or "",
-        "run_seconds": row.seconds,
-        "run_finished": None if row.finished is None else datetime.fromtimestamp(row.finished, UTC).isoformat(),
-        "run_worker": row.worker or "",
-        "run_attempt": row.attempt,
-    }
-
-
 def to_dataset(frame: pd.DataFrame, about: dict[str, Any]) -> xr.Dataset:
     """Return a table as a labelled dataset along ``point``.
 
@@ -145,14 +139,7 @@ def check_table_name(faults: FaultList, where: str, path: str | PathLike[str]) -
 
 
 def save_table(frame: pd.DataFrame, about: dict[str, Any], path: str | PathLike[str]) -> None:
-    """Write a table with its units as NetCDF-4, CSV or Parquet, by the suffix, completely or not at all.
-
-    Raises
-    ------
-    InvalidInputError : another suffix.
-    FileError : the file cannot be written.
-    WingbeatError : Parquet without pyarrow.
-    """
+    """Write a table with its units as NetCDF-4, CSV or Parquet, by the suffix, completely or not at all."""
     faults = FaultList()
     check_table_name(faults, "path", path)
     faults.raise_if_any()
@@ -162,7 +149,6 @@ def save_table(frame: pd.DataFrame, about: dict[str, Any], path: str | PathLike[
     elif suffix == ".csv":
         write_atomically(path, _head(frame) + _rows(frame))
     else:
-        check_parquet()
         write_atomically(path, _parquet(frame))
 
 
@@ -192,21 +178,15 @@ def _rows(frame: pd.DataFrame) -> str:
 
 def _parquet(frame: pd.DataFrame) -> bytes:
     """Return a table as a Parquet file whose fields hold ``units`` and ``long_name`` as metadata."""
-    import pyarrow as pa  # pyright: ignore[reportMissingImports]
-    import pyarrow.parquet as pq  # pyright: ignore[reportMissingImports]
-
+    try:
+        import pyarrow as pa  # pyright: ignore[reportMissingImports]
+        import pyarrow.parquet as pq  # pyright: ignore[reportMissingImports]
+    except ImportError:
+        raise WingbeatError(
+            f"To write Parquet, install pyarrow: {install_extra('parquet')}. Or choose a name ending in .nc or .csv"
+        ) from None
     table, meanings = pa.Table.from_pandas(frame, preserve_index=False), _meanings(frame)
     fields = [field.with_metadata(meanings[field.name]) for field in table.schema]
     held = io.BytesIO()
     pq.write_table(table.cast(pa.schema(fields, table.schema.metadata)), held)
     return held.getvalue()
-
-
-def check_parquet() -> None:
-    """Raise `WingbeatError` if Parquet cannot be written."""
-    try:
-        import pyarrow  # noqa: F401  # pyright: ignore[reportMissingImports]
-    except ImportError:
-        raise WingbeatError(
-            f"To write Parquet, install pyarrow: {install_extra('parquet')}. Or choose a name ending in .nc or .csv"
-        ) from None

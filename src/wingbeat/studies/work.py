@@ -44,7 +44,13 @@ def solve_unit(unit: Unit) -> Iterator[Outcome]:
             found, known = _search(unit.recipe, task.changes, before)
             if found.status is Status.CONVERGED:
                 before.append(known)
-            outcome = _outcome(task.key, orbit_record(found), begun)
+            record = orbit_record(found)
+            record.pop("solve_seconds")  # of the run, not of the point
+            misses = record["closure"].values()
+            certificate = None if None in misses else max(map(abs, misses))
+            told = json.dumps(record, separators=(",", ":"), allow_nan=False)
+            status, text = record["status"], "" if found.status is Status.CONVERGED else record["message"]
+            outcome = Outcome(task.key, status, told, certificate, text, time.perf_counter() - begun)
         except Exception as error:  # whatever a user's numbers or functions raise is told beside the point
             text = f"{type(error).__name__}: {error}"
             yield failed(task.key, "error", text, time.perf_counter() - begun)
@@ -78,12 +84,3 @@ def _search(recipe: str, changes: Mapping[str, Any], before: list[_Before]) -> t
 @functools.lru_cache(_KEPT)
 def _recipe(inputs: str) -> Recipe:
     return recipe_from(json.loads(inputs))
-
-
-def _outcome(key: str, record: dict[str, Any], begun: float) -> Outcome:
-    record.pop("solve_seconds")  # of the run, not of the point
-    misses = record["closure"].values()
-    certificate = None if None in misses else max(map(abs, misses))
-    text = "" if record["status"] == Status.CONVERGED.value else record["message"]
-    told = json.dumps(record, separators=(",", ":"), allow_nan=False)
-    return Outcome(key, record["status"], told, certificate, text, time.perf_counter() - begun)

@@ -134,7 +134,7 @@ class ModelOptions:
     def problem(
         self, name: str, speed: float, settings: list[str] | None, *, within_plausible: bool = False, **asked: Any
     ) -> OrbitProblem:
-        """Return the problem for a species given by name or file; a None in `asked` means the model's own choice."""
+        """Return the problem for a species given by name or file; None in `asked` means the model's own choice."""
         species, model = self.flown(name, settings)
         given = {key: value for key, value in asked.items() if value is not None}
         return model.problem(species, speed, bounds="plausible" if within_plausible else {}, **given)

@@ -1,4 +1,7 @@
-"""Arguments of several commands: options in few words, ranges of numbers, and checks of the files they name."""
+"""Arguments of several commands: options in few words, ranges of numbers, and checks of the files they name.
+
+Nothing heavy is imported here: also commands that need no arrays and no data sets take their options from it.
+"""
 
 from __future__ import annotations
 
@@ -11,15 +14,16 @@ from decimal import Decimal, InvalidOperation
 from fractions import Fraction
 from math import floor, lcm
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-import numpy as np
 from cyclopts import Parameter, Token
-from numpy.typing import NDArray
 
 from wingbeat._base import FaultList, writing
 from wingbeat.plots import check_figure_name
-from wingbeat.records.result_files import check_result_name
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 # --- options ---
 
@@ -143,6 +147,8 @@ def parse_range(text: str, where: str) -> NDArray[np.float64]:
     >>> parse_range("5", "--alpha").tolist()
     [5.0]
     """
+    import numpy as np
+
     faults = FaultList()
     pieces = str(text).split(":")
     if len(pieces) not in (1, 3):
@@ -174,6 +180,8 @@ def check_result(faults: FaultList, output: Path | None, **figures: Path | None)
     `check_outputs` refuses folders and devices.
     """
     if output is not None and (os.path.isfile(output) or not os.path.exists(output)):
+        from wingbeat.records.result_files import check_result_name
+
         check_result_name(faults, "--output", output)
     check_files(faults, output, **figures)
 

@@ -154,7 +154,7 @@ def stability(
         bool(found),
         json=json,
         output=output,
-        save=None if flown is None else lambda path: flown.mode_flight(mode).save(path),
+        save=None if flown is None else lambda path: flown.mode_flight(mode or 0).save(path),
         plot=plot,
         page=(lambda: stability_page(found)) if found else None,
     )

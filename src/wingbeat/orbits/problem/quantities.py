@@ -350,7 +350,7 @@ def read_limits(given: Sequence[Any], faults: FaultList) -> tuple[list[WingbeatL
 
     Parameters
     ----------
-    given : texts and constraints.
+    given : texts, constraints, and limits of wingbeat parameters.
     faults : receives what is not a limit, angles in degrees, and limits that contradict each other.
 
     >>> [str(one) for one in read_limits(["peak_power<=30", "peak_power<=40", "peak_power<=30.0"], FaultList())[1]]
@@ -359,7 +359,7 @@ def read_limits(given: Sequence[Any], faults: FaultList) -> tuple[list[WingbeatL
     parameters: dict[tuple[str, str], WingbeatLimit] = {}
     quantities: dict[tuple[str, str], Constraint] = {}
     for i, one in enumerate(given):
-        limit = parse_wingbeat_limit(one)
+        limit = one if isinstance(one, WingbeatLimit) else parse_wingbeat_limit(one)
         if limit is not None:
             if limit.name not in ANGLES or faults.angle(limit.name, limit.value, advice=f"write '{one} deg'"):
                 _add(parameters, (limit.name, limit.sign), limit, limit.value, faults)

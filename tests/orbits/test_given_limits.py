@@ -9,6 +9,7 @@ import xarray as xr
 import wingbeat as wb
 from tests.helpers.species_texts import MINIMAL
 from wingbeat.cli import main
+from wingbeat.orbits.problem.limits import WingbeatLimit
 
 PIGEON = wb.load_species("pigeon")
 MODEL = wb.FlightModel(PIGEON.vehicle, "su-fan")
@@ -131,3 +132,8 @@ def test_what_is_no_state_is_refused_in_words(state):
         wb.InvalidInputError, match=r"must be a State or six numbers: x, z \[m\], body_pitch \[rad\]"
     ):
         wb.simulate(MODEL, PIGEON.wingbeat, state)
+
+
+def test_a_limit_of_a_parameter_is_a_text_or_a_value():
+    value = problem(subject_to=[WingbeatLimit("flap_amplitude", "<=", math.radians(50.0))])
+    assert value == problem(subject_to=["flap_amplitude<=50 deg"])

@@ -9,7 +9,7 @@ import xarray as xr
 import wingbeat as wb
 from tests.helpers.species_texts import MINIMAL
 from wingbeat.cli import main
-from wingbeat.orbits.problem.limits import WingbeatLimit
+from wingbeat.orbits.problem.quantities import WingbeatLimit
 
 PIGEON = wb.load_species("pigeon")
 MODEL = wb.FlightModel(PIGEON.vehicle, "su-fan")

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import Parameter, Token
 
 from wingbeat._base import FaultList, writing
-from wingbeat.plots.figure_files import check_figure_name
+from wingbeat.plots import check_figure_name
 
 if TYPE_CHECKING:
     import numpy as np

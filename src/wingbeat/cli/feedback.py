@@ -13,7 +13,7 @@ from wingbeat._base import FaultList, Line, heading
 from wingbeat.cli.arguments import Whole, check_files, check_outputs, figure, flag, named_numbers, several
 from wingbeat.cli.problem_options import Gust, Turbulence, WindSeed, saved_orbit, wind_of
 from wingbeat.cli.terminal import deliver, plain_console, print_report, progress_bar
-from wingbeat.plots.draw_stability import gust_page
+from wingbeat.plots import gust_page
 from wingbeat.stability.beat_feedback import Feedback
 from wingbeat.stability.beat_feedback import feedback as compute
 from wingbeat.stability.checks import check_delay, check_inputs, check_late, check_noise

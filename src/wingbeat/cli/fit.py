@@ -16,7 +16,7 @@ from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import answer
 from wingbeat.experiment.coefficient_table import load_measurements
 from wingbeat.experiment.wing_fit import WingFit, fit_wing
-from wingbeat.plots.draw_experiments import fit_page
+from wingbeat.plots import fit_page
 
 
 def fit(

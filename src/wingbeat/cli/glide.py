@@ -14,7 +14,7 @@ from wingbeat.cli.arguments import Output, check_outputs, check_result, figure, 
 from wingbeat.cli.problem_options import DEFAULT_MODEL, SPECIES, ModelOptions, Payload, Settings
 from wingbeat.cli.terminal import deliver, plain_console
 from wingbeat.mechanics.glide import Glide
-from wingbeat.plots.draw_glide import glide_page
+from wingbeat.plots import glide_page
 from wingbeat.results.glide import GlidePolar, glide_polar
 
 # The head of each column, and what of a glide stands in it.

@@ -11,9 +11,7 @@ from cyclopts import Parameter
 from wingbeat._base import KIND, FaultList
 from wingbeat.animal.vehicle import Air
 from wingbeat.cli.arguments import check_outputs, flag, written_to
-from wingbeat.plots.figure_files import check_figure_name, save_figure
-from wingbeat.plots.draw_power import power_page
-from wingbeat.plots.draw_wingbeat import wingbeat_page
+from wingbeat.plots import check_figure_name, power_page, save_figure, wingbeat_page
 from wingbeat.plots.published import published_for
 from wingbeat.records.inputs import vehicle_from
 from wingbeat.records.result_files import load_dataset

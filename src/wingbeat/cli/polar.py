@@ -19,7 +19,7 @@ from wingbeat.aero import CoefficientModel, load_coefficients, thin_aerofoil_lif
 from wingbeat.cli.arguments import check_outputs, flag, parse_range, written_to
 from wingbeat.cli.problem_options import say_notes
 from wingbeat.cli.terminal import answer
-from wingbeat.plots.figure_files import check_figure_name
+from wingbeat.plots import check_figure_name
 
 Columns = dict[str, list[float] | list[None]]
 

@@ -44,7 +44,7 @@ from wingbeat.experiment.film_fit import FilmedBeat
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.flights import check_samples
 from wingbeat.orbits.problem.filmed import filmed_species
-from wingbeat.plots.draw_experiments import film_page
+from wingbeat.plots import film_page
 from wingbeat.records.numbers import beat_mean
 from wingbeat.records.orbit_record import crossing
 from wingbeat.results.flight import Flight

@@ -34,7 +34,7 @@ from wingbeat.cli.problem_options import (
 )
 from wingbeat.cli.terminal import deliver, print_report, progress_bar
 from wingbeat.orbits.status import Status
-from wingbeat.plots.draw_stability import stability_page
+from wingbeat.plots import stability_page
 from wingbeat.results.orbit import solve_orbit, solve_orbits
 from wingbeat.stability.causes import stability_sensitivities
 from wingbeat.stability.checks import check_inputs

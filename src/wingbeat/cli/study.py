@@ -117,8 +117,7 @@ def plot(
     ] = None,
 ) -> None:
     """Draw a result against the varied parameters: lines for one, maps for two, parallel axes for more of them."""
-    from wingbeat.plots.figure_files import check_figure_name, save_figure
-    from wingbeat.plots.draw_study import study_page
+    from wingbeat.plots import check_figure_name, save_figure, study_page
 
     with _written(output, check_figure_name, "figure.png, .pdf or .svg") as path:
         save_figure(study_page(*_read(file).drawing(quantity)), path)

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 from wingbeat._base import FileError, Report, Tone, WingbeatError, first_line, lines_of
 from wingbeat._leftovers import Leftover
 from wingbeat.cli.process import EXIT_GOOD, EXIT_INTERRUPTED, EXIT_NOT_CERTIFIED, EXIT_TERMINATED, StdoutError
-from wingbeat.plots.figure_files import save_figure
+from wingbeat.plots import save_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

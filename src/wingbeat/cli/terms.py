@@ -22,7 +22,7 @@ from wingbeat.cli.problem_options import (
     WithinPlausible,
 )
 from wingbeat.cli.terminal import deliver, plain_console, progress_bar
-from wingbeat.plots.draw_influences import terms_page
+from wingbeat.plots import terms_page
 from wingbeat.results.terms import found_any, trace_terms
 
 

@@ -8,7 +8,7 @@ import wingbeat as wb
 from tests.helpers.species_texts import GOOD, SPECIES
 from wingbeat._base import FileError, control_in, read_text, toml_tables
 from wingbeat.cli import main
-from wingbeat.records.inputs import inputs_hash
+from wingbeat.records.forms import inputs_hash
 from wingbeat.records.result_files import load_dataset, save_result
 
 RED, TURNED = "\x1b[31m", "\u202e"

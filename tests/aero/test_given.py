@@ -18,7 +18,8 @@ import wingbeat as wb
 from tests.helpers.driven import BETWEEN, KNOTS, spline_torques
 from wingbeat.cli import main
 from wingbeat.experiment import fit_film, synthetic_film
-from wingbeat.records.inputs import inputs_hash, problem_from
+from wingbeat.records.forms import inputs_hash
+from wingbeat.records.inputs import problem_from
 
 PIGEON = wb.load_species("pigeon")
 SAMPLES = 128  # as in the tests of flights: models of one form then share what is traced

@@ -14,7 +14,7 @@ import wingbeat as wb
 from wingbeat._base import FileError
 from wingbeat.cli import main
 from wingbeat.records import netcdf as declared
-from wingbeat.records.inputs import inputs_hash
+from wingbeat.records.forms import inputs_hash
 from wingbeat.records.netcdf import digest, netcdf_bytes
 from wingbeat.records.result_files import load_dataset, save_result
 

@@ -12,7 +12,8 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.records.judgements import is_judgement, plausibility, set_by_limit, statements
+from wingbeat.records.judgements import is_judgement, set_by_limit, statements
+from wingbeat.records.orbit_record import plausibility
 from wingbeat.words.curve_words import pareto_report
 from wingbeat.words.orbit_words import limits_in_words, orbit_groups
 

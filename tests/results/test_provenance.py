@@ -10,8 +10,8 @@ import xarray as xr
 import wingbeat as wb
 from wingbeat._base import SERIES
 from wingbeat._jax.arrays import jax
-from wingbeat.records.forms import orbit_attributes
-from wingbeat.records.inputs import aero_record, inputs_hash, inputs_of, problem_from
+from wingbeat.records.forms import inputs_hash, orbit_attributes
+from wingbeat.records.inputs import aero_record, inputs_of, problem_from
 from wingbeat.records.result_files import save_result
 
 

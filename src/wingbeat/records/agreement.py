@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping
-from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -18,19 +17,38 @@ from wingbeat._base import SHAPE, STATE_NAMES, harmonic_place, is_number
 from wingbeat._jax.arrays import own_settings
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.animal.kinematics import PARAMETER_NAMES, Wingbeat, parameter
+from wingbeat.animal.vehicle import Air
 from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.flight.beat import Beat
-from wingbeat.orbits.flight.period import PATH_NAMES, SYMMETRY
+from wingbeat.orbits.flight.period import SYMMETRY
 from wingbeat.orbits.options import DEFAULTS
 from wingbeat.orbits.problem.plausible import judged_names
+from wingbeat.orbits.problem.problem import PATH_NAMES
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.problem.quantity import drive_numbers
 from wingbeat.orbits.status import Status
 from wingbeat.records.forms import from_json
-from wingbeat.records.inputs import OWN, aero_inputs, inputs_of, problem_from, shape_attribute
+from wingbeat.records.inputs import (
+    OWN,
+    aero_inputs,
+    inputs_of,
+    problem_from,
+    shape_attribute,
+    vehicle_from,
+    vehicle_record,
+    wingbeat_record,
+)
 from wingbeat.records.judgements import OF_BEAT, judged
 from wingbeat.records.numbers import alpha_range, flight_numbers, power_summary
-from wingbeat.records.series_agreement import ABSOLUTE, check_newton, check_series, check_wings, demand, same
+from wingbeat.records.series_agreement import (
+    ABSOLUTE,
+    check_finite,
+    check_newton,
+    check_series,
+    check_wings,
+    demand,
+    same,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -70,11 +88,12 @@ def check_orbit(record: dict[str, Any], inputs: dict[str, Any], dataset: xr.Data
     own = shape_attribute(species).get(SHAPE)
     demand(own == dataset.attrs.get(SHAPE, own), "shape is not that of the species")
     # All numbers that can be judged are, and each judgement follows from value and species.
-    problem: Any = SimpleNamespace(species=species, speed=record["speed"])
     names = judged_names(species, tuple(inputs["free"]))
     demand([one["name"] for one in record["plausibility"]] == list(names), "plausibility lacks a judgement")
     for one in record["plausibility"]:
-        demand(one == judged(problem, one["name"], one["value"]), f"{one['name']} is judged wrongly")
+        demand(
+            one == judged(species, record["speed"], one["name"], one["value"]), f"{one['name']} is judged wrongly"
+        )
 
 
 def check_limits(
@@ -145,13 +164,13 @@ def _check_numbers(record: dict[str, Any], species: Species, series: dict[str, n
     of_vehicle = {"mass": vehicle.mass, "weight": weight, "semi_span": vehicle.wing.semi_span}
     known = {**series, **wingbeat, **record, **of_vehicle, "drive": vehicle.drive}
     beat = Beat(**{name: known[name] for name in Beat._fields})
-    problem: Any = SimpleNamespace(vehicle=vehicle, air=species.air, speed=record["speed"])
+    flight = vehicle, species.air, record["speed"]
     with own_settings():
         driven = drive_numbers(beat)
         of_beat = {name: float(np.max(QUANTITIES[name].of(beat))) for name in OF_BEAT}
     found = {
-        **power_summary(problem, beat),
-        **flight_numbers(problem, wingbeat["frequency"], wingbeat["flap_amplitude"]),
+        **power_summary(*flight, beat),
+        **flight_numbers(*flight, wingbeat["frequency"], wingbeat["flap_amplitude"]),
         **driven,
         "body_pitch_range": float(np.ptp(series["body_pitch"])),
     }
@@ -263,13 +282,12 @@ def _check_point(
         demand(not np.isfinite(values[~found]).any(), f"{name} has values where there is no optimum")
     demand(bool((np.diff(numbers["objective_value"][found]) >= 0).all()), "the optima of a speed are not in order")
     speed = float(columns["speed"][i])
-    problem: Any = SimpleNamespace(species=species, vehicle=species.vehicle, air=species.air, speed=speed)
     weight = species.vehicle.mass * species.air.gravity
     options = inputs.get("options", {}).get("certificate", {})
     tolerance = options.get("closure_tolerance", DEFAULTS.certificate.closure_tolerance)
     for k in np.flatnonzero(found).tolist():
         own = {name: float(v[k]) for name, v in numbers.items()}
-        derived = flight_numbers(problem, own["frequency"], own["flap_amplitude"])
+        derived = flight_numbers(species.vehicle, species.air, speed, own["frequency"], own["flap_amplitude"])
         derived["cost_of_transport"] = own["mean_positive_power"] / (weight * speed) if weight * speed else None
         for name, value in derived.items():
             same(name, own[name] if math.isfinite(own[name]) else None, value)
@@ -289,5 +307,19 @@ def _check_point(
         outside = {*filter(None, str(columns["outside_ranges"][i, k]).split(", "))}
         values = {**own, "positive_power_per_mass": own["mean_positive_power"] / species.vehicle.mass}
         for name in {*judged_names(species, tuple(inputs["free"]))} & {*values}:
-            is_out = judged(problem, name, values[name])["within"] is False
+            is_out = judged(species, speed, name, values[name])["within"] is False
             demand(is_out == (name in outside), f"{name} is judged wrongly")
+
+
+def check_flight(dataset: xr.Dataset) -> None:
+    """Check that vehicle, wingbeat and series of a flight can be those of one flight."""
+    about = {name: from_json(dataset.attrs[name]) for name in ("vehicle", "air", "wingbeat")}
+    vehicle, air, wingbeat = vehicle_from(about["vehicle"]), Air(**about["air"]), Wingbeat(**about["wingbeat"])
+    again = (vehicle_record(vehicle), dict(vars(air)), wingbeat_record(wingbeat))
+    for (name, own), found in zip(about.items(), again, strict=True):
+        demand(own == json.loads(json.dumps(found)), f"{name} is of another form")
+    series = {str(name): variable.values for name, variable in dataset.variables.items()}
+    check_series(series, vehicle.mass * air.gravity)
+    check_finite(series)
+    first = series["phase"] < 1.0  # a controller may change the wingbeat of the next beat
+    check_wings(wingbeat, {name: values[first] for name, values in series.items() if values.shape == first.shape})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 from collections.abc import Callable
@@ -9,7 +10,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._base import KIND, NOMENCLATURE, SERIES, SERIES_WHERE_ON, SHAPE, STATE_NAMES, control_in, is_number
 from wingbeat.animal.species.file_schema import KINDS
-from wingbeat.records.inputs import inputs_hash
 from wingbeat.records.judgements import is_judgement, statements
 
 if TYPE_CHECKING:
@@ -267,3 +267,8 @@ def _decode(name: str, value: Any) -> Any:
     if not _ITEMS.get(name, lambda _: True)(value):
         raise ValueError(f"{name} holds something else than it should")
     return value
+
+
+def inputs_hash(inputs: dict[str, Any]) -> str:
+    """Return the SHA-256 of the inputs; the order of the inputs does not matter."""
+    return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()

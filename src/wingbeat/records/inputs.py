@@ -6,7 +6,6 @@ which `problem_from` sets up the same problem again.
 
 from __future__ import annotations
 
-import hashlib
 import json
 import math
 from collections.abc import Callable
@@ -318,8 +317,3 @@ def _brought_back(find: Callable[[str], Any], name: str) -> Any:
         return find(name)
     except InvalidInputError as error:
         raise ValueError(f"unknown objective or quantity {name!r}") from error
-
-
-def inputs_hash(inputs: dict[str, Any]) -> str:
-    """Return the SHA-256 of the inputs; the order of the inputs does not matter."""
-    return hashlib.sha256(json.dumps(inputs, sort_keys=True).encode()).hexdigest()

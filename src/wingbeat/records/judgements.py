@@ -7,11 +7,8 @@ import re
 from typing import Any, NamedTuple
 
 from wingbeat._base import in_words
-from wingbeat.orbits.flight.beat import Beat
-from wingbeat.orbits.flight.period import PATH_NAMES
-from wingbeat.orbits.problem.plausible import judged_names
-from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.problem.quantities import QUANTITIES
+from wingbeat.animal.species.species import Species
+from wingbeat.orbits.problem.problem import PATH_NAMES
 
 # The reader's name of each judged number.
 JUDGED_NAMES = {
@@ -40,25 +37,9 @@ class Statements(NamedTuple):
     good: bool
 
 
-def plausibility(problem: OrbitProblem, beat: Beat, record: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return name, value, unit, low, high, within and source of each judged number; SI and radians.
-
-    An unknown end of a range is None. `within` is false if the value is beyond a known end, None if the number has
-    no value (such as the Strouhal number in hover) or nothing is known of its range, and true otherwise. Activation
-    is judged where there is muscle, the tail's tilt where a tail tilts.
-    """
-    values = {
-        **record,
-        **record["wingbeat"],
-        "positive_power_per_mass": record["mean_positive_power"] / problem.vehicle.mass,
-        **{name: float(QUANTITIES[name].of(beat).max()) for name in OF_BEAT},
-    }
-    return [judged(problem, name, values[name]) for name in judged_names(problem.species, problem.free)]
-
-
-def judged(problem: OrbitProblem, name: str, value: float | None) -> dict[str, Any]:
+def judged(species: Species, speed: float, name: str, value: float | None) -> dict[str, Any]:
     """Return the judgement of one number; `plausibility` says what it holds."""
-    known = problem.species.plausible_range(name, problem.speed)
+    known = species.plausible_range(name, speed)
     low, high = known.low, known.high
     within = None
     if value is not None and math.isfinite(value) and (low, high) != (None, None):

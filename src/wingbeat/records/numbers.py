@@ -9,8 +9,8 @@ import numpy as np
 
 from wingbeat._base import KIND, FaultList
 from wingbeat._base.datasets import at_station
+from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.orbits.flight.beat import Beat, best_spring, mean_positive
-from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.records.tables import finite_or_none
 
 if TYPE_CHECKING:
@@ -101,33 +101,35 @@ POWERS = (
 )
 
 
-def power_summary(problem: OrbitProblem, beat: Beat) -> dict[str, float | None]:
+def power_summary(vehicle: Vehicle, air: Air, speed: float, beat: Beat) -> dict[str, float | None]:
     """Return means and peaks of hinge and actuator power, both wings [W], and the cost of transport."""
     with np.errstate(over="ignore", invalid="ignore"):  # of a diverged flight
         positive = float(mean_positive(beat.hinge_power, np))
-    weight = problem.vehicle.mass * problem.air.gravity
+    weight = vehicle.mass * air.gravity
     return {
         "mean_power": beat_mean(beat.hinge_power),
         "peak_power": float(beat.hinge_power.max()),
         "mean_positive_power": positive,
         "mean_actuator_power": beat_mean(beat.actuator_power),
         "peak_actuator_power": float(beat.actuator_power.max()),
-        "cost_of_transport": positive / (weight * problem.speed) if weight * problem.speed else None,
+        "cost_of_transport": positive / (weight * speed) if weight * speed else None,
     }
 
 
-def flight_numbers(problem: OrbitProblem, frequency: float, flap_amplitude: float) -> dict[str, float | None]:
+def flight_numbers(
+    vehicle: Vehicle, air: Air, speed: float, frequency: float, flap_amplitude: float
+) -> dict[str, float | None]:
     """Return Strouhal number, reduced frequency and Reynolds number; they are None in hover.
 
     Reduced frequency and Reynolds number are those of the mean chord.
     """
-    wing, speed = problem.vehicle.wing, problem.speed
+    wing = vehicle.wing
     if speed == 0:
         return {"strouhal": None, "reduced_frequency": None, "reynolds": None}
     return {
         "strouhal": 2.0 * frequency * wing.semi_span * math.sin(flap_amplitude) / speed,
         "reduced_frequency": math.pi * frequency * wing.mean_chord / speed,
-        "reynolds": problem.air.reynolds(speed, wing.mean_chord),
+        "reynolds": air.reynolds(speed, wing.mean_chord),
     }
 
 

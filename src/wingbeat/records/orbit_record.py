@@ -14,13 +14,15 @@ from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.wing_shape import flap_angles, has_room, lateral_corners
 from wingbeat.orbits.flight.beat import Beat
+from wingbeat.orbits.problem.plausible import judged_names
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.problem.quantity import drive_numbers
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.starts import is_at_lower_bound
 from wingbeat.orbits.status import Status
 from wingbeat.records.inputs import aero_record, vehicle_record, wingbeat_record
-from wingbeat.records.judgements import plausibility
+from wingbeat.records.judgements import OF_BEAT, judged
 from wingbeat.records.numbers import alpha_range, flight_numbers, power_summary
 from wingbeat.records.tables import finite_or_none
 
@@ -31,7 +33,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
     A number without a value (a cost of transport in hover, any number of a diverged flight) is None, never NaN.
     """
     problem, wingbeat, certificate = solution.problem, solution.wingbeat, solution.certificate
-    beat = solution.beat()
+    beat, flight = solution.beat(), (problem.vehicle, problem.air, problem.speed)
     price = {}  # of stability, if the problem was also solved without its limits of stability
     if solution.free_objective is not None:
         price = {"free_objective": solution.free_objective, "price_of_stability": solution.price_of_stability}
@@ -58,9 +60,9 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "starts": solution.starts,
         "distinct_optima": solution.distinct_optima,
         "starts_at_best": solution.starts_at_best,
-        **power_summary(problem, beat),
+        **power_summary(*flight, beat),
         **drive_numbers(beat),
-        **flight_numbers(problem, wingbeat.frequency, wingbeat.flap_amplitude),
+        **flight_numbers(*flight, wingbeat.frequency, wingbeat.flap_amplitude),
         "body_pitch_range": float(np.ptp(certificate.states[:, 2])),
         "alpha_quarter_span": alpha_range(beat, 0.25),
         "alpha_three_quarter_span": alpha_range(beat, 0.75),
@@ -259,3 +261,22 @@ def guessed(coefficients: CoefficientModel) -> list[str]:
 
 def _outside(values: np.ndarray, low: float, high: float) -> float:
     return float(np.mean((values < low) | (values > high)))
+
+
+def plausibility(problem: OrbitProblem, beat: Beat, record: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return name, value, unit, low, high, within and source of each judged number; SI and radians.
+
+    An unknown end of a range is None. `within` is false if the value is beyond a known end, None if the number has
+    no value (such as the Strouhal number in hover) or nothing is known of its range, and true otherwise. Activation
+    is judged where there is muscle, the tail's tilt where a tail tilts.
+    """
+    values = {
+        **record,
+        **record["wingbeat"],
+        "positive_power_per_mass": record["mean_positive_power"] / problem.vehicle.mass,
+        **{name: float(QUANTITIES[name].of(beat).max()) for name in OF_BEAT},
+    }
+    return [
+        judged(problem.species, problem.speed, name, values[name])
+        for name in judged_names(problem.species, problem.free)
+    ]

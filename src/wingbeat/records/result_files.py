@@ -10,12 +10,10 @@ from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 from wingbeat._base import KIND, FaultList, FileError, system_reason, write_atomically
-from wingbeat.records.agreement import check_curve, check_orbit
+from wingbeat.records.agreement import check_curve, check_flight, check_orbit
 from wingbeat.records.characteristic import with_characteristic_speeds
-from wingbeat.records.forms import FORMS, check_form, from_json, parse_attributes, said_of
-from wingbeat.records.inputs import inputs_hash
+from wingbeat.records.forms import FORMS, check_form, from_json, inputs_hash, parse_attributes, said_of
 from wingbeat.records.netcdf import MOST_DECLARED, UnfitFileError, check_declared, netcdf_bytes, own_content
-from wingbeat.records.series_agreement import check_flight
 from wingbeat.records.tables import csv_text, mat_bytes, results_of
 
 if TYPE_CHECKING:

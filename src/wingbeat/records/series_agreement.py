@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -11,13 +10,8 @@ import numpy as np
 from wingbeat._base import STATE_NAMES
 from wingbeat._jax.arrays import own_settings
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
-from wingbeat.animal.vehicle import Air
-from wingbeat.records.forms import from_json
-from wingbeat.records.inputs import vehicle_from, vehicle_record, wingbeat_record
 
 if TYPE_CHECKING:
-    import xarray as xr
-
     from wingbeat.animal.species.species import Species
 
 # Record and series come of two compiled programs, which may differ in a number's last digits.
@@ -122,17 +116,3 @@ def demand(good: bool, otherwise: str) -> None:
     """Raise `ValueError` with the words of the contradiction unless all is good."""
     if not good:
         raise ValueError(otherwise)
-
-
-def check_flight(dataset: xr.Dataset) -> None:
-    """Check that vehicle, wingbeat and series of a flight can be those of one flight."""
-    about = {name: from_json(dataset.attrs[name]) for name in ("vehicle", "air", "wingbeat")}
-    vehicle, air, wingbeat = vehicle_from(about["vehicle"]), Air(**about["air"]), Wingbeat(**about["wingbeat"])
-    again = (vehicle_record(vehicle), dict(vars(air)), wingbeat_record(wingbeat))
-    for (name, own), found in zip(about.items(), again, strict=True):
-        demand(own == json.loads(json.dumps(found)), f"{name} is of another form")
-    series = {str(name): variable.values for name, variable in dataset.variables.items()}
-    check_series(series, vehicle.mass * air.gravity)
-    check_finite(series)
-    first = series["phase"] < 1.0  # a controller may change the wingbeat of the next beat
-    check_wings(wingbeat, {name: values[first] for name, values in series.items() if values.shape == first.shape})

@@ -45,7 +45,8 @@ from wingbeat.records.characteristic import (
     next_speeds,
     with_characteristic_speeds,
 )
-from wingbeat.records.inputs import aero_record, inputs_hash, inputs_of, vehicle_record
+from wingbeat.records.forms import inputs_hash
+from wingbeat.records.inputs import aero_record, inputs_of, vehicle_record
 from wingbeat.records.result_files import Saveable, load_dataset
 from wingbeat.records.tables import finite_or_none, frame_of
 from wingbeat.results.orbit import Orbit

@@ -99,7 +99,8 @@ def orbit_spread(
         solution = search_near(there, orbit.unknowns)
         if solution is not None:
             trim = {f"wingbeat.{name}": parameter(solution.wingbeat, name) for name in problem.free}
-            found.append((power_summary(solution.problem, solution.beat()) | trim, solution.limited))
+            power = power_summary(there.vehicle, there.air, there.speed, solution.beat())
+            found.append((power | trim, solution.limited))
         if progress is not None:
             progress(i, len(wingbeats))
     record, trimmed = orbit.record(), dict(zip(problem.free, orbit.unknowns[4:], strict=True))

@@ -92,7 +92,8 @@ def flight_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
     for name in ("alpha_quarter_span", "alpha_three_quarter_span"):
         if name in record:
             factor, unit = for_people(NOMENCLATURE[name].unit)
-            rows.append((_label(name), _range(*record[name], unit, factor)))
+            low, high = record[name]
+            rows.append((_label(name), _range(low, high, unit, factor)))
     if "body_pitch_range" in record:
         rows.append((_label("body_pitch_range"), _of(record, "body_pitch_range", limited)))
     return rows

@@ -17,7 +17,7 @@ ORACLE = [
 ]
 EQUATION = re.compile(r"^\$\$ \(([a-z0-9-]+)\)$", re.MULTILINE)
 LINK = re.compile(r"^\$\$ \(([a-z0-9-]+)\)\n\nComputed by (.+?)(?:\n\n|\Z)", re.MULTILINE | re.DOTALL)
-OBJECT = re.compile(r"`(wingbeat\.[\w.]+)`")
+OBJECT = re.compile(r"`(wingbeat(?:_\w+)?\.[\w.]+)`")
 CITED = re.compile(r"Theory: equations? ([^.]+)\.")
 LABEL = re.compile(r"``([a-z0-9-]+)``")
 # What the oracle must cite: all that makes the right-hand side of a flight.

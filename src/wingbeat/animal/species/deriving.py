@@ -210,7 +210,7 @@ def _vehicle(kind: Kind, given: Numbers, mass: float, span: float, area: float) 
     return {
         "vehicle.mass": whole,
         "vehicle.body.pitch_inertia": kind.pitch_inertia.number(mass),
-        "vehicle.body.drag_area": Number(0.0, "m2", drag_source, (0.0, _range(drag)[1])),
+        "vehicle.body.drag_area": Number(0.0, plain_unit("drag_area"), drag_source, (0.0, _range(drag)[1])),
         "vehicle.wing.semi_span": length,
         "vehicle.wing.chord": chord,
         "vehicle.wing.mass": wing_mass,

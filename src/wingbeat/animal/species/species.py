@@ -256,7 +256,16 @@ class Species(Reported):
         return self.with_derived(muscle_numbers(self.vehicle.mass, self.kind == "bat"))
 
     def with_derived(self, numbers: Mapping[str, Number]) -> Species:
-        """Return this species with numbers that laws gave, with their own sources and ranges, by their paths."""
+        """Return this species with numbers that laws gave, with their own sources and ranges.
+
+        Parameters
+        ----------
+        numbers : by their paths, such as ``vehicle.body.drag_area``.
+
+        Raises
+        ------
+        InvalidInputError : an unknown path, or a number that the species refuses.
+        """
         found = Numbers()
         found.update(numbers)
         return self._rebuilt(self.numbers | found, found, FaultList())

@@ -103,9 +103,11 @@ from .stability import Reach as Reach
 from .stability import SegmentFeedback as SegmentFeedback
 from .stability import SegmentFlight as SegmentFlight
 from .stability import StabilitySensitivities as StabilitySensitivities
+from .stability import feedback as feedback
 from .stability import feedback_in_beat as feedback_in_beat
 from .stability import fly_pushes as fly_pushes
 from .stability import linearise as linearise
+from .stability import manoeuvre as manoeuvre
 from .stability import simulate_many as simulate_many
 from .stability import stability_sensitivities as stability_sensitivities
 from .stability import survey_gusts as survey_gusts

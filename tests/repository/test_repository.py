@@ -194,7 +194,7 @@ ONCE = {
     'f"did you mean': "_base/errors.py",
     r"get_close_matches\(": "_base/errors.py",
     r"quarter-chord\W+(or )?centre-of-pressure[\".]": "aero/blade_element.py",
-    r"FASTEST_CLIMB = 100|at_most\W+100(\.0)?, .*m/s": "orbits/problem/problem.py",
+    r"FASTEST_CLIMB = 100|at_most\W+100(\.0)?, .*m/s": "orbits/problem/quantities.py",
     r"\bexp\(-[^)]*decay_rate\W* \*": "aero/formula_terms.py",
     r"\b1\.19, .*1\.74\b": "aero/formula_models.py",
     r"[\"']#[0-9A-Fa-f]{6}[\"']|font\.size|axes\.spines\.": "_base/style.py",

@@ -126,7 +126,12 @@ class FormulaTerms:
         return self.in_radians(with_decay=self.decays)(alpha_deg / _DEG)
 
     def in_radians(self, *, with_decay: bool) -> Wave:
-        """Return the same formula in radians; `with_decay` adds an exponential of amplitude 0 if it has none."""
+        """Return the same formula in radians.
+
+        Parameters
+        ----------
+        with_decay : add an exponential term of amplitude 0 if it has none.
+        """
         decay_amplitude, decay_rate = self.decay_amplitude, self.decay_rate
         if decay_amplitude is None or decay_rate is None:
             decay_amplitude = decay_rate = 0.0 if with_decay else None

@@ -161,8 +161,10 @@ FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
 AIRSPEEDS = ("planar", "full")
 # What the choices of `BladeElement` may be, for every door that asks for them: words, and limits of numbers.
 ELEMENT_WORDS = {"force_point": FORCE_POINTS, "airspeed": AIRSPEEDS, "unsteady": UNSTEADY, "inflow": INFLOWS}
-_PART = {"at_least": 0, "at_most": 1}
-ELEMENT_LIMITS = {"induced_factor": {"at_least": 0}, "share": _PART, "hand_from": _PART, "upstroke_factor": _PART}
+ELEMENT_LIMITS: dict[str, dict[str, Any]] = {
+    "induced_factor": {"at_least": 0},
+    **{name: {"at_least": 0, "at_most": 1} for name in ("share", "hand_from", "upstroke_factor")},
+}
 
 
 @dataclass(frozen=True)

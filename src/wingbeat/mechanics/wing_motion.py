@@ -145,7 +145,8 @@ def wing_motion(
     steady, tilt = at_default(wingbeat, "stroke_plane_tilt"), tail_tilt(vehicle, wingbeat)
     span = loads = None
     if along_span:
-        span = tuple(jnp.broadcast_to(part, shape.pitch.shape) for part in shape.spanwise)
+        x, y, z = (jnp.broadcast_to(part, shape.pitch.shape) for part in shape.spanwise)
+        span = x, y, z
     if unsteady:
         loads = unsteady_loads_on_body(strip_motion(shape, shape_rate, shape_second, chord), chord, width)
     return WingMotion(

@@ -182,7 +182,7 @@ def test_a_user_gets_no_tool_of_development() -> None:
     page = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     said = re.findall(r"^uv run --group .*$", page.split("## What CI runs")[1].split("##")[0], re.MULTILINE)
     ran = re.findall(r"^uv run .*$", (ROOT / ".ci" / "run").read_text(encoding="utf-8"), re.MULTILINE)
-    assert len(said) == 6
+    assert len(said) == 7
     assert ran == said
     hooks = re.findall(r"entry: (uv run .*)$", (ROOT / ".pre-commit-config.yaml").read_text("utf-8"), re.MULTILINE)
     assert hooks == said[:4]

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import NOMENCLATURE, SERIES, SERIES_WHERE_ON, attributes_of
+from wingbeat._base import KIND, NOMENCLATURE, SERIES, SERIES_WHERE_ON, __version__, attributes_of
 from wingbeat.animal.kinematics import Wingbeat, chord_ratio, tip_twist
+from wingbeat.animal.species.species import Species
 from wingbeat.mechanics.flight_loads import Loads, MissingLoads, carried_loads, flight_loads
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.wing_points import CORNERS, strip_corners
 from wingbeat.records.forms import SERIES_DIMS
+from wingbeat.records.inputs import shape_attribute, vehicle_record, wingbeat_record
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -50,6 +53,21 @@ def _in_blocks(
     for first in range(0, len(phase), _BLOCK):
         here = np.minimum(np.arange(first, first + _BLOCK), len(phase) - 1)
         yield function(model, wingbeat, State(*states[here].T), phase[here], *(a[here] for a in more))
+
+
+def flight_attributes(
+    model: FlightModel, wingbeat: Wingbeat, species: Species | None, **more: str
+) -> dict[str, Any]:
+    """Return the attributes of a flight: what flew, and how an animal looks."""
+    return {
+        KIND: "flight",
+        **more,
+        "vehicle": json.dumps(vehicle_record(model.vehicle)),
+        "air": json.dumps(vars(model.air)),
+        "wingbeat": json.dumps(wingbeat_record(wingbeat)),
+        **shape_attribute(species),
+        "version": __version__,
+    }
 
 
 def flight_dataset(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from wingbeat._base import SHAPE, InvalidInputError
@@ -29,7 +29,7 @@ from wingbeat.aero import (
 from wingbeat.aero.blade_element import OF_ELEMENTS
 from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.animal.species.numbers import Range, number_from
-from wingbeat.animal.species.shape import shape_from, shape_record
+from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Air, Body, Motor, Muscle, Springs, Tail, Vehicle, Wing
 from wingbeat.orbits.options import DEFAULTS, SolverOptions
@@ -189,6 +189,18 @@ def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
         for name, value in vars(wingbeat).items()
         if name not in left_out
     }
+
+
+def shape_record(shape: Shape) -> dict[str, Any]:
+    """Return a shape with all sources, fit for JSON, from which `shape_from` makes it again."""
+    return {"cover": shape.cover, "colours": dict(shape.colours), "numbers": dict(shape.numbers)}
+
+
+def shape_from(record: Mapping[str, Any]) -> Shape:
+    """Return the shape that `shape_record` described; another dictionary raises a Key-, Type- or ValueError."""
+    numbers = {path: number_from(*known) for path, known in record["numbers"].items()}
+    values: dict[str, Any] = {path.removeprefix("shape."): number.value for path, number in numbers.items()}
+    return Shape(cover=record["cover"], colours=dict(record["colours"]), numbers=numbers, **values)
 
 
 def shape_attribute(species: Species | None) -> dict[str, str]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import json
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
@@ -19,8 +18,7 @@ from wingbeat.mechanics.equations_of_motion import fly_torque_driven
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.flights import Controller, check_samples, check_wind, fly_beats, state_of
 from wingbeat.orbits.flight.beat import mean_positive
-from wingbeat.records.flight_dataset import evaluate, evaluate_carried, flight_dataset
-from wingbeat.records.inputs import shape_attribute, vehicle_record, wingbeat_record
+from wingbeat.records.flight_dataset import evaluate, evaluate_carried, flight_attributes, flight_dataset
 from wingbeat.records.numbers import beat_mean
 from wingbeat.records.result_files import Saveable
 
@@ -75,14 +73,7 @@ class Flight(Saveable):
         """The time series, labelled; its phase runs on from beat to beat."""
         import xarray as xr
 
-        attributes = {
-            KIND: "flight",
-            "vehicle": json.dumps(vehicle_record(self.model.vehicle)),
-            "air": json.dumps(vars(self.model.air)),
-            "wingbeat": json.dumps(wingbeat_record(self.wingbeat)),
-            **shape_attribute(self.species),
-            "version": __version__,
-        }
+        attributes = flight_attributes(self.model, self.wingbeat, self.species)
         runs = [self._run(first, last, attributes) for first, last in self._alike()]
         found = runs[0] if len(runs) == 1 else xr.concat(runs, "phase", data_vars="minimal", coords="minimal")
         found["time"] = ("phase", self.time, found["time"].attrs)
@@ -286,15 +277,7 @@ class CarriedFlight(Saveable):
     def dataset(self) -> xr.Dataset:
         """The time series of a flight, labelled, and the missing force and moment."""
         found, missing = evaluate_carried(self.model, self.wingbeat, self.phase, self.states, self.accelerations)
-        attributes = {
-            KIND: "flight",
-            "body": "prescribed",
-            "vehicle": json.dumps(vehicle_record(self.model.vehicle)),
-            "air": json.dumps(vars(self.model.air)),
-            "wingbeat": json.dumps(wingbeat_record(self.wingbeat)),
-            **shape_attribute(self.species),
-            "version": __version__,
-        }
+        attributes = flight_attributes(self.model, self.wingbeat, self.species, body="prescribed")
         return flight_dataset(self.model, self.wingbeat, self.phase, self.states, found, attributes, missing)
 
     @property

@@ -55,7 +55,9 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
             *flight_rows(record, limited),
         ],
         "unbalanced at the closest wingbeat": deficit_rows(record.get("failed_balance") or []),
-        "smallest single changes that give an orbit": change_rows(record.get("relaxations") or []),
+        "smallest single changes that give an orbit": [
+            ("or" if i else "either", change["text"]) for i, change in enumerate(record.get("relaxations") or [])
+        ],
         "wingbeat": wingbeat_rows(record.get("wingbeat", {}), limited),
         "plausible ranges": plausible_rows(record.get("plausibility") or [], limited),
         "state at the top of the stroke": state_rows(record.get("initial_state", {})),
@@ -130,11 +132,6 @@ def deficit_rows(deficits: list[dict[str, Any]]) -> Rows:
         amount, of = _number(short["amount"], short["unit"], 1.0), share.get(short["unit"], "of the weight")
         rows.append((short["law"], f"{amount}, {100 * short['share']:.2g} % {of}"))
     return rows
-
-
-def change_rows(changes: list[dict[str, Any]]) -> Rows:
-    """Return the single changes that lead to an orbit."""
-    return [("or" if i else "either", change["text"]) for i, change in enumerate(changes)]
 
 
 def wingbeat_rows(beat: dict[str, Any], limited: Limited = _NONE) -> Rows:
@@ -273,18 +270,15 @@ def orbit_report(record: dict[str, Any]) -> Report:
     groups = orbit_groups(record)
     certificate = {title: groups.pop(title) for title in ("certificate", "stability")}
     lines.append(grouped({**groups, **power_groups(record.get("power_account")), **certificate}))
-    return [*lines, *warning_blocks(record.get("warnings") or [])]
+    if warnings := record.get("warnings"):
+        lines += [Line(""), Line("warnings", tone="title"), Notes(tuple(warnings))]
+    return lines
 
 
 def status_line(status: str, message: str, tone: Tone) -> Line:
     """Return a line of a status and what it means, which may begin with the status."""
     message = message.removeprefix(f"{status}: ")
     return Line(f": {message}" if message else "", status, tone)
-
-
-def warning_blocks(warnings: list[str]) -> list[Block]:
-    """Return warnings under their title; nothing if there are none."""
-    return [Line(""), Line("warnings", tone="title"), Notes(tuple(warnings))] if warnings else []
 
 
 def power_groups(account: dict[str, Any] | None) -> dict[str, list[tuple[str, str]]]:

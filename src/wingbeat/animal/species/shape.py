@@ -20,7 +20,6 @@ from wingbeat.animal.species.numbers import (
     TRUNK,
     Number,
     ShapeText,
-    number_from,
 )
 
 # The drawn wing has the area of the model's: the mean of its chord is one mean chord, to this fraction.
@@ -165,15 +164,3 @@ def shape_of(text: ShapeText | None, faults: FaultList) -> Shape | None:
     except InvalidInputError as error:
         faults.faults += [text.numbers.quote(fault) for fault in error.faults]
         return None
-
-
-def shape_record(shape: Shape) -> dict[str, Any]:
-    """Return a shape with all sources, fit for JSON, from which `shape_from` makes it again."""
-    return {"cover": shape.cover, "colours": dict(shape.colours), "numbers": dict(shape.numbers)}
-
-
-def shape_from(record: Mapping[str, Any]) -> Shape:
-    """Return the shape that `shape_record` described; another dictionary raises a Key-, Type- or ValueError."""
-    numbers = {path: number_from(*known) for path, known in record["numbers"].items()}
-    values: dict[str, Any] = {path.removeprefix("shape."): number.value for path, number in numbers.items()}
-    return Shape(cover=record["cover"], colours=dict(record["colours"]), numbers=numbers, **values)

@@ -192,7 +192,7 @@ def forbidden(folder: Path, orbit_bytes: bytes, monkeypatch: pytest.MonkeyPatch)
 
 
 def test_every_command_is_here():
-    assert {place.partition(".")[0] for place in LINES} == {"explorer" if n == "app" else n for n in COMMANDS}
+    assert {place.partition(".")[0] for place in LINES} == {*COMMANDS}
 
 
 @pytest.mark.parametrize(("place", "option", "value"), cases())

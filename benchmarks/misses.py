@@ -21,11 +21,11 @@ import numpy as np
 
 import wingbeat as wb
 from wingbeat.orbits.nlp.transcription import Transcription
+from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import certified_optimum
 from wingbeat.orbits.solve import Settings, find_orbit, search_from_starts
 from wingbeat.orbits.starts import structured_starts
-from wingbeat.orbits.status import Status
 
 RANDOM_STARTS, REFERENCE_SEED = 80, 12345
 # An answer this share above the best is a miss.

@@ -50,6 +50,7 @@ from .orbits.options import ContinuationOptions as ContinuationOptions
 from .orbits.options import DiagnosisOptions as DiagnosisOptions
 from .orbits.options import SensitivityOptions as SensitivityOptions
 from .orbits.options import SolverOptions as SolverOptions
+from .orbits.options import Status as Status
 from .orbits.problem.filmed import filmed_problem as filmed_problem
 from .orbits.problem.filmed import filmed_species as filmed_species
 from .orbits.problem.problem import OrbitProblem as OrbitProblem
@@ -61,7 +62,6 @@ from .orbits.search_options import LeastSquaresOptions as LeastSquaresOptions
 from .orbits.search_options import NewtonOptions as NewtonOptions
 from .orbits.search_options import SearchOptions as SearchOptions
 from .orbits.search_options import StartFamily as StartFamily
-from .orbits.status import Status as Status
 from .orbits.uncertainty import ErrorBar as ErrorBar
 from .orbits.uncertainty import Samples as Samples
 from .records.numbers import power_account as power_account

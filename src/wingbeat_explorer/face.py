@@ -8,7 +8,7 @@ from typing import Any
 
 from wingbeat._base import NOMENCLATURE, FileError, for_people
 from wingbeat.animal.species.building import NOT_MEASURED
-from wingbeat.orbits.status import Status
+from wingbeat.orbits.options import Status
 from wingbeat.records.judgements import set_by_limit, statements
 from wingbeat.records.numbers import SPENT, beat_mean
 from wingbeat.results.orbit import Orbit

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from wingbeat._base import InvalidInputError, first_line
-from wingbeat.orbits.status import Status
+from wingbeat.orbits.options import Status
 from wingbeat.results.orbit import Orbit
 from wingbeat.stability.gust_flights import fly_pushes
 from wingbeat.viewer import scene

@@ -10,9 +10,8 @@ from wingbeat.bench import mixed_problems
 from wingbeat.orbits import batch
 from wingbeat.orbits.batch import find_beside, find_orbits
 from wingbeat.orbits.branches import find_optima
-from wingbeat.orbits.nlp import defect_correction
-from wingbeat.orbits.nlp.defect_correction import correct
-from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace
+from wingbeat.orbits.nlp import newton_kkt as defect_correction
+from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace, correct
 from wingbeat.orbits.nlp.transcription import Transcription, search
 from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.orbits.starts import start_point, usual_starts

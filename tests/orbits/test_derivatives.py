@@ -15,7 +15,7 @@ from wingbeat.animal.kinematics import unpack
 from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.orbits.flight.certificate import certify, floquet_multipliers
 from wingbeat.orbits.flight.period import STEPS, flier
-from wingbeat.orbits.nlp.defect_correction import correct
+from wingbeat.orbits.nlp.newton_kkt import correct
 from wingbeat.orbits.nlp.transcription import Transcription
 
 TOLERANCE = 1e-7

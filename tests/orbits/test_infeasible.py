@@ -16,9 +16,9 @@ from wingbeat.orbits.deficit import Balance, Deficit, Nearest, Unbalanced, neare
 from wingbeat.orbits.diagnosis import unexplained, without_orbit
 from wingbeat.orbits.flight.period import BALANCES
 from wingbeat.orbits.nlp.transcription import Candidate, Transcription, search
+from wingbeat.orbits.options import Status
 from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.orbits.starts import start_point
-from wingbeat.orbits.status import Status
 from wingbeat.records.orbit_record import rivals
 
 CASES = list(cases())

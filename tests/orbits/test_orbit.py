@@ -9,7 +9,7 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.orbits.flight.time_series import flown_beat
-from wingbeat.orbits.nlp.defect_correction import correct
+from wingbeat.orbits.nlp.newton_kkt import correct
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.starts import start_point, structured_starts
 from wingbeat.records.numbers import beat_mean

@@ -8,9 +8,9 @@ import pytest
 import wingbeat as wb
 from wingbeat._base import InvalidInputError
 from wingbeat.orbits.batch import find_orbits, find_series
+from wingbeat.orbits.options import Status
 from wingbeat.orbits.solution import Optimum, families, search_near
 from wingbeat.orbits.solve import Settings, find_orbit
-from wingbeat.orbits.status import Status
 
 
 @pytest.fixture(scope="module")

@@ -9,10 +9,9 @@ import wingbeat as wb
 from wingbeat.bench import mixed_problems
 from wingbeat.orbits import batch
 from wingbeat.orbits.batch import Answers, Known, differences, find_orbits, group_similar, numbers_of
-from wingbeat.orbits.options import DEFAULTS
+from wingbeat.orbits.options import DEFAULTS, Status
 from wingbeat.orbits.solution import better_of, correct_guess
 from wingbeat.orbits.solve import Settings, find_orbit
-from wingbeat.orbits.status import Status
 
 ROUNDING = DEFAULTS.continuation.rounding
 

@@ -13,8 +13,7 @@ from tests.helpers.hasty import make_hasty
 from wingbeat._base import FileError, InvalidInputError, find, label_of, text_of
 from wingbeat.cli import main
 from wingbeat.orbits.branches import Branches, BranchLink, carry, find_optima, trace
-from wingbeat.orbits.options import DEFAULTS
-from wingbeat.orbits.status import Status
+from wingbeat.orbits.options import DEFAULTS, Status
 from wingbeat.orbits.transitions import families, marks_of
 from wingbeat.words.curve_words import curve_report
 

@@ -13,9 +13,9 @@ import wingbeat as wb
 from tests.helpers.engines import Here
 from wingbeat._base import NUMERICAL_VERSION, find, label_of
 from wingbeat.cli import main
+from wingbeat.orbits.options import Status
 from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.orbits.starts import usual_starts
-from wingbeat.orbits.status import Status
 from wingbeat.studies import work
 from wingbeat.studies.stopping import Stop
 from wingbeat.studies.store import Store

@@ -14,7 +14,7 @@ from wingbeat.cli.problem_options import unpacking
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.exports.save import SAMPLES, check_export
 from wingbeat.exports.save import export as write_gait
-from wingbeat.orbits.status import Status
+from wingbeat.orbits.options import Status
 from wingbeat.results.orbit import load_orbit
 
 

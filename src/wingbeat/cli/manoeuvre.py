@@ -20,7 +20,7 @@ from wingbeat.cli.problem_options import (
     wind_of,
 )
 from wingbeat.cli.terminal import deliver, plain_console, print_report, progress_bar
-from wingbeat.orbits.status import Status
+from wingbeat.orbits.options import Status
 from wingbeat.results.flight import Flight
 from wingbeat.results.orbit import solve_orbit
 from wingbeat.stability.manoeuvres import Manoeuvre, check_manoeuvre

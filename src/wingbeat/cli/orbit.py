@@ -48,9 +48,9 @@ from wingbeat.cli.problem_options import (
 )
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import answer, print_json, print_report, progress_bar
+from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.filmed import filmed_problem
 from wingbeat.orbits.problem.quantities import WingbeatLimit
-from wingbeat.orbits.status import Status
 from wingbeat.records.numbers import power_account
 from wingbeat.results.orbit import load_orbit, solve_orbit
 from wingbeat.results.sensitivities import influence_report

@@ -33,7 +33,7 @@ from wingbeat.cli.problem_options import (
     saved_orbit,
 )
 from wingbeat.cli.terminal import deliver, print_report, progress_bar
-from wingbeat.orbits.status import Status
+from wingbeat.orbits.options import Status
 from wingbeat.plots import stability_page
 from wingbeat.results.orbit import solve_orbit, solve_orbits
 from wingbeat.stability.causes import stability_sensitivities

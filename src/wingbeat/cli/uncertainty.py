@@ -23,11 +23,11 @@ from wingbeat.cli.problem_options import (
 )
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import print_json, progress_bar
+from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.outputs import check_quantities
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import named_objective
 from wingbeat.orbits.problem.quantity import Quantity
-from wingbeat.orbits.status import Status
 from wingbeat.orbits.uncertainty import ErrorBar
 from wingbeat.results.orbit import solve_orbit
 from wingbeat.results.sensitivities import (

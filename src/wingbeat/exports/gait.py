@@ -33,7 +33,7 @@ from wingbeat.animal.kinematics import (
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.wing_motion import time_rates
 from wingbeat.mechanics.wing_points import surface_points
-from wingbeat.orbits.status import Status
+from wingbeat.orbits.options import Status
 from wingbeat.results.flight import simulate
 
 if TYPE_CHECKING:

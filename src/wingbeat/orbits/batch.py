@@ -17,10 +17,9 @@ import numpy as np
 from wingbeat._base import FaultList
 from wingbeat._jax.arrays import jax
 from wingbeat._workers.pool import in_processes, process_map
-from wingbeat.orbits.nlp.defect_correction import first_certified
-from wingbeat.orbits.nlp.newton_kkt import ReducedHessian
+from wingbeat.orbits.nlp.newton_kkt import ReducedHessian, first_certified
 from wingbeat.orbits.nlp.transcription import Transcription
-from wingbeat.orbits.options import DEFAULTS, ContinuationOptions, SolverOptions
+from wingbeat.orbits.options import DEFAULTS, ContinuationOptions, SolverOptions, Status
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import (
     Solution,
@@ -34,7 +33,6 @@ from wingbeat.orbits.solution import (
 )
 from wingbeat.orbits.solve import BRIEF, Progress, Settings, find_orbit, first_searches
 from wingbeat.orbits.starts import start_count
-from wingbeat.orbits.status import Status
 
 
 class Group(NamedTuple):
@@ -132,15 +130,7 @@ def _spread(places: np.ndarray, members: np.ndarray, count: int) -> np.ndarray:
 
 
 class Known(NamedTuple):
-    """A solved problem.
-
-    Parameters
-    ----------
-    numbers : the numbers that distinguish it from others of its kind.
-    unknowns : of its optimum.
-    active : the bounds that are active at the optimum.
-    reduced_hessian : the curvature at the optimum.
-    """
+    """A solved problem: the numbers that distinguish it from its kind, its optimum, and what holds there."""
 
     numbers: np.ndarray
     unknowns: np.ndarray
@@ -149,14 +139,7 @@ class Known(NamedTuple):
 
 
 class Answers:
-    """Solutions of problems of one kind, and predictions from the nearest of them for problems to come.
-
-    Parameters
-    ----------
-    known : problems solved before.
-    coming : the numbers of the problems to come, which are named by their index.
-    options : of the prediction.
-    """
+    """Solutions of problems of one kind, and predictions from the nearest of them for problems to come."""
 
     def __init__(
         self,
@@ -237,18 +220,8 @@ def find_orbits(
     Problems that differ in numbers only form a group. The first few problems of a group are solved as in
     `find_orbit`. For each later problem, the solutions before it predict a first start, which counts only if it
     leads to a certified orbit. A large group is split: some of its problems are solved first, and the processes
-    then share the others.
-
-    Parameters
-    ----------
-    problems : any mixture of vehicles, air loads, speeds, free parameters and objectives.
-    settings : how each problem is searched.
-    processes : how many Python processes share the work; 1 means this process. The results do not depend on it.
-    progress : called with (problems done, problems in all).
-
-    Raises
-    ------
-    InvalidInputError : an item that is not an `OrbitProblem`; starts, seed, most_starts or processes out of range.
+    then share the others. The results do not depend on the number of `processes`. What is not an `OrbitProblem`,
+    and numbers out of range, raise `InvalidInputError`.
     """
     faults = FaultList()
     for i, problem in enumerate(problems):
@@ -388,23 +361,8 @@ def find_series(
     """Solve a series of problems, such as increasing speeds, from starts and from the neighbours' solutions.
 
     A start from the stock wingbeat finds the family of orbits that is near it. Solutions are passed up and down the
-    series, so that the best family found for any problem reaches every problem where it exists. All problems must
-    have the same free parameters.
-
-    Parameters
-    ----------
-    problems : in an order in which neighbours are similar.
-    settings : how each problem is searched before solutions are passed on.
-    processes : how many Python processes share these starts. The results do not depend on it.
-    progress : called with (problems solved, problems in all).
-
-    Returns
-    -------
-    The solutions. Their numbers of `starts` include the starts from neighbours.
-
-    Raises
-    ------
-    InvalidInputError : problems that differ in what is free; starts, seed, most_starts or processes out of range.
+    series, so that the best family found for any problem reaches every problem where it exists. The numbers of
+    `starts` include those from neighbours. Problems that differ in what is free raise `InvalidInputError`.
     """
     faults = FaultList()
     for i, problem in enumerate(problems):

@@ -15,22 +15,17 @@ import numpy as np
 from wingbeat._workers.tuning import core_count
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
 from wingbeat.orbits.nlp.transcription import Candidate, Transcription, as_candidate, refine
-from wingbeat.orbits.options import DEFAULTS, ContinuationOptions, SolverOptions
+from wingbeat.orbits.options import DEFAULTS, ContinuationOptions, SolverOptions, Status
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, certified_optimum, optimal
 from wingbeat.orbits.solve import Progress, Settings, find_orbit, first_searches
-from wingbeat.orbits.status import Status
 
 
 class Along(NamedTuple):
     """A number of a problem along which orbits are continued.
 
-    Attributes
-    ----------
-    name, unit : of the number.
-    of : function that returns the number of a problem.
-    moved : function that returns a problem with another value of the number.
-    steps : first and smallest step of the continuation, from its options.
+    Functions give the number `of` a problem, a problem `moved` to another value of it, and, from the options of the
+    continuation, its first and smallest `steps`.
     """
 
     name: str
@@ -41,17 +36,7 @@ class Along(NamedTuple):
 
 
 def with_share(problem: OrbitProblem, share: float) -> OrbitProblem:
-    """Return a problem with another share of the terms of its air loads.
-
-    Parameters
-    ----------
-    problem : the problem.
-    share : 0 for none, 1 for all of each term.
-
-    Raises
-    ------
-    InvalidInputError : a share outside 0 to 1.
-    """
+    """Return a problem with another share of the terms of its air loads, from 0 for none to 1 for all of each."""
     return dataclasses.replace(problem, aero=dataclasses.replace(problem.aero, share=share))
 
 
@@ -115,17 +100,10 @@ def trace(
 ) -> Branches:
     """Solve at every speed and continue each optimum to the neighbouring speeds until no new optimum appears.
 
-    Parameters
-    ----------
-    problem : the problem; its own speed has no effect.
-    speeds : increasing [m/s].
-    starts, seed : number of starts at the first and the last speed, and the seed of all starts. Speeds between get
-        fewer starts. A speed without a certified orbit then gets twice as many starts as the first speed.
-    progress : called with (tasks done, tasks known).
-    threads : number of tasks at a time; default the number of cores. The results do not depend on it.
-    options : of the solvers.
-    refine : chooses speeds to add, again and again, from the branches so far. Continuation from the neighbours
-        solves there, without starts of its own.
+    The problem's own speed has no effect; the speeds increase [m/s]. The first and the last get `starts` starts,
+    those between fewer; a speed without a certified orbit then gets twice as many as the first. The results do not
+    depend on the number of `threads`. Again and again, `refine` chooses speeds to add from the branches so far;
+    continuation from the neighbours solves there, without starts of its own.
     """
     problems = [problem.at_speed(float(speed)) for speed in speeds]
     return trace_along(SPEED, problems, starts, seed, progress, threads, options, refine)
@@ -141,16 +119,7 @@ def trace_along(
     options: SolverOptions = DEFAULTS,
     refine: Refine | None = None,
 ) -> Branches:
-    """Solve problems that differ in one number, and continue each optimum to the neighbouring problems.
-
-    This ends when no new optimum appears.
-
-    Parameters
-    ----------
-    along : the number in which the problems differ.
-    problems : in the order of that number.
-    starts, seed, progress, threads, options, refine : as in `trace`, with this number in place of the speed.
-    """
+    """Solve problems in the order of one number as `trace` does, and continue each optimum to the neighbours."""
     with ThreadPoolExecutor(threads or core_count()) as pool:
         try:
             return _BranchTracer(along, problems, pool, progress, options).branches(starts, seed, refine)
@@ -312,12 +281,7 @@ class _BranchTracer:
 def find_optima(
     problem: OrbitProblem, starts: int, seed: int = 0, options: SolverOptions = DEFAULTS
 ) -> list[Solution]:
-    """Return every distinct optimum that the starts find and the certifier confirms, the best first.
-
-    Parameters
-    ----------
-    problem, starts, seed, options : as in `find_orbit`; the starts run one after the other.
-    """
+    """Return every distinct optimum that the starts find and the certifier confirms, the best first."""
     begun = time.perf_counter()
     found = first_searches(Transcription(problem, options), starts, seed, 1)
     each = (time.perf_counter() - begun) / starts
@@ -337,16 +301,8 @@ def find_optima(
 def carry(optimum: Solution, problem: OrbitProblem, along: Along = SPEED) -> Landing:
     """Continue an optimum to another problem, in steps so short that each moves the orbit by at most `max_step`.
 
-    Parameters
-    ----------
-    optimum : a certified orbit.
-    problem : the same problem with another value of one number, such as the speed.
-    along : the number that differs.
-
-    Returns
-    -------
-    The certified orbit of that problem and the number of steps. If the branch ends on the way: 0 steps, and the
-    orbit to which a local search from the branch's end leads, if any.
+    The problems differ in one number. If the branch ends on the way, the landing has 0 steps and the orbit to which
+    a local search from the branch's end leads, if any.
     """
     options = optimum.options.continuation
     first_step, least_step = along.steps(options)

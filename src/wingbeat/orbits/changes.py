@@ -87,13 +87,7 @@ def _with_tail(problem: OrbitProblem, tail: Tail | None) -> OrbitProblem:
 
 
 def words_without(problem: OrbitProblem, name: str, frequency: float) -> str:
-    """Return a sentence which says that a problem has an orbit without one of its terms.
-
-    Parameters
-    ----------
-    problem, name : the problem, and one of its terms.
-    frequency : of that orbit [Hz].
-    """
+    """Return a sentence: the problem has an orbit of this frequency [Hz] without one of its terms."""
     closes = f"this flight closes at {frequency:.3g} Hz"
     if name == INFLOW:
         ratio = problem.aero.coefficients.aspect_ratio
@@ -145,16 +139,11 @@ WIDER_FREQUENCIES = (("frequency", "<="), ("frequency", ">="))
 class Change:
     """A number of a problem that may be changed, in one direction only.
 
-    Parameters
-    ----------
-    name : a wingbeat parameter, ``body_pitch`` or ``flap`` along the path, a constraint's quantity, ``mass`` (the
-        vehicle's mass; only the body becomes lighter), ``speed``, ``climb`` or ``shoulder`` (its distance ahead
-        of the body's centre of mass).
-    sign : ``<=`` and ``>=`` for an upper and a lower bound or limit, ``=`` for a fixed number.
-    old : its value, SI and radians.
-    reach : the farthest value that the number may take.
-    scale : size of a large change.
-    tries : changes that are tried first, as shares of the scale; if none are given, only the reach is tried.
+    Its name is a wingbeat parameter, ``body_pitch`` or ``flap`` along the path, a constraint's quantity, ``mass``
+    (the vehicle's mass; only the body becomes lighter), ``speed``, ``climb`` or ``shoulder`` (its distance ahead of
+    the body's centre of mass). The sign is ``<=`` or ``>=`` for a bound or limit, ``=`` for a fixed number. The
+    number may move from `old` to `reach` (SI and radians); a change by `scale` is large. `tries` are changes to try
+    first, as shares of the scale; without them, only the reach is tried.
     """
 
     name: str
@@ -233,13 +222,9 @@ def _unit(problem: OrbitProblem, change: Change) -> str:
 
 
 def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 0) -> Relaxation:
-    """Return the change to a value, rounded outward to the digits that its text prints.
+    """Return the change to a value (SI), rounded outward to the digits that its text prints.
 
-    Parameters
-    ----------
-    problem, change : the problem, and the number that changes.
-    value : the number after the least change that suffices, SI.
-    more : additional steps in the last printed digit.
+    The value is that of the least change that suffices; `more` are additional steps in the last printed digit.
     """
     unit = _unit(problem, change)
     factor, shown = (1e3, "mm") if unit == "m" else for_people(cf(unit))
@@ -295,14 +280,9 @@ def possible_changes(
 ) -> Iterator[Change]:
     """Yield the changes that may make a problem feasible.
 
-    Parameters
-    ----------
-    problem : the problem.
-    at_bounds : (name, sign) of the bounds that the closest wingbeat is at, including those along the path.
-    short : deficits of the balances in that wingbeat, as shares of the weight, or of weight times chord. A vehicle
-        that is lighter by the missing lift, or that descends to make up for the missing thrust, is close to an
-        orbit.
-    options : how far each number may move, and which changes are tried first.
+    The closest wingbeat is at the bounds `at_bounds`, (name, sign), and `short` of each balance by a share of the
+    weight, or of weight times chord. A vehicle that is lighter by the missing lift, or that descends to make up for
+    the missing thrust, is close to an orbit.
     """
     towards = functools.partial(_towards, large_angle=options.large_angle)
     tries_for = functools.partial(_tries, beyond=options.beyond)
@@ -383,14 +363,9 @@ def _towards(
 
 
 def rounded_outward(change: Change, value: float, factor: float, more: int = 0) -> float:
-    """Return a printable value: rounded away from `old`, to two digits of the change.
+    """Return a printable value (SI): rounded away from `old`, to two digits of the change in the printed unit.
 
-    Parameters
-    ----------
-    change : the number that changes, and its direction.
-    value : the number after the least change that suffices, SI.
-    factor : conversion factor from SI to the printed unit.
-    more : additional steps in the last printed digit.
+    `factor` converts from SI to that unit; `more` are additional steps in the last printed digit.
     """
     moved = max(abs(value - change.old), _LEAST * change.scale) * factor
     digits = 1 - math.floor(math.log10(moved))

@@ -7,7 +7,7 @@ pitch rate changes. We divide forces by the weight and moments by weight times c
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -55,14 +55,10 @@ class Deficit:
 
 @dataclass(frozen=True)
 class Unbalanced:
-    """The beat closest to an orbit if some balances may fail.
+    """The beat closest to an orbit if some balances may fail, in the optimiser's scale.
 
-    Parameters
-    ----------
-    scaled : its unknowns, in the optimiser's scale.
-    shares : the deficit of each balance that may fail, as a share.
-    keeps_the_rest : whether all other conditions hold.
-    negligible : if the root of the sum of squares of the shares is smaller than this, it counts as zero.
+    `shares` are the deficits of these balances; together they count as zero if their root of the sum of squares is
+    at most `negligible`. `keeps_the_rest` says whether all other conditions hold.
     """
 
     scaled: np.ndarray
@@ -206,3 +202,17 @@ def words_of(programme: Transcription, deficits: Sequence[Deficit]) -> str:
     place = f"at {problem.speed:g} m/s" if problem.speed else "in hover"
     limits = ", ".join(str(c) for c in problem.subject_to)
     return f"{place}{f' with {limits}' if limits else ''}, {' and '.join(words)}"
+
+
+def bounds_near(programme: Transcription, scaled: np.ndarray) -> Iterator[tuple[str, str]]:
+    """Yield (name, sign) of each bound, and of each limit along the path, that a beat is near."""
+    share = programme.options.diagnosis.near_bound
+    names, reach = programme.unknowns.names, share * (programme.upper - programme.lower)
+    for name, x, low, high, near in zip(names, scaled, programme.lower, programme.upper, reach, strict=False):
+        if name in programme.problem.free:
+            if x - low <= near:
+                yield name, ">="
+            if high - x <= near:
+                yield name, "<="
+    path = zip(programme.path_limits, programme.inequalities(scaled), strict=False)
+    yield from dict.fromkeys(limit for limit, inside in path if inside <= share)

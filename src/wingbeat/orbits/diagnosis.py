@@ -7,7 +7,7 @@ this number is one more unknown.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import islice
@@ -29,14 +29,13 @@ from wingbeat.orbits.changes import (
     without_term,
     words_without,
 )
-from wingbeat.orbits.deficit import Deficit, Nearest, nearest_beat, words_of
+from wingbeat.orbits.deficit import Deficit, Nearest, bounds_near, nearest_beat, words_of
 from wingbeat.orbits.flight.period import PATH_NAMES
-from wingbeat.orbits.nlp.defect_correction import Corrected, certified, correct, first_certified
+from wingbeat.orbits.nlp.newton_kkt import Corrected, certified, correct, first_certified
 from wingbeat.orbits.nlp.transcription import Candidate, Programme, Transcription, refine, search
-from wingbeat.orbits.options import SolverOptions
+from wingbeat.orbits.options import SolverOptions, Status
 from wingbeat.orbits.problem.quantities import QUANTITIES, Frequency
-from wingbeat.orbits.starts import is_at_lower_bound, start_point
-from wingbeat.orbits.status import Status
+from wingbeat.orbits.starts import is_at_lower_bound, start_point, starts_in_words
 
 if TYPE_CHECKING:
     from wingbeat.orbits.problem.problem import OrbitProblem
@@ -257,14 +256,9 @@ def least_changes(
 
 def certified_changes(programme: Transcription, found: Iterable[LeastChange]) -> tuple[Relaxation, ...]:
     """Return the first few changes that, rounded outward, lead to a certified orbit."""
-    flying: list[Relaxation] = []
     programme = _plainly(programme)
-    for least in found:
-        if (certain := _certified_change(programme, least)) is not None:
-            flying.append(certain)
-        if len(flying) == programme.options.diagnosis.reported:
-            break
-    return tuple(flying)
+    tried = (_certified_change(programme, least) for least in found)
+    return tuple(islice((one for one in tried if one is not None), programme.options.diagnosis.reported))
 
 
 def certified_without_terms(programme: Transcription, near: np.ndarray, threads: int) -> tuple[Relaxation, ...]:
@@ -311,20 +305,6 @@ def _plainly(programme: Transcription) -> Transcription:
     return Transcription(problem, programme.options)
 
 
-def bounds_near(programme: Transcription, scaled: np.ndarray) -> Iterator[tuple[str, str]]:
-    """Yield (name, sign) of each bound, and of each limit along the path, that a beat is near."""
-    share = programme.options.diagnosis.near_bound
-    names, reach = programme.unknowns.names, share * (programme.upper - programme.lower)
-    for name, x, low, high, near in zip(names, scaled, programme.lower, programme.upper, reach, strict=False):
-        if name in programme.problem.free:
-            if x - low <= near:
-                yield name, ">="
-            if high - x <= near:
-                yield name, "<="
-    path = zip(programme.path_limits, programme.inequalities(scaled), strict=False)
-    yield from dict.fromkeys(limit for limit, inside in path if inside <= share)
-
-
 def _certified_change(programme: Transcription, least: LeastChange) -> Relaxation | None:
     problem, options = programme.problem, programme.options
     for more in options.diagnosis.widened:
@@ -349,9 +329,8 @@ def _certified_change(programme: Transcription, least: LeastChange) -> Relaxatio
 def may_end_at_lower_bound(programme: Transcription, closed: Iterable[np.ndarray]) -> bool:
     """Return whether the lowest frequency may be at its bound: in a descent, or if a beat at the bound closed."""
     problem, tolerance = programme.problem, programme.options.search.bound_tolerance
-    if problem.minimise.parameter != "frequency":
-        return False
-    return problem.climb < 0 or any(is_at_lower_bound(problem, unknowns, tolerance) for unknowns in closed)
+    sinks = problem.climb < 0 and problem.minimise.parameter == "frequency"
+    return sinks or any(is_at_lower_bound(problem, unknowns, tolerance) for unknowns in closed)
 
 
 def from_raised_bound(unsolved: Transcription, seed: int = 0) -> tuple[Relaxation, Corrected] | None:
@@ -418,7 +397,9 @@ def without_orbit(
     if nearest.closes:
         return certified(programme.uncorrected(), nearest.scaled), _no_optimum("almost closed", len(found))
     flying = certified_changes(programme, changes)
-    message = f"no orbit within the bounds from {_starts(len(found))}: {words_of(programme, nearest.deficits)}"
+    message = (
+        f"no orbit within the bounds from {starts_in_words(len(found))}: {words_of(programme, nearest.deficits)}"
+    )
     if flying:
         message += f"; the smallest single changes that give an orbit: {', or '.join(r.text for r in flying)}"
     elif advise:
@@ -434,7 +415,9 @@ def unexplained(found: list[Candidate]) -> tuple[Corrected, Ending]:
     if closing := [c for c in found if c.closed]:
         return _uncertified(closing, len(found))
     nearest = min(found, key=lambda c: c.violation)
-    message = f"no orbit within the bounds from {_starts(len(found))}; the balance that fails was not computed"
+    message = (
+        f"no orbit within the bounds from {starts_in_words(len(found))}; the balance that fails was not computed"
+    )
     return certified(nearest.programme.uncorrected(), nearest.scaled), Ending(Status.INFEASIBLE, message)
 
 
@@ -445,12 +428,10 @@ def _uncertified(closing: list[Candidate], searches: int) -> tuple[Corrected, En
 
 
 def _no_optimum(how: str, searches: int) -> Ending:
-    found = f"{how} wingbeats were found from {_starts(searches)}, but none could be certified as an optimum"
+    found = (
+        f"{how} wingbeats were found from {starts_in_words(searches)}, but none could be certified as an optimum"
+    )
     return Ending(Status.NOT_CONVERGED, f"{found}; try more starts or another seed")
-
-
-def _starts(count: int) -> str:
-    return f"{count} start" if count == 1 else f"{count} starts"
 
 
 def _below(programme: Transcription, change: Relaxation, orbit: Corrected) -> tuple[Corrected, Ending | None]:

@@ -3,11 +3,27 @@
 from __future__ import annotations
 
 import dataclasses
+import enum
 import math
 from dataclasses import dataclass, field
 from typing import Any
 
 from wingbeat.orbits.search_options import CertificateOptions, LeastSquaresOptions, SearchOptions, check_options
+
+
+class Status(enum.Enum):
+    """How the solver ended; the value is the name in records.
+
+    >>> import wingbeat as wb
+    >>> [status.value for status in wb.Status]
+    ['converged', 'infeasible', 'not-converged']
+    >>> wb.Status("converged") is wb.Status.CONVERGED
+    True
+    """
+
+    CONVERGED = "converged"
+    INFEASIBLE = "infeasible"
+    NOT_CONVERGED = "not-converged"
 
 
 @dataclass(frozen=True)

@@ -17,10 +17,6 @@ def check_options(options: Any) -> None:
     """Refuse options that are not positive and finite, or not whole where their default is whole.
 
     Options that are neither numbers nor tuples of numbers must be of the class of their default.
-
-    Raises
-    ------
-    InvalidInputError : names every fault.
     """
     faults = FaultList()
     for each in dataclasses.fields(options):

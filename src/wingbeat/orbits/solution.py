@@ -16,13 +16,18 @@ from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.certificate import Certificate, monodromy, multipliers_of
 from wingbeat.orbits.flight.period import CLOSURE, PATH_NAMES
-from wingbeat.orbits.nlp.defect_correction import Corrected, first_certified, follow_to_certificate, size
-from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
+from wingbeat.orbits.nlp.newton_kkt import (
+    Corrected,
+    NewtonKKT,
+    ReducedHessian,
+    first_certified,
+    follow_to_certificate,
+    size,
+)
 from wingbeat.orbits.nlp.transcription import Candidate, Transcription, certified_beat, refine
-from wingbeat.orbits.options import DEFAULTS, SolverOptions
+from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
 from wingbeat.orbits.problem.quantity import MapQuantity, Quantity
 from wingbeat.orbits.starts import is_at_lower_bound
-from wingbeat.orbits.status import Status
 
 if TYPE_CHECKING:
     from wingbeat.orbits.changes import Relaxation
@@ -42,11 +47,7 @@ class Optimum(NamedTuple):
 def families(optima: Iterable[Optimum], scale: np.ndarray, apart: float) -> tuple[Optimum, ...]:
     """Return the best optimum of each family, best first, with the number of starts that ended in it.
 
-    Parameters
-    ----------
-    optima : those in which starts ended.
-    scale : of the unknowns.
-    apart : optima closer to one another than this, in the optimiser's scale, belong to one family.
+    Optima closer to one another than `apart`, in the optimiser's scale, belong to one family.
     """
     found: list[Optimum] = []
     for optimum in sorted(optima, key=lambda o: o.objective):
@@ -265,23 +266,12 @@ def _certified_words(best: Corrected) -> str:
 
 
 def correct_guess(
-    problem: OrbitProblem,
-    guess: np.ndarray,
-    like: ReducedHessian | None = None,
-    options: SolverOptions = DEFAULTS,
+    problem: OrbitProblem, guess: np.ndarray, like: ReducedHessian | None = None, options: SolverOptions = DEFAULTS
 ) -> Solution | None:
     """Find the certified orbit next to a guess of the unknowns, by correction without a local search.
 
-    Parameters
-    ----------
-    problem : the orbit problem.
-    guess : the guessed unknowns.
-    like : curvature at the optimum of a similar problem.
-    options : of the solvers.
-
-    Returns
-    -------
-    The certified orbit; None if the guess is too far from an orbit, or if its correction fails.
+    `like` is the curvature at the optimum of a similar problem. None is returned if the guess is too far from an
+    orbit, or if its correction fails.
     """
     begun = time.perf_counter()
     programme = Transcription(problem, options)
@@ -303,12 +293,7 @@ def search_near(
 ) -> Solution | None:
     """Run one local search from unknowns near an orbit; return the certified orbit, or None.
 
-    Parameters
-    ----------
-    problem : the orbit problem.
-    start : unknowns to start from, clipped to their bounds.
-    below : only an orbit with an objective less than this is returned.
-    options : of the solvers.
+    Only an orbit with an objective less than `below` is returned.
     """
     begun = time.perf_counter()
     candidate = refine(Transcription(problem, options), start)

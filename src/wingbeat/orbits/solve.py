@@ -19,7 +19,7 @@ from wingbeat._workers.tuning import core_count
 from wingbeat.orbits.diagnosis import unexplained, without_orbit
 from wingbeat.orbits.flight.certificate import certify
 from wingbeat.orbits.flight.period import fly_part
-from wingbeat.orbits.nlp.defect_correction import Corrected, first_certified
+from wingbeat.orbits.nlp.newton_kkt import Corrected, first_certified
 from wingbeat.orbits.nlp.transcription import Candidate, Transcription, as_candidate, search
 from wingbeat.orbits.options import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.quantities import Constraint
@@ -89,10 +89,7 @@ BRIEF = Settings(advise=False)
 
 
 def find_orbit(
-    problem: OrbitProblem,
-    settings: Settings = USUAL,
-    progress: Progress | None = None,
-    threads: int | None = None,
+    problem: OrbitProblem, settings: Settings = USUAL, progress: Progress | None = None, threads: int | None = None
 ) -> Solution:
     """Find the periodic orbit that minimises the objective, from several starts, and certify it.
 
@@ -129,12 +126,7 @@ def find_orbit(
 
 
 def _searched(
-    programme: Transcription,
-    starts: int,
-    most: int,
-    seed: int,
-    threads: int,
-    progress: Progress | None = None,
+    programme: Transcription, starts: int, most: int, seed: int, threads: int, progress: Progress | None = None
 ) -> tuple[Corrected | None, list[Candidate], list[Candidate]]:
     """Return the best certified orbit that the starts lead to, if any, and where all local searches ended.
 
@@ -203,13 +195,7 @@ def first_searches(
 ) -> list[Candidate]:
     """Search from starts, from optima of the problem without limits, and near the lowest peak; return all ends.
 
-    Parameters
-    ----------
-    programme : the problem's programme.
-    starts, seed : number of starts, and seed of the random ones. The problem without limits gets the same number of
-        starts.
-    threads : number of local searches at a time.
-    progress : called with (local searches done, local searches in all), including those without limits.
+    The problem without limits gets as many starts as the problem. `progress` counts its searches too.
     """
     problem, options = programme.problem, programme.options
     if asks_for_stability(problem):
@@ -234,13 +220,8 @@ def search_from_optima(
 ) -> list[Candidate]:
     """Search from the best optimum of each family of an easier problem; return where the local searches end.
 
-    Parameters
-    ----------
-    programme : of the problem.
-    easier : ends of the searches of the easier problem.
-    threads : number of local searches at a time.
-    pruned : whether to leave out families that are dearer without the limits than an optimum found with them.
-        Limits only raise the objective within a family.
+    With `pruned`, families are left out that are dearer without the limits than an optimum found with them: limits
+    only raise the objective within a family.
     """
     scale, apart = programme.problem.unknowns().scale, programme.options.search.same_optimum
     found: list[Candidate] = []
@@ -333,11 +314,6 @@ def tightened(programme: Transcription, start: np.ndarray) -> np.ndarray:
 
     Each limit moves in steps of equal ratio. Its first value is that of the limited quantity at the start, its last
     is the limit asked for. A short search follows each step.
-
-    Parameters
-    ----------
-    programme : of the problem with its limits.
-    start : unknowns of an orbit of the problem without these limits.
     """
     problem, options = programme.problem, programme.options
     stroke_map = np.asarray(programme.fly(start[4:], start[:4]).end_jacobian)[2:, :4]

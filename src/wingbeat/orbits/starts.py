@@ -43,6 +43,11 @@ def start_count(problem: OrbitProblem, starts: int | None, options: SearchOption
     return usual_starts(problem, options) if starts is None else starts
 
 
+def starts_in_words(count: int) -> str:
+    """Return how many starts there were."""
+    return f"{count} start" if count == 1 else f"{count} starts"
+
+
 def start_beside(
     problem: OrbitProblem, best: np.ndarray, index: int, seed: int, options: SearchOptions = DEFAULTS.search
 ) -> np.ndarray:

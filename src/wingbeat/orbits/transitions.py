@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat.orbits.status import Status
+from wingbeat.orbits.options import Status
 
 if TYPE_CHECKING:
     from wingbeat.orbits.branches import Branches, BranchLink

@@ -24,14 +24,13 @@ from wingbeat.orbits.flight.certificate import certify
 from wingbeat.orbits.flight.period import PATH_NAMES, PITCH_STATE
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace
 from wingbeat.orbits.nlp.transcription import Transcription, certified_beat
-from wingbeat.orbits.options import DEFAULTS, SolverOptions
+from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
 from wingbeat.orbits.problem.parameters import SIDES, Parameter, bound_of, limit_of
 from wingbeat.orbits.problem.problem import OrbitProblem, Unknowns
 from wingbeat.orbits.problem.quantities import Quantity
 from wingbeat.orbits.problem.quantity import MapQuantity
 from wingbeat.orbits.solution import correct_guess, search_near
 from wingbeat.orbits.solve import Progress, Settings, find_orbit
-from wingbeat.orbits.status import Status
 
 # Multiples of a step and weights of the values there: central differences, or one-sided ones where a number can
 # change one way only.
@@ -53,16 +52,7 @@ class Sensitivity(NamedTuple):
 class OptimumSlopes:
     """The active set of an optimum, its multipliers and its curvature.
 
-    Parameters
-    ----------
-    problem : the orbit problem.
-    unknowns : the pitch state at phase 0 and the free parameters of its certified orbit.
-    options : of the solvers.
-
-    Raises
-    ------
-    InvalidInputError : there are more active bounds than free unknowns, or the objective has no curvature at the
-        optimum.
+    More active bounds than free unknowns, and an objective without curvature there, raise `InvalidInputError`.
     """
 
     def __init__(self, problem: OrbitProblem, unknowns: np.ndarray, options: SolverOptions = DEFAULTS) -> None:
@@ -128,14 +118,9 @@ class OptimumSlopes:
         return self._read(self._here, self._at, quantities)
 
     def by(self, parameter: Parameter, quantities: Sequence[Quantity] = ()) -> Sensitivity:
-        """Return the derivatives by one parameter.
+        """Return the derivatives by one parameter, of other quantities too; of a series, of its largest value.
 
         Theory: equations ``envelope`` and ``optimum-slope``.
-
-        Parameters
-        ----------
-        parameter : one of `parameters_of` the problem, or of those that are `active`.
-        quantities : other quantities to differentiate; for a series, its largest value.
         """
         size, scale = parameter.size, self._unknowns.scale
         moved = np.zeros(self._at.size)
@@ -320,15 +305,7 @@ def first_order(
     value: float,
     set_by_limit: bool = False,
 ) -> ErrorBar:
-    """Propagate spreads to a quantity by its derivatives.
-
-    Parameters
-    ----------
-    slopes : derivatives by every parameter of the spreads.
-    spreads : of parameters.
-    quantity : name of one of the differentiated quantities.
-    unit, value, set_by_limit : of the quantity.
-    """
+    """Propagate spreads to a quantity by its derivatives by every parameter of the spreads."""
     by_path = {s.parameter.path: s.quantities[quantity] for s in slopes}
     due_to, shift = {}, 0.0
     for spread in spreads:
@@ -378,23 +355,12 @@ def sample_orbits(
     options: SolverOptions = DEFAULTS,
     starts: int = 1,
 ) -> Samples:
-    """Solve a problem for random draws of its parameters.
+    """Solve a problem for random draws of its parameters, and compute quantities of each certified orbit.
 
     For each draw, the derivatives predict an optimum, and a correction of the prediction gives the orbit. So the
     orbit belongs to the same family. If the correction fails, a local search from the prediction follows. If that
-    fails too, a last search from `starts` starts follows.
-
-    Parameters
-    ----------
-    problem, unknowns : the orbit problem and its optimum.
-    slopes : its sensitivities by the spreads' parameters.
-    spreads : distributions of the parameters.
-    quantities : computed for each certified orbit; not-a-number without one.
-    count : number of draws.
-    seed : of the draws, and of the starts.
-    processes, progress, options : as in `solve_orbits`.
-    starts : number of starts of the last search, which takes most of the time if many draws have no orbit; 0 omits
-        this search.
+    fails too, a last search from `starts` starts follows; it takes most of the time if many draws have no orbit,
+    and 0 omits it.
     """
     generator = np.random.default_rng(seed)
     parameters = [p for spread in spreads for p in spread.parameters]

@@ -20,13 +20,11 @@ from wingbeat.animal.kinematics import PARAMETER_NAMES, Wingbeat, parameter
 from wingbeat.animal.vehicle import Air
 from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.flight.beat import Beat
-from wingbeat.orbits.flight.period import SYMMETRY
-from wingbeat.orbits.options import DEFAULTS
+from wingbeat.orbits.flight.period import PATH_NAMES, SYMMETRY
+from wingbeat.orbits.options import DEFAULTS, Status
 from wingbeat.orbits.problem.plausible import judged_names
-from wingbeat.orbits.problem.problem import PATH_NAMES
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.problem.quantity import drive_numbers
-from wingbeat.orbits.status import Status
 from wingbeat.records.forms import from_json
 from wingbeat.records.inputs import (
     OWN,

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from wingbeat._base import in_words
 from wingbeat.animal.species.species import Species
-from wingbeat.orbits.problem.problem import PATH_NAMES
+from wingbeat.orbits.flight.period import PATH_NAMES
 
 # The reader's name of each judged number.
 JUDGED_NAMES = {

@@ -19,12 +19,11 @@ from wingbeat.orbits.batch import find_orbits, find_series
 from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.flight.certificate import SAMPLES, certify, floquet_multipliers
 from wingbeat.orbits.flight.time_series import flown_beat
-from wingbeat.orbits.options import DEFAULTS, SolverOptions
+from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, Settings, check_search, find_orbit
 from wingbeat.orbits.starts import start_count
-from wingbeat.orbits.status import Status
 from wingbeat.plots.draw_wingbeat import wingbeat_page
 from wingbeat.records.flight_dataset import evaluate, flight_dataset
 from wingbeat.records.forms import orbit_attributes, parse_attributes

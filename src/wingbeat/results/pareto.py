@@ -12,13 +12,12 @@ import numpy as np
 
 from wingbeat._base import FaultList, Report, Reported, __version__
 from wingbeat.orbits.batch import find_series
-from wingbeat.orbits.options import DEFAULTS, SolverOptions
+from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Constraint
 from wingbeat.orbits.problem.quantity import Quantity
 from wingbeat.orbits.solve import Progress, Settings
 from wingbeat.orbits.starts import start_count
-from wingbeat.orbits.status import Status
 from wingbeat.plots.draw_influences import pareto_page
 from wingbeat.records.tables import finite_or_none, table_of
 from wingbeat.results.orbit import Orbit

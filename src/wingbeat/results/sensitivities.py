@@ -21,13 +21,12 @@ from wingbeat._base import (
     written,
 )
 from wingbeat.aero.model_file import Fitted
-from wingbeat.orbits.options import DEFAULTS, SolverOptions
+from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
 from wingbeat.orbits.problem.parameters import CURVES, Parameter, parameters_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import named_quantity
 from wingbeat.orbits.problem.quantity import Quantity
 from wingbeat.orbits.solve import Progress
-from wingbeat.orbits.status import Status
 from wingbeat.orbits.uncertainty import (
     ErrorBar,
     OptimumSlopes,

@@ -12,7 +12,7 @@ import numpy as np
 from wingbeat._base import FaultList
 from wingbeat.aero.winds import CosineGust, Wind
 from wingbeat.orbits.flight.period import PITCH_STATE
-from wingbeat.orbits.status import Status
+from wingbeat.orbits.options import Status
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.stability.beat_feedback import Feedback, feedback
 from wingbeat.stability.options import FEEDBACK, MANY, ManyOptions

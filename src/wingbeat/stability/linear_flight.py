@@ -14,8 +14,8 @@ from wingbeat.animal.kinematics import Wingbeat, flap_angle
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.certificate import StrokeMap, stroke_map
 from wingbeat.orbits.flight.period import PITCH_STATE
+from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.status import Status
 from wingbeat.plots.draw_stability import stability_page
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.stability.checks import check_inputs

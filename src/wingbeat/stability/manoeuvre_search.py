@@ -18,7 +18,7 @@ from wingbeat.animal.kinematics import Wingbeat, parameter
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import fly_through
 from wingbeat.orbits.flight.period import flier
-from wingbeat.orbits.status import Status
+from wingbeat.orbits.options import Status
 from wingbeat.results.orbit import solve_orbit
 from wingbeat.stability.inputs import changed_wingbeat, parameters_and_slopes, smoother
 from wingbeat.stability.linear_flight import linearise

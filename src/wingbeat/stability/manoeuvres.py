@@ -13,8 +13,8 @@ from wingbeat._base import FaultList, Report, Reported, __version__
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat, parameter
 from wingbeat.mechanics.flight_model import State
+from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.problem import SPEED_LIMITS
-from wingbeat.orbits.status import Status
 from wingbeat.plots.draw_stability import manoeuvre_page
 from wingbeat.records.tables import finite_or_none
 from wingbeat.results.flight import Flight, simulate

@@ -14,7 +14,7 @@ from wingbeat._base import FaultList, Report, Reported
 from wingbeat.aero.winds import CosineGust, Wind
 from wingbeat.mechanics.flights import air_at, check_wind, fly_through
 from wingbeat.orbits.flight.period import PITCH_STATE
-from wingbeat.orbits.status import Status
+from wingbeat.orbits.options import Status
 from wingbeat.plots.draw_stability import survey_page
 from wingbeat.stability.beat_feedback import Feedback, feedback
 from wingbeat.stability.checks import check_late, noise_of

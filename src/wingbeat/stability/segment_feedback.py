@@ -18,7 +18,7 @@ from wingbeat.animal.kinematics import Wingbeat, parameter, stroke_phase, with_p
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import air_at, air_phases, check_wind, fly_through
 from wingbeat.orbits.flight.period import PITCH_STATE, flier
-from wingbeat.orbits.status import Status
+from wingbeat.orbits.options import Status
 from wingbeat.stability.options import FEEDBACK, FeedbackOptions
 from wingbeat.stability.riccati import multipliers_over, periodic_linear_quadratic
 

@@ -13,9 +13,9 @@ from typing import Any, NamedTuple
 
 from wingbeat._workers.process import Context
 from wingbeat.orbits.batch import Answers, Known, best_of_guesses, find_with_known, kind, numbers_of
+from wingbeat.orbits.options import Status
 from wingbeat.orbits.solution import Solution, search_near
 from wingbeat.orbits.solve import Settings
-from wingbeat.orbits.status import Status
 from wingbeat.records.orbit_record import orbit_record
 from wingbeat.studies.recipe import Recipe, recipe_from, starts_of
 from wingbeat.studies.units import Outcome, Unit, failed

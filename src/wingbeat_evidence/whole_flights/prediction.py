@@ -13,10 +13,10 @@ from wingbeat._base import FaultList, Report, Reported
 from wingbeat._jax.arrays import jnp
 from wingbeat.animal.species.making import load_species
 from wingbeat.models import model_of
+from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.problem.quantity import Quantity
 from wingbeat.orbits.solve import Progress
-from wingbeat.orbits.status import Status
 from wingbeat.orbits.uncertainty import Samples, sample_orbits
 from wingbeat.results.orbit import Orbit, solve_orbits
 from wingbeat.results.sensitivities import sensitivities

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 from wingbeat._base import FileError, InvalidInputError, first_line
 from wingbeat._workers.process import Context
 from wingbeat.models import MODELS
+from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, search_near
-from wingbeat.orbits.status import Status
 from wingbeat.records.inputs import problem_from
 from wingbeat.records.netcdf import netcdf_bytes
 from wingbeat.results.orbit import Orbit, solve_orbit

@@ -214,12 +214,7 @@ def _samples_around(series: SampledSeries, xp: Any) -> Any:
 
 
 class WeightedSamples:
-    """The samples of a closed path from which its `peaks` are computed, and their weights.
-
-    Parameters
-    ----------
-    series : the path, shape (K, ...).
-    """
+    """The samples of a closed path, shape (K, ...), from which its `peaks` are computed, and their weights."""
 
     def __init__(self, series: np.ndarray) -> None:
         self._around = _samples_around(series, np)

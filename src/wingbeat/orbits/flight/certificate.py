@@ -169,10 +169,6 @@ def monodromy(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarra
     Its shape is (4, 4). It is not-a-number if the flight diverges.
 
     Theory: equation ``monodromy``.
-
-    Parameters
-    ----------
-    model, wingbeat, steps : as of `floquet_multipliers`.
     """
     phase, path = steps.phase, steps.states[:, 2:]
     if phase[-1] < 1.0:
@@ -196,13 +192,9 @@ def _chained(maps: np.ndarray) -> np.ndarray:
 class StrokeMap(NamedTuple):
     """Derivatives of (z, body_pitch, u, w, pitch_rate) after one beat, and of the pitch state along the beat.
 
-    Attributes
-    ----------
-    by_state : by the same five numbers before the beat, shape (5, 5).
-    by_parameters : by parameters of the wingbeat, which hold for the whole beat, shape (5, parameters).
-    transition : derivatives of (body_pitch, u, w, pitch_rate) at equal phases from 0 to 1 by the same four at
-        phase 0, shape (K, 4, 4).
-    path : the four numbers at these phases, shape (K, 4) [rad, m/s, m/s, rad/s].
+    `by_state`, shape (5, 5), is by the same five numbers before the beat; `by_parameters`, shape (5, parameters),
+    by parameters of the wingbeat. `transition`, shape (K, 4, 4), is of the pitch state at equal phases from 0 to 1
+    by that at phase 0; `path`, shape (K, 4), is the pitch state there [rad, m/s, m/s, rad/s].
     """
 
     by_state: np.ndarray
@@ -214,16 +206,12 @@ class StrokeMap(NamedTuple):
 def stroke_map(
     model: FlightModel, wingbeat: Wingbeat, pitch_state: np.ndarray, parameters: tuple[str, ...], blocks: int
 ) -> StrokeMap:
-    """Differentiate one beat, exactly for its fixed steps.
+    """Differentiate one beat of `blocks` blocks of 32 steps, exactly for these steps.
+
+    The pitch state at phase 0 is (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s]; at least one parameter of
+    the wingbeat is named.
 
     Theory: equation ``stroke-map``.
-
-    Parameters
-    ----------
-    model, wingbeat : what flies.
-    pitch_state : (body_pitch, u, w, pitch_rate) at phase 0, shape (4,) [rad, m/s, m/s, rad/s].
-    parameters : names of the parameters of the wingbeat, at least one.
-    blocks : number of blocks of 32 steps.
     """
     fly = flier(model, wingbeat, parameters, whole_path=True)
     values = np.array([parameter(wingbeat, name) for name in parameters], dtype=float)
@@ -245,13 +233,8 @@ def map_and_changes(
 
     The derivatives have the shape (unknowns, 4, 4). They are second derivatives of the flight, which do not depend
     on the order of differentiation. So we shift each of the four states in turn, and take the change of the exact
-    first derivatives by all unknowns. This takes four flights, however many parameters are free.
-
-    Parameters
-    ----------
-    fly : as `flier` returns it.
-    values, start, blocks : the arguments of `fly`.
-    flown : the flight with these arguments.
+    first derivatives by all unknowns. This takes four flights by `fly` beside the one `flown`, however many
+    parameters are free.
     """
     here = np.asarray(flown.end_jacobian)[2:]
     beside = [np.asarray(fly(values, start + step, blocks).end_jacobian)[2:] for step in np.diag(_BESIDE)]

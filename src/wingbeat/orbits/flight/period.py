@@ -274,12 +274,7 @@ def _through(by_state: LinearMap, tangents: Tangents) -> MappedTangents:
 
 
 def _chain(
-    flight: March,
-    by_state: StateTangents,
-    by_free: FreeTangents,
-    step: Scalar,
-    step_tangent: Free,
-    components: int,
+    flight: March, by_state: StateTangents, by_free: FreeTangents, step: Scalar, step_tangent: Free, components: int
 ) -> Flown:
     """Compose the tangents of all stages into those of the steps, and these into those of the period.
 

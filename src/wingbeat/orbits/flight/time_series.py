@@ -211,13 +211,9 @@ def _joined(pieces: tuple[Beat, ...], axis: int) -> Beat:
 
 @exported
 def flown_beat(model: FlightModel, wingbeat: Wingbeat, phase: Samples, path: Path, mean_velocity: Pair) -> Beat:
-    """Return the time series of a flown path.
+    """Return the time series of a path flown at equal phases from 0 to 1, both ends included.
 
-    Parameters
-    ----------
-    model, wingbeat : the flight model and its wingbeat.
-    phase, path : equal phases from 0 to 1, shape (K,), and (body_pitch, u, w, pitch_rate) there, shape (K, 4)
-        [rad, m/s, m/s, rad/s].
-    mean_velocity : forward and up [m/s].
+    The path, shape (K, 4), is (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s]; the mean velocity is forward
+    and up [m/s].
     """
     return _series(model, _tabulate(model, wingbeat, phase), path.T, mean_velocity)

@@ -25,14 +25,9 @@ def least_squares(
     upper: np.ndarray,
     options: LeastSquaresOptions,
 ) -> np.ndarray:
-    """Return the unknowns within bounds that minimise the sum of the squares of residuals.
+    """Return the unknowns between `lower` and `upper` that minimise the sum of the squares of residuals.
 
-    Parameters
-    ----------
-    residuals, jacobian : functions of the unknowns; their values may be huge or not-a-number away from the start.
-    start : unknowns to start from, clipped to the bounds.
-    lower, upper : the bounds.
-    options : when the method ends, and how its steps are damped.
+    Residuals and jacobian may be huge or not-a-number away from the start, which is clipped to the bounds.
     """
     here = np.clip(start, lower, upper)
     found = residuals(here)

@@ -1,8 +1,4 @@
-"""The orbit problem as a small nonlinear programme, by single shooting with few steps, and one local search of it.
-
-A local search leads from a start to a periodic orbit that minimises the objective locally. Each of its flights asks
-a `Transcription` for closure, inequalities and objective.
-"""
+"""The orbit problem as a small nonlinear programme, by single shooting with few steps, and a local search of it."""
 
 from __future__ import annotations
 
@@ -132,23 +128,21 @@ class Transcription(Programme):
         self.problem, self.options, self.model, self._blocks = problem, options, problem.model, blocks
         self.unknowns: Unknowns = unknowns or problem.unknowns()
         limited = problem.shapes_stroke and not problem.wings_may_cross
+        clearance, stock, free = options.search.plane_clearance, problem.species.wingbeat, problem.free
         low, high = problem.bounds["flap"]
-        clearance, free = options.search.plane_clearance, problem.free
         self._stroke = StrokeLimits(problem.vehicle, low, high, clearance, len(free), limited=limited)
-        stock, stroke = problem.species.wingbeat, bool(self._stroke.names)
+        stroke = bool(self._stroke.names)
         self.fly = flier(self.model, stock, free, whole_path=problem.has_outputs, stroke=stroke)
         self.outputs = None
         if problem.has_outputs:
             objective = [] if problem.minimise.parameter else [problem.minimise]
-            limits, drive = problem.subject_to, problem.vehicle.drive
-            self.outputs = Outputs(objective, limits, problem.aero.strips, drive)
-            velocity = problem.speed, problem.climb
+            velocity, drive = (problem.speed, problem.climb), problem.vehicle.drive
+            self.outputs = Outputs(objective, problem.subject_to, problem.aero.strips, drive)
             self._reader = beat_reader(self.model, stock, free, velocity, self.outputs.fields)
         # Number of outputs that belong to the objective.
         self._minimised = 0 if self.outputs is None else self.outputs.of_objective
         self.has_epigraph = self._minimised > 1
-        scale = np.append(self.unknowns.scale, [1.0] * self.has_epigraph)
-        self._scale = scale
+        self._scale = scale = np.append(self.unknowns.scale, [1.0] * self.has_epigraph)
         self.lower = np.append(self.unknowns.lower, [-_UNBOUNDED] * self.has_epigraph) / scale
         self.upper = np.append(self.unknowns.upper, [_UNBOUNDED] * self.has_epigraph) / scale
         self.pitch_bounds = np.array(problem.bounds["body_pitch"])
@@ -314,10 +308,8 @@ class Transcription(Programme):
         Theory: equation ``defect-correction``.
         """
         here, fine = self.point(scaled), self._fly(self.physical(scaled), blocks)
-        offsets = {name: getattr(here, name) - getattr(fine, name) for name in ("closure", "path", "outputs")}
-        slopes = {
-            name: getattr(fine, name) - getattr(here, name) for name in ("closure_jacobian", "outputs_jacobian")
-        }
+        offsets = {n: getattr(here, n) - getattr(fine, n) for n in ("closure", "path", "outputs")}
+        slopes = {n: getattr(fine, n) - getattr(here, n) for n in ("closure_jacobian", "outputs_jacobian")}
         return self._corrected(scaled.copy(), self._correction._replace(**offsets, **slopes))
 
     def matched_to(self, scaled: np.ndarray, certificate: Certificate) -> Transcription:

@@ -36,11 +36,7 @@ SAMPLES = 1 + 2 * PARTS
 def given_by(function: Callable[[Any], Any], strips: int, drive: Any, of_map: bool) -> Any:
     """Return the shapes of the arrays that a quantity's function of a beat, or of a stroke map, returns.
 
-    Parameters
-    ----------
-    function, of_map : the function, and whether it reads the stroke map.
-    strips : number of strips of the wing.
-    drive : structure of the vehicle's drive, as a tree.
+    `drive` is the structure of the vehicle's drive, as a tree.
     """
     if of_map:
         return jax.eval_shape(function, jax.ShapeDtypeStruct((4, 4), jnp.float64))
@@ -122,10 +118,7 @@ class _Lacking:
 class Read(NamedTuple):
     """The parts of a flight that quantities read, or their changes along directions (first axis); None if not read.
 
-    Attributes
-    ----------
-    beat : its time series.
-    stroke_map : derivative of (body_pitch, u, w, pitch_rate) after the beat by those before it, shape (4, 4).
+    The `stroke_map` is the derivative of (body_pitch, u, w, pitch_rate) after the beat by those before it, (4, 4).
     """
 
     beat: Any = None
@@ -197,13 +190,9 @@ class _OfMap:
 class Outputs:
     """The values of several quantities and limits that a flight decides, each divided by its scale.
 
-    Attributes
-    ----------
-    counts, constraint_counts : number of values of each quantity, and of each constraint.
-    count, of_objective : number of all values, and of those that are not of constraints, which come first.
-    limits : upper limits of the constraints' values.
-    fields : names of the fields of a beat that the quantities read.
-    of_beat, of_map : whether any quantity reads the beat, or the stroke map.
+    Each quantity and constraint has several values (`counts`, `constraint_counts`); those of the objective come
+    first (`of_objective` of all `count`). `limits` are upper limits of the constraints' values, `fields` the fields
+    of a beat that the quantities read; `of_beat` and `of_map` say whether any reads the beat, or the stroke map.
     """
 
     def __init__(

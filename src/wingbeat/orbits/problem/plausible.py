@@ -21,13 +21,7 @@ _INSET = 2e-4
 
 
 def judged_names(species: Species, free: Sequence[str]) -> list[str]:
-    """Return what is judged of an orbit: activation where there is muscle, the tail's tilt where a tail tilts.
-
-    Parameters
-    ----------
-    species : what flies.
-    free : names of the free parameters.
-    """
+    """Return what is judged of an orbit: activation where there is muscle, the tail's tilt where a tail tilts."""
     tilts = species.vehicle.tail is not None and ("tail_tilt" in free or species.wingbeat.tail_tilt != 0)
     absent = {"peak_activation": species.vehicle.muscle is None, "tail_tilt": not tilts}
     return [name for name in JUDGED if not absent.get(name)]
@@ -36,15 +30,9 @@ def judged_names(species: Species, free: Sequence[str]) -> list[str]:
 def drawn_in(
     species: Species, free: Sequence[str], bounds: Mapping[str, tuple[float, float]], faults: FaultList
 ) -> dict[str, tuple[float, float]]:
-    """Return the bounds of free parameters narrowed to their plausible ranges.
+    """Return the bounds of free parameters (SI and radians) narrowed to their plausible ranges.
 
-    Parameters
-    ----------
-    species : gives the ranges.
-    free : names of the free parameters.
-    bounds : of each, SI and radians.
-    faults : receives bounds that do not overlap with the plausible range, and fixed parameters
-        outside their ranges.
+    Bounds that do not overlap with the plausible range, and parameters fixed outside theirs, are faults.
     """
     drawn = {}
     for name in free:

@@ -54,14 +54,7 @@ class Unknowns:
 
 
 def check_tilts(vehicle: Vehicle, free: tuple[str, ...], faults: FaultList) -> None:
-    """Add a fault for each free tilt that has no effect on this vehicle's flight.
-
-    Parameters
-    ----------
-    vehicle : the vehicle.
-    free : names of the free parameters.
-    faults : receives the faults.
-    """
+    """Add a fault for each free tilt that has no effect on this vehicle's flight."""
     ahead, _, above = vehicle.wing.shoulder
     if "stroke_plane_tilt" in free and ahead == 0 and above == 0 and vehicle.tail is None:
         rule = "changes only the body's pitch, because the shoulder is at its centre of mass and there is no tail"

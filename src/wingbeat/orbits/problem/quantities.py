@@ -150,11 +150,7 @@ def _roughness(beat: Beat) -> Any:
 
 
 def _known(
-    name: str,
-    of: Callable[[Beat], Any],
-    scale: float = 1.0,
-    in_hover: str | None = None,
-    needs: str | None = None,
+    name: str, of: Callable[[Beat], Any], scale: float = 1.0, in_hover: str | None = None, needs: str | None = None
 ) -> Quantity:
     """Return a quantity with the unit that the table of names gives it."""
     return Quantity(name, of, plain(NOMENCLATURE[name].unit), scale, in_hover=in_hover, needs=needs)

@@ -285,12 +285,7 @@ OF_MOTOR: dict[str, tuple[DriveQuantity, float]] = {
 
 
 def drive_numbers(beat: Beat) -> dict[str, float]:
-    """Return all numbers of the muscles and of the motor that the vehicle has; of a series, the largest value.
-
-    Parameters
-    ----------
-    beat : with the vehicle's drive.
-    """
+    """Return all numbers of the vehicle's muscles and motor; of a series, the largest value."""
     parts = ((beat.drive.muscle, OF_MUSCLE), (beat.drive.motor, OF_MOTOR))
     there = [found for part, found in parts if part is not None]
     if not there:

@@ -52,16 +52,7 @@ class Origin(NamedTuple):
 
 
 def origin_from(record: dict[str, Any]) -> Origin:
-    """Return the origin from its record.
-
-    Parameters
-    ----------
-    record : name, choices and changes, as from `Origin.record`.
-
-    Raises
-    ------
-    KeyError, TypeError : the dictionary was not made by `Origin.record`.
-    """
+    """Return the origin from `Origin.record`; any other dictionary raises `KeyError` or `TypeError`."""
     choices = tuple(Choice(**choice) for choice in record["choices"])
     return Origin(record["name"], choices, tuple(record["changed"]))
 

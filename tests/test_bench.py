@@ -14,6 +14,7 @@ def brief(monkeypatch):
     monkeypatch.setattr(bench, "_REPEATS", 2)
 
 
+@pytest.mark.slow
 def test_bench_prints_json_alone(capsys):
     assert main(["bench", "--batch", "2", "--json"]) == 0
     out, err = capsys.readouterr()

@@ -29,6 +29,7 @@ def renamed(dataset, name):
     return dataset.assign_attrs(species=name, **hashed)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("control", [RED, TURNED, "\r", "\x9b31m", "\b"], ids=ascii)
 def test_no_text_of_a_result_reaches_the_terminal_with_one(orbit, tmp_path, capsys, control):
     warned = [*json.loads(orbit.attrs["warnings"]), f"all is {control}well"]

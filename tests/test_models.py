@@ -120,6 +120,7 @@ def answer(tmp_path_factory):
     return wb.load_orbit(file)
 
 
+@pytest.mark.slow
 def test_the_command_solves_the_problem_of_the_model(answer):
     stronger = wb.models.animal(PIGEON).species(PIGEON).with_values({"muscle.isometric_stress": 3e5})
     still = dataclasses.replace(wb.models.animal(PIGEON).aero, induced_factor=1.1)
@@ -140,6 +141,7 @@ def test_an_unknown_model_is_refused(command, capsys):
     assert "paper" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_glide_is_that_of_the_animals_own_wing(capsys):
     assert main(["glide", "jackdaw", "--model", "animal", "--alpha", "6:10:2", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)

@@ -75,6 +75,7 @@ def test_it_is_the_users_own_whatever_the_umask(first: tuple[Path, str]) -> None
     assert {name.partition("-")[0] for name in contents(first[0])} == {"traced", "compiled"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damage", ["bits", "short", "swapped", "pickles"])
 def test_what_is_damaged_is_made_anew(first: tuple[Path, str], damage: str, tmp_path: Path) -> None:
     folder, out = first
@@ -141,6 +142,7 @@ def test_a_folder_that_was_open_to_others_is_moved_aside(first: tuple[Path, str]
     assert [path.name for path in aside.iterdir()] == ["planted"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("trouble", ["no folder can be made", "a file", "a link"])
 def test_without_a_folder_it_works_and_says_so(first: tuple[Path, str], trouble: str, tmp_path: Path) -> None:
     place = tmp_path / first[0].name

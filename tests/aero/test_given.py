@@ -90,6 +90,7 @@ def test_a_path_is_its_table(table):
     assert polar.record()["aero"]["coefficients"] == "wing"
 
 
+@pytest.mark.slow
 def test_a_function_flies_as_the_model_of_the_same_formulas():
     own = wb.FlightModel(PIGEON.vehicle, plate)
     for found, expected in zip(spoken_of(own), spoken_of(wb.FlightModel(PIGEON.vehicle, "wang")), strict=True):
@@ -101,6 +102,7 @@ def test_a_function_flies_as_the_model_of_the_same_formulas():
     np.testing.assert_allclose(coefficients.lift(ANGLES), wb.aero.Wang2004().lift(ANGLES), atol=1e-12)
 
 
+@pytest.mark.slow
 def test_an_orbit_of_a_function_says_so_and_keeps_it(tmp_path, capsys):
     orbit = wb.solve_orbit(OWN, starts=1)
     library = wb.solve_orbit(wb.OrbitProblem(PIGEON, speed=10.0, aero="wang"), starts=1)
@@ -163,6 +165,7 @@ for gain in sys.argv[1:]:
 """
 
 
+@pytest.mark.slow
 def test_programs_on_disk_know_functions_of_one_name_apart(tmp_path):
     """The functions differ in one number out of 3000; the first to come leaves its program in an empty cache."""
 
@@ -183,6 +186,7 @@ def test_programs_on_disk_know_functions_of_one_name_apart(tmp_path):
     assert other[0] == alone
 
 
+@pytest.mark.slow
 def test_a_function_goes_to_other_processes_if_it_has_a_place_in_a_module():
     with ProcessPoolExecutor(1, multiprocessing.get_context("spawn")) as pool:
         there = pool.submit(wb.solve_orbit, OWN, 1).result(timeout=300)

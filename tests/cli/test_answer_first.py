@@ -34,6 +34,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("error", "told"),
     [
@@ -65,6 +66,7 @@ def test_a_file_that_cannot_be_written_costs_neither_the_answer_nor_other_files(
     assert re.search(told, capsys.readouterr().err)
 
 
+@pytest.mark.slow
 def test_a_reader_that_has_seen_enough_does_not_cost_the_file(folder: Path) -> None:
     """`head` closes the pipe before the table is printed."""
     words = "polar su-fan --alpha=-180:180:0.02 --csv -o page.png | head -1; exit ${PIPESTATUS[0]}"

@@ -106,6 +106,7 @@ def asked(solved: Solved, monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     return questions
 
 
+@pytest.mark.slow
 def test_json_is_the_record_and_nothing_else(solved: Solved) -> None:
     assert (solved.ended.code, solved.ended.err) == (0, "")
     record = solved.record  # all of stdout was one JSON text
@@ -149,6 +150,7 @@ def test_show_gives_the_same_record(solved: Solved, capsys: Any) -> None:
     assert capsys.readouterr().out == solved.ended.out
 
 
+@pytest.mark.slow
 @needs_terminal
 def test_from_a_file_the_record_comes_again_bit_for_bit(solved: Solved, forks: ForkServer) -> None:
     """Also: on a terminal, stderr shows how far the search is, and stdout still holds the record alone."""
@@ -198,6 +200,7 @@ def test_the_table_and_a_bound_and_a_mass(run: Any, solved: Solved, tmp_path: Pa
     assert float(power[2]) == pytest.approx(float(power[1]) / mass, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_a_table_of_ones_own_with_fewer_strips_climbing(run: Any, tmp_path: Path) -> None:
     (tmp_path / "plate.csv").write_text(TABLE)
     words = ("pigeon", "--speed", 10, "--climb", 1, "--aero", tmp_path / "plate.csv", "--strips", 5)
@@ -243,6 +246,7 @@ def test_every_option_reaches_the_problem(asked: list[Any], capsys: Any) -> None
     capsys.readouterr()
 
 
+@pytest.mark.slow
 def test_figures_by_their_suffix(asked: list[Any], tmp_path: Path, capsys: Any) -> None:
     for suffix, magic in ((".png", b"\x89PNG"), (".pdf", b"%PDF"), (".SVG", b"<?xml")):
         page = tmp_path / f"page{suffix}"
@@ -252,6 +256,7 @@ def test_figures_by_their_suffix(asked: list[Any], tmp_path: Path, capsys: Any) 
     assert capsys.readouterr().err == ""
 
 
+@pytest.mark.slow
 def test_an_infeasible_problem_exits_with_3(
     run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Any
 ) -> None:

@@ -10,6 +10,7 @@ from wingbeat_evidence.paper import treatments
 from wingbeat_evidence.paper.claim import NOT_ASKED
 
 
+@pytest.mark.slow
 def test_figures_claims_and_records_are_written(monkeypatch, tmp_path, capsys):
     before = json.loads((ROOT / "data" / "claims.json").read_text())
     next(row for row in before if row["id"] == "two-dimensional")["verdict"] = "fails"

@@ -122,6 +122,7 @@ def test_a_table_file_can_be_shown(tmp_path, capsys):
     assert json.loads(capsys.readouterr().out)["c_l"] == [1.0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", [".png", ".pdf", ".svg", ".PNG"])
 @pytest.mark.parametrize("model", ["su-fan", "dickinson"])
 def test_figure(tmp_path, capsys, suffix, model):

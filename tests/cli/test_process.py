@@ -43,6 +43,7 @@ def test_python_m_is_the_program():
 # --- streams ---
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("line", "code", "err"),
     [
@@ -83,6 +84,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory, pigeon_orbit: Any) -> Path:
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["orbit", "curve", "study", "view"])
 def test_one_interrupt_ends_it_at_any_time(folder: Path, command: str) -> None:
     """In its imports, and at work; benchmarks/interrupts.py tries every command a hundred times."""
@@ -109,6 +111,7 @@ sys.exit(program())
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("module", ["cyclopts", "numpy", "jaxlib", "scipy.optimize", "wingbeat.orbits.solve"])
 def test_an_interrupt_within_an_import(tmp_path: Path, module: str) -> None:
     ended = subprocess.run(
@@ -182,6 +185,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
 @pytest.mark.parametrize("after", [1.0, 5.0])
 def test_processes_of_a_pool_leave_with_it(tmp_path: Path, number: int, after: float) -> None:
@@ -226,6 +230,7 @@ if __name__ == "__main__":
 """
 
 
+@pytest.mark.slow
 def test_a_fork_after_a_solve_is_refused_with_the_cure(tmp_path: Path) -> None:
     ended = subprocess.run(script(tmp_path, FORK.format(before=False)), capture_output=True, text=True, check=False)
     lines = ended.stdout.splitlines()
@@ -257,6 +262,7 @@ def test_too_little_memory_is_one_line(limit: int, words: str, needs: str) -> No
     assert "raise the limit with `ulimit -v " in line
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="no limit on address space")
 def test_the_memory_that_is_asked_for_is_enough() -> None:
     line = shell("ulimit -v 1000000; WB orbit pigeon --speed 12").stderr

@@ -206,6 +206,7 @@ def test_a_flight_can_be_printed_narrow(flight):
     assert max(map(len, console.export_text().splitlines())) <= 30
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["orbit.nc", "flight.nc"])
 @pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])
 def test_plot_writes_the_page(files, tmp_path, capsys, name, suffix):

@@ -132,6 +132,7 @@ def test_what_is_given_replaces_the_start(run: Any, orbit_file: Path, tmp_path: 
         assert first == pytest.approx([place.x, place.z, math.radians(30), 9.0, -0.5, -1.0], abs=1e-15)
 
 
+@pytest.mark.slow
 def test_settings_and_air_loads_are_heeded(run: Any, tmp_path: Path) -> None:
     words = ("--set", "wingbeat.frequency=8", "air.gravity=0", "--strips", 6, "--beats", 1, "--samples", 16)
     assert run("bat", *words, "--aero", "dickinson", "-o", tmp_path / "flight.nc")[0] == 0

@@ -23,6 +23,7 @@ def flown(capsys, *asked):
     return code, json.loads(capsys.readouterr().out)["beats"][-1]
 
 
+@pytest.mark.slow
 def test_gust_and_turbulence_are_those_of_the_library(orbit_file, pigeon_orbit, capsys, tmp_path):
     file = str(tmp_path / "flight.nc")
     asked = ["--gust", "w=2", "start=0.05", "duration=0.1", "--turbulence", "moderate", "--wind-seed", "5"]

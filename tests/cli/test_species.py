@@ -53,6 +53,7 @@ def test_help_names_every_command_and_imports_nothing_heavy() -> None:
         assert f" {name} " in shown
 
 
+@pytest.mark.slow
 def test_help_takes_less_than_half_a_second_of_work() -> None:
     # CPU time and not the clock's: other tests run beside this one.
     def work() -> float:
@@ -158,6 +159,7 @@ def test_a_fault_of_our_own_is_not_hidden(run: Any) -> None:
         run("probe", app=app)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("words", ["--help", "species pigeon", "species pigeon --json"])
 def test_a_reader_who_leaves_early_is_no_error(words: str) -> None:
     reading, writing = os.pipe()

@@ -19,6 +19,7 @@ def truth_of(fit: WingFit, label: str) -> dict[str, float]:
     return {name: getattr(TRUTH[label], name) for name in fit.curves[label].parameters}
 
 
+@pytest.mark.slow
 def test_a_hundred_campaigns_hold_the_truth_as_often_as_their_fits_say() -> None:
     """One test, not one for each question: two processes that share the tests would each make all the campaigns."""
     fits = [fit_wing(reduce_runs(synthetic_runs(THINNED, seed))) for seed in range(SEEDS)]

@@ -267,6 +267,7 @@ def study(monkeypatch):
     return importlib.import_module("measured_wings").main
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not DATA.is_dir(), reason="other people's measurements are not part of this repository")
 def test_the_study_of_measured_wings_writes_what_the_repository_holds(study, here):
     assert study(["--data", str(DATA), "-o", "."]) == 0

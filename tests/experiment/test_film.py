@@ -107,6 +107,7 @@ def refound(known):
     return orbit
 
 
+@pytest.mark.slow
 def test_a_synthetic_film_of_a_known_orbit_returns_its_power_within_its_error_bar(known, refound):
     """Of ten films of a known orbit, noise of 1.5 degrees, at least nine."""
     pigeon, true = wb.load_species("pigeon"), known.record()
@@ -227,6 +228,7 @@ def test_a_value_is_shown_to_its_error(value, error, text):
     assert plus_minus(value, error) == text
 
 
+@pytest.mark.slow
 def test_the_command_flies_a_film(known, tmp_path, capsys):
     path = tmp_path / "beat.csv"
     synthetic_film(known.wingbeat, 60, 1.5, seed=1, start=0.3).save(path)

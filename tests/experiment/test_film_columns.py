@@ -52,6 +52,7 @@ def test_area_without_a_film_of_the_span_is_divided_by_the_species_span():
     assert "chord_retraction" not in fit_film(film).numbers
 
 
+@pytest.mark.slow
 def test_noisy_laws_are_recovered_within_their_spread():
     """Of ten noisy films, two standard deviations of the draws hold the truth nearly always."""
     within = {law.__name__: [] for law in LAWS}

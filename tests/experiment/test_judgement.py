@@ -75,11 +75,13 @@ def faulty(seed):
     return rows, None, random.choice([random, None])
 
 
+@pytest.mark.slow
 def test_of_good_tables_one_of_fifty_at_most_is_warned_of():
     said = {seed: words for seed in range(50) if (words := warned(*good(seed)))}
     assert len(said) <= 1, said
 
 
+@pytest.mark.slow
 def test_of_faulty_tables_nineteen_of_twenty_are_reported():
     silent = [seed for seed in range(51) if not warned(*faulty(seed))]
     assert len(silent) <= 2, silent

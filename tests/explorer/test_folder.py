@@ -52,6 +52,7 @@ def test_the_gusts_are_those_of_fly_pushes_from_two_sides(folder, orbits):
     np.testing.assert_allclose(shown, flown[0].pitch, rtol=0, atol=1e-4)
 
 
+@pytest.mark.slow
 def test_an_orbit_that_is_not_certified_has_no_gusts():
     heavy = wb.load_species("pigeon").with_values({"body.mass": 3.0})
     assert pushes_of(wb.solve_orbit(wb.OrbitProblem(heavy, 3.0), starts=1)) == []

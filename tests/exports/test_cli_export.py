@@ -13,6 +13,7 @@ def saved(pigeon_orbit, tmp_path_factory):
     return str(path)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("suffix", "begins"), [(".csv", b"# gait"), (".mat", b"MATLAB 5.0"), (".xml", b"<mujoco"), (".c3d", b"\x02P")]
 )
@@ -46,6 +47,7 @@ def test_bad_input_gets_its_sentence(words, said, saved, tmp_path, capsys, monke
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_a_file_of_another_kind_gets_its_sentence(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     pigeon = wb.load_species("pigeon")
@@ -62,6 +64,7 @@ def test_a_file_of_another_kind_gets_its_sentence(tmp_path, capsys, monkeypatch)
     assert not (tmp_path / "gait.csv").exists()
 
 
+@pytest.mark.slow
 def test_an_orbit_that_is_not_certified_ends_with_3(uncertified_orbit, tmp_path, capsys):
     uncertified_orbit.save(tmp_path / "open.nc")
     assert main(["export", str(tmp_path / "open.nc"), "-o", str(tmp_path / "gait.csv")]) == 3

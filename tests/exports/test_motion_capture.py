@@ -21,6 +21,7 @@ def turned(vector, angle):
     )
 
 
+@pytest.mark.slow
 def test_points_are_those_of_the_orbit(orbit, tmp_path):
     wb.export(orbit, tmp_path / "gait.c3d", samples=SAMPLES)
     file = ezc3d.c3d(str(tmp_path / "gait.c3d"))

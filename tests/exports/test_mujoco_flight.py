@@ -21,6 +21,7 @@ def distance(one, other):
     return float(np.abs((one - other) / SCALES).max())
 
 
+@pytest.mark.slow
 def test_a_beat_closes_in_on_the_orbit_and_takes_our_torques(orbit):
     """The integrator has order four; kinks of the coefficients take some of it."""
     found, misses = [], []
@@ -51,6 +52,7 @@ def check_torques(flight, flown, series, twist):
         np.testing.assert_allclose(total, series[torque], rtol=0, atol=1e-5 * np.abs(series[torque]).max())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["rigid", "animal"])
 def test_three_beats_stay_with_our_flight(name, request):
     orbit = request.getfixturevalue(f"{name}_orbit")
@@ -84,6 +86,7 @@ def flown_from(start, orbit, beats, controller=None):
     return flight.fly(beats, controller)
 
 
+@pytest.mark.slow
 def test_the_controller_holds_the_gait_and_the_flight_is_ours(rigid_orbit, pushed):
     held = wb.feedback(rigid_orbit)
     flown = flown_from(pushed, rigid_orbit, 10, held.controller())
@@ -96,6 +99,7 @@ def test_the_controller_holds_the_gait_and_the_flight_is_ours(rigid_orbit, pushe
     assert len(set(np.diff(flown.time).round(9))) > 1  # the frequency changes from beat to beat
 
 
+@pytest.mark.slow
 def test_without_the_controller_the_push_has_not_decayed(rigid_orbit, pushed):
     flown = flown_from(pushed, rigid_orbit, 10)
     away = (flown.states[-1] - np.array(rigid_orbit.initial_state))[2:]

@@ -67,6 +67,7 @@ def test_rows_are_equal_phases_and_rates_are_derivatives(orbit, table):
             np.testing.assert_allclose(frame[above] / scale, wanted / scale, rtol=0, atol=precise)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("orbit", ["rigid", "bat"], indirect=True)
 def test_torques_and_power_are_those_of_one_wing(orbit, table):
     """The five-coordinate equations of motion, which the series do not use, give those of both wings."""

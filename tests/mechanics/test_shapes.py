@@ -166,6 +166,7 @@ def traced(name, *args, **static):
     return jax.eval_shape(functools.partial(kernel, **static), *args)
 
 
+@pytest.mark.slow
 def test_every_kernel_gets_and_gives_the_shapes_it_says(flown, calls):
     model, wingbeat = flown
     phases, q = np.linspace(0.0, 1.0, 5), np.zeros((5, 5))
@@ -231,6 +232,7 @@ def test_coefficients_have_the_shape_of_the_angles(extension):
                     assert fits(getattr(kernel, method)(alpha), hints["return"])
 
 
+@pytest.mark.slow
 def test_a_wrong_shape_is_found(flown, calls):
     model, wingbeat = flown
     body = importlib.import_module("wingbeat.mechanics.flight_model").body_rates

@@ -114,6 +114,7 @@ def assert_flies_as(flier, now, states, phases, wanted):
         np.testing.assert_allclose(found[key], value, rtol=1e-9, atol=1e-10 * np.abs(value).max(), err_msg=key)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", NAMES)
 def test_accelerations_torques_and_powers_are_those_of_the_oracle(name, kind):
@@ -147,6 +148,7 @@ def test_the_comparison_sees_each_unsteady_term():
 # --- The two forms
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", UNSTEADY)
 @pytest.mark.parametrize("name", NAMES)
 def test_the_five_coordinates_need_no_force_but_the_hinge_torques(name, kind):
@@ -258,6 +260,7 @@ def rates_and_change(model, beat, phase, numbers, direction):
     return jax.jvp(rates, (numbers,), (direction,))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_derivatives_by_state_wingbeat_vehicle_and_air_are_those_of_differences(name):
     model, beat = all_terms(name)

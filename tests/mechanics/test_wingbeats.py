@@ -79,6 +79,7 @@ def test_what_is_off_is_no_part_of_a_program():
     assert len(jax.tree.leaves(RICH)) == 9 + 8 + 4 + 4 + 4 + 2 + 4 + 4
 
 
+@pytest.mark.slow
 def test_laws_that_are_on_but_add_nothing_leave_the_wing_where_it_was():
     """The programs differ, so their answers may differ by rounding."""
     waves = "flap_cos_2", "flap_sin_3", "pitch_sin_2", "span_cos_1", "sweep_cos_2", "chord_sin_1", "twist_cos_1"
@@ -99,6 +100,7 @@ def test_laws_that_are_on_but_add_nothing_leave_the_wing_where_it_was():
 ANGLE = st.floats(-1.0, 1.0)
 
 
+@pytest.mark.slow
 @settings(max_examples=40, deadline=None)
 @given(
     ANGLE,
@@ -185,6 +187,7 @@ def test_end_of_a_period_by_every_new_parameter():
     assert miss(np.asarray(found.end_jacobian)[:, 4:], wanted) <= 1e-7
 
 
+@pytest.mark.slow
 def test_the_richer_the_wingbeat_may_be_the_less_its_optimum(pigeon_orbit):
     """From the same start, what is free in addition can only lower the least frequency."""
     pigeon = wb.load_species("pigeon")

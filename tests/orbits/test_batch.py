@@ -47,6 +47,7 @@ def test_a_batch_gives_the_answers_of_single_orbits_in_their_order():
         same(orbit, wb.Orbit.of(find_orbit(problem, Settings(1, advise=False, options=few)), 1))
 
 
+@pytest.mark.slow
 def test_processes_give_the_same_bits(monkeypatch):
     """Of problems found alone, of some predicted from those before, and of least power with its quantity."""
     pigeon = wb.load_species("pigeon")

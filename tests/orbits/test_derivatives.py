@@ -165,6 +165,7 @@ def multipliers(solved):
     return np.array([complex(*pair) for pair in solved.orbit.record()["floquet_multipliers"]])
 
 
+@pytest.mark.slow
 def test_floquet_multipliers_agree_with_flights_of_scipy(solved):
     found = in_order(np.linalg.eigvals(reflown_monodromy(solved)))
     np.testing.assert_allclose(in_order(multipliers(solved)), found, rtol=0, atol=1e-5)

@@ -39,6 +39,7 @@ def test_a_curve_keeps_its_other_speeds(capsys, monkeypatch):
     assert [point["status"] for point in curve["points"]] == ["converged", "infeasible"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_every_change_that_may_be_tried_makes_a_problem(seed):
     random = np.random.default_rng(seed)
@@ -54,6 +55,7 @@ def test_every_change_that_may_be_tried_makes_a_problem(seed):
                 told.apply(problem)
 
 
+@pytest.mark.slow
 def test_no_hard_problem_raises():
     """A sample: hundreds were tried so while the advice was mended.
 
@@ -110,6 +112,7 @@ def test_a_much_wider_range_of_frequency_is_tried():
 # --- Newton's method where the rank of the conditions changes ---
 
 
+@pytest.mark.slow
 def test_a_curve_of_a_body_without_inertia_is_traced(capsys, monkeypatch):
     make_hasty(monkeypatch)
     words = "curve pigeon --speeds 0:20:10 --set body.pitch_inertia=1e-30 --starts 2 --json"
@@ -158,6 +161,7 @@ def test_least_frequency_at_its_own_bound_is_final():
     assert not any("a better one may exist" in line or "other optima" in line for line in record["warnings"])
 
 
+@pytest.mark.slow
 def test_a_search_that_ends_at_the_bound_uncertified_says_which_change_to_make():
     """Of these 2 searches none closes, nor of 18 more; the message was to try more of them."""
     problem = wb.OrbitProblem(PIGEON, speed=12.0, climb=-7.2)

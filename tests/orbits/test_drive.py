@@ -35,6 +35,7 @@ def cheap():
     return find_orbit(problem(STRONG, minimise="metabolic_power"), Settings(1))
 
 
+@pytest.mark.slow
 def test_metabolic_power_is_a_sum_over_the_samples_of_the_beat(cheap):
     """A slow reference from the formulas, without smooth treatment of changes of sign."""
     beat, muscle = cheap.beat(), STRONG.vehicle.muscle

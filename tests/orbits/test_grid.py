@@ -34,11 +34,13 @@ def test_the_grid_is_certified(species: str, aero: type, speed: float) -> None:
     assert_certified(wb.solve_orbit(problem, starts=2))
 
 
+@pytest.mark.slow
 def test_random_vehicles_are_certified() -> None:
     for problem in certify_grid.vehicles(count=8):
         assert_certified(wb.solve_orbit(problem, starts=2))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("speed", "climb"), [(8.0, 1.0), (8.0, -1.0), (0.0, 0.0)])
 def test_climb_descent_and_hover_are_certified(speed: float, climb: float) -> None:
     problem = wb.OrbitProblem(wb.load_species("bat"), speed=speed, climb=climb)

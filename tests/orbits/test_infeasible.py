@@ -44,6 +44,7 @@ def test_there_are_thirty_cases_of_six_kinds():
     assert len({case.kind for case in QUICK}) == len({case.kind for case in CASES}) == 6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", QUICK, ids=lambda case: case.kind)
 def test_the_right_law_is_named_and_the_smallest_change_flies(case):
     found = solved(case.kind)
@@ -57,6 +58,7 @@ def test_the_right_law_is_named_and_the_smallest_change_flies(case):
     assert again.status is wb.Status.CONVERGED, change.text
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["too slow", "amplitude too small"])
 def test_with_the_force_that_is_short_it_flies(kind):
     """A steady force on all mass is another gravity: told shares and one percent more do, half of them do not."""

@@ -28,6 +28,7 @@ def climbs(request):
     }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("objective", OBJECTIVES)
 def test_climb_and_descent_are_certified_and_climbing_costs_more(climbs, objective):
     records = [orbit.record() for orbit in climbs[objective]]
@@ -39,6 +40,7 @@ def test_climb_and_descent_are_certified_and_climbing_costs_more(climbs, objecti
     assert costs == sorted(costs)
 
 
+@pytest.mark.slow
 def test_the_vehicle_rises_as_asked_and_the_actuators_pay_for_it(climbs):
     """SciPy flies one beat: what height is gained, and weight times climb is what actuators and air do not undo."""
     orbit = climbs["frequency"][-1]

@@ -93,6 +93,7 @@ def test_derivatives_of_every_quantity(name):
     assert np.abs(found - wanted).max() <= 1e-5 * np.abs(found).max()
 
 
+@pytest.mark.slow
 def test_nothing_else_has_less_of_it():
     """Of the pigeon's orbits of least everything: four starts find them, where the bat's take nine.
 
@@ -132,6 +133,7 @@ def test_what_bound_the_search_may_let_go_in_a_finer_flight():
     assert found.objective == pytest.approx(candidate.objective, rel=1e-2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("cross", "power"), [(True, 17.339), (False, 28.994)])
 def test_a_limit_is_met_from_the_optima_without_it_too(cross, power):
     """Where wings may cross, twelve starts of the limited problem end in the worse family, at 28.994 W.
@@ -264,6 +266,7 @@ def test_what_is_no_objective_is_refused_all_at_once():
             dataclasses.replace(QUANTITIES["mean_power"], **fields)
 
 
+@pytest.mark.slow
 def test_a_measured_frequency_and_amplitude_are_held_and_the_rest_found():
     held = wb.OrbitProblem(
         PIGEON, speed=SPEED, minimise="mean_positive_power", subject_to=["frequency=14", "flap_amplitude = 50 deg"]

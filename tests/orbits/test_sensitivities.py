@@ -210,6 +210,7 @@ def test_error_bars_add_up_and_name_what_they_are_due_to(pigeon):
     )
 
 
+@pytest.mark.slow
 def test_draws_and_first_order_agree_where_the_problem_is_smooth(pigeon):
     for one in wb.uncertainty_by_samples(pigeon[1], samples=120, share=0.1).values():
         assert one.certified == one.drawn == 120
@@ -282,6 +283,7 @@ def test_the_command_line_tells_what_an_orbit_hangs_on(capsys, tmp_path):
     assert "deviation" not in first
 
 
+@pytest.mark.slow
 def test_the_command_uncertainty_prints_both_ways(capsys, monkeypatch):
     words = ["uncertainty", "pigeon", "--speed", "10", "--samples", "10", "--share", "0.1"]
     assert main([*words, "--json"]) == 0

@@ -125,6 +125,7 @@ def test_the_bat_that_flips_has_a_stable_orbit_beside():
     assert 0.0 < bat.price_of_stability < 0.15
 
 
+@pytest.mark.slow
 def test_least_gust_response_is_less_than_that_of_the_stable_orbit(stable, problem):
     calm = find_orbit(dataclasses.replace(problem, minimise="gust_response"), threads=1)
     assert calm.status is wb.Status.CONVERGED
@@ -163,6 +164,7 @@ def test_a_limit_of_stability_has_five_numbers_without_kinks(problem):
     assert values.shape == (5,)
 
 
+@pytest.mark.slow
 def test_a_saved_stable_orbit_keeps_its_limit(stable, tmp_path):
     wb.Orbit.of(stable, 6).save(tmp_path / "stable.nc")
     loaded = wb.load_orbit(tmp_path / "stable.nc")
@@ -170,6 +172,7 @@ def test_a_saved_stable_orbit_keeps_its_limit(stable, tmp_path):
     assert loaded.record()["price_of_stability"] == pytest.approx(stable.price_of_stability)
 
 
+@pytest.mark.slow
 def test_the_price_of_a_tighter_limit_is_that_of_a_new_search(problem):
     orbits = [
         wb.solve_orbit(

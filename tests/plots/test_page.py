@@ -241,6 +241,7 @@ def test_the_picture_is_of_print_quality(tmp_path, page):
     assert 0.02 < (pixels[..., :3] < 0.5).any(axis=-1).mean() < 0.3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["svg", "pdf", "png"])
 def test_the_same_orbit_gives_the_same_bytes(tmp_path, orbit, kind):
     for name in ("one", "two"):

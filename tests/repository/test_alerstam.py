@@ -17,6 +17,7 @@ STUDY, DOCS, TABLES = ROOT / "validation/alerstam.py", ROOT / "docs" / "evidence
 DATA = ROOT / "../shared/data"
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not DATA.is_dir(), reason="other people's measurements are not part of this repository")
 def test_page_and_table_are_those_of_the_flights(tmp_path: Path) -> None:
     command = [sys.executable, STUDY, "--data", DATA, "--flown", TABLES, "-o", tmp_path, "--tables", tmp_path]
@@ -37,6 +38,7 @@ def test_every_species_is_there_and_no_curve_without_its_minimum_is_used() -> No
         assert math.isnan(slow) or math.isnan(fast) or slow < fast
 
 
+@pytest.mark.slow
 def test_the_study_says_what_is_missing(tmp_path: Path) -> None:
     found = subprocess.run([sys.executable, STUDY, "--data", tmp_path], check=False, capture_output=True, text=True)
     assert found.returncode == 2

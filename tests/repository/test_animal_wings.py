@@ -29,6 +29,7 @@ def fitted():
         yield fits, intervals(fits, glides, resampled(fits, glides))
 
 
+@pytest.mark.slow
 @needs_data
 def test_the_numbers_of_feathered_are_made_from_the_data(fitted):
     estimates = wb.aero.WING_ESTIMATES["feathered"]
@@ -65,6 +66,7 @@ def test_the_jackdaw_glides_as_measured(fitted):
     assert jackdaw_row("`feathered`", polar) in PAGE.read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_the_study_says_what_is_missing(tmp_path):
     found = subprocess.run([sys.executable, STUDY, "--data", tmp_path], check=False, capture_output=True, text=True)
     assert found.returncode == 2

@@ -46,6 +46,7 @@ def page_name(page):
     return str(page.relative_to(ROOT))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_python_of_a_page_runs(page, capsys, monkeypatch):
     # Studies of a page are solved here: processes would take longer to start than to solve their few points.

@@ -6,6 +6,7 @@ from fuzz import STUDIES, Mutant, mutants, outcome
 from tests.helpers.species_texts import check_words
 
 
+@pytest.mark.slow
 def test_mutated_files_are_accepted_or_explained(tmp_path):
     ends = [check_words(outcome(mutant, tmp_path)) for mutant in mutants(1000, seed=1)]
     assert 20 < sum(end == "accepted" for end in ends) < 200

@@ -81,6 +81,7 @@ def test_an_example_is_short_cells_that_check_and_print_an_answer(path):
     assert "print(" in last
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("path", EXAMPLES, ids=names)
 def test_an_example_runs_and_draws_labelled_axes(path, runner, drawn_nowhere, capsys):
     values = runpy.run_path(str(path), run_name="__main__")

@@ -19,6 +19,7 @@ def table():
     return pd.read_csv(ROOT / "data" / "gust_survival.csv")
 
 
+@pytest.mark.slow
 def test_the_page_is_that_of_the_table(words, table, tmp_path):
     found = words.page(table, tmp_path / "gust_survival.png")
     assert found == (ROOT / "docs" / "evidence" / "gust_survival.md").read_text(encoding="utf-8")

@@ -21,6 +21,7 @@ def found():
     return operations.measure()
 
 
+@pytest.mark.slow
 def test_no_program_does_more_than_its_baseline(found):
     baseline = json.loads(operations.BASELINE.read_text())
     assert found.keys() == baseline.keys()

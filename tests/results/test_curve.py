@@ -159,6 +159,7 @@ def test_bad_speeds_are_refused(speeds):
         wb.solve_curve(problem_at("pigeon"), speeds)
 
 
+@pytest.mark.slow
 def test_the_command_line_draws_saves_and_prints(tmp_path, capsys):
     saved, page = tmp_path / "pigeon.nc", tmp_path / "pigeon.svg"
     words = ["curve", "pigeon", "--speeds", "10:12:1", "--starts", "1", "--json"]

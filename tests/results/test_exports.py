@@ -92,6 +92,7 @@ def expected_columns(dataset, along):
             yield "_".join([name, *ends]), variable.attrs.get("units", ""), moved.values[(slice(None), *at)]
 
 
+@pytest.mark.slow
 def test_a_table_holds_every_number_with_its_unit(result, tmp_path):
     kind, found = result
     path = tmp_path / "result.csv"
@@ -218,6 +219,7 @@ def test_the_commands_write_tables_and_say_that_they_read_netcdf(suffix, tmp_pat
         assert "Traceback" not in message
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "words",
     ["orbit pigeon --speed 10 --starts 1", "curve pigeon --speeds 10:11:1 --starts 1", "simulate pigeon --beats 1"],

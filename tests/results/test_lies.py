@@ -91,6 +91,7 @@ def change(path, random):
         return act, name
 
 
+@pytest.mark.slow
 def test_no_changed_file_is_believed(saved, tmp_path):
     """Numbers, units, texts, whole arrays and attributes, added or taken away: each is noticed."""
     random, path = np.random.default_rng(SEED), tmp_path / "changed.nc"

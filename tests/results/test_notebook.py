@@ -52,6 +52,7 @@ def test_an_orbit_shows_its_record(orbit):
     assert all(" ".join(warning.split()) in shown for warning in orbit.record()["warnings"])
 
 
+@pytest.mark.slow
 def test_no_orbit_shows_why(problem):
     none = wb.solve_orbit(wb.OrbitProblem(problem.species, speed=60.0), starts=1)
     assert none.relaxations[0].text in check_table(none)

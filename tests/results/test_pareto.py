@@ -55,6 +55,7 @@ def test_a_lower_limit_goes_upward(problem):
     assert all(value >= limit - 1e-3 for value, limit in zip(front.values[1:], (50.0, 60.0), strict=True))
 
 
+@pytest.mark.slow
 def test_a_limit_without_an_orbit_is_a_point_with_its_status(problem):
     front = wb.pareto_front(problem, "mean_positive_power", [1.0], starts=1)
     record = front.record()

@@ -65,6 +65,7 @@ def test_a_pickled_orbit_is_differentiated_and_saved_as_the_first(orbit, tmp_pat
     assert_same_series(loaded.dataset, orbit.dataset)
 
 
+@pytest.mark.slow
 def test_an_orbit_crosses_processes_both_ways(spawned):
     """There its series are made of what was flown here; back they come as they were made."""
     fresh = wb.solve_orbit(PROBLEM, starts=1)

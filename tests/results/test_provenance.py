@@ -39,6 +39,7 @@ def test_a_saved_orbit_reads_back_the_same(saved):
     assert again.problem == orbit.problem
 
 
+@pytest.mark.slow
 def test_saved_twice_it_is_the_same(saved, tmp_path):
     orbit, path = saved
     again = wb.load_orbit(path)

@@ -72,6 +72,7 @@ def test_eigenvalues_of_any_matrix_move_as_their_differences():
         np.testing.assert_allclose(multiplier_slopes(matrix, change), anew, rtol=1e-5, atol=1e-5)
 
 
+@pytest.mark.slow
 def test_the_command_names_what_moves_the_radius(cruise, causes, tmp_path, capsys):
     path = str(tmp_path / "pigeon.nc")
     cruise.save(path)
@@ -94,6 +95,7 @@ def test_the_command_names_what_moves_the_radius(cruise, causes, tmp_path, capsy
     assert "sensitivities" not in json.loads(capsys.readouterr().out)
 
 
+@pytest.mark.slow
 def test_the_share_of_stable_orbits_is_that_of_counting(cruise, causes):
     """Draws about a shoulder that is nearly high enough, solved and counted one by one."""
     slopes = {slope.parameter.path: slope for slope in causes.sensitivities.slopes}
@@ -132,6 +134,7 @@ def test_the_share_has_its_binomial_error():
     assert StableShare(0, 20, 20).interval[1] > 0.1
 
 
+@pytest.mark.slow
 def test_the_command_uncertainty_says_how_often_it_is_stable(capsys):
     words = ["uncertainty", "pigeon", "--speed", "12", "--samples", "10", "--share", "0.1"]
     asked = [*words, "--quantities", "spectral-radius", "gust_response"]

@@ -32,6 +32,7 @@ def test_it_prints_gains_multipliers_and_a_saved_flight(saved, capsys):
     assert "feedback: survived, body pitch within 15." in printed
 
 
+@pytest.mark.slow
 def test_its_json_is_that_of_the_library(saved, patient, cruise, capsys, tmp_path):
     drawn = tmp_path / "gusts.png"
     asked = ["--delay", "1", "--survey", "40", "--seed", "3", "--json", "--plot", str(drawn)]

@@ -65,6 +65,7 @@ def test_a_row_of_speeds_is_a_root_locus(capsys, tmp_path):
     assert alone.axes[1].get_xlabel() == "time [s]"
 
 
+@pytest.mark.slow
 def test_no_certified_orbit_is_said_and_ends_with_3(capsys):
     assert main(["stability", "pigeon", "--speed", "3", "--set", "body.mass=3", "--starts", "1", "--json"]) == 3
     found = capsys.readouterr()

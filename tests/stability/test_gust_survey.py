@@ -14,6 +14,7 @@ def survey(cruise):
     return wb.survey_gusts(cruise, flights=150, seed=7)
 
 
+@pytest.mark.slow
 def test_feedback_survives_what_the_orbit_alone_does_not(survey):
     assert list(survey.survived) == ["no feedback", "feedback", "feedback, one beat late"]
     assert survey.share("no feedback") < 0.1

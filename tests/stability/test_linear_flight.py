@@ -69,6 +69,7 @@ def test_a_gust_acts_as_in_flights_through_moving_air_by_scipy(solved):
     assert np.allclose(alone.G, (np.eye(4) - alone.A)[:, 1:3], rtol=0, atol=1e-15)
 
 
+@pytest.mark.slow
 def test_inputs_act_as_in_flights_of_changed_wingbeats_by_scipy(pigeon_orbit):
     solved = pigeon_orbit
     inputs = dict.fromkeys(("flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude"), 1e-5) | {
@@ -185,6 +186,7 @@ def test_a_small_mode_grows_in_flight_as_its_multiplier_says(pigeon_orbit):
     assert np.allclose(apart[1], mode.multiplier.real * apart[0], rtol=0, atol=2e-3 * np.abs(apart[0]).max())
 
 
+@pytest.mark.slow
 def test_the_averaged_model_is_the_mean_of_the_rates_derivatives(pigeon_orbit):
     model, beat = pigeon_orbit.model, pigeon_orbit.wingbeat
     phase = np.linspace(0.0, 1.0, 9)

@@ -143,6 +143,7 @@ def test_the_first_beat_of_late_feedback_is_the_planned_one(cruise):
     assert np.abs(pilot.commands[1] - late.changes[1]).max() > 1e-3
 
 
+@pytest.mark.slow
 def test_beats_are_doubled_until_they_suffice(cruise):
     fast = wb.ManoeuvreOptions(acceleration=2.0)
     plan = wb.manoeuvre(cruise, [14.0], options=fast)
@@ -163,6 +164,7 @@ def test_too_few_beats_end_with_advice(cruise):
     json.dumps(hasty.record(), allow_nan=False)
 
 
+@pytest.mark.slow
 def test_a_speed_that_nothing_flies_at_is_named(cruise):
     lost = wb.manoeuvre(cruise, [90.0])
     assert lost.status is wb.Status.NOT_CONVERGED

@@ -55,6 +55,7 @@ def test_a_feedback_shows_its_gains(patient):
     assert f"frequency [Hz] {-patient.gains[patient.inputs.index('frequency'), 0]:.3g}" in shown
 
 
+@pytest.mark.slow
 def test_a_survey_shows_the_shares(survey):
     shown = check_table(survey)
     assert f"held {survey.share('held'):.1%}" in shown

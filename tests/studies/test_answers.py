@@ -47,6 +47,7 @@ def done(tmp_path_factory):
     return study
 
 
+@pytest.mark.slow
 def test_records_are_those_of_single_orbits_and_of_one_process_in_another_order(done, tmp_path):
     vary = {"wing.mass": {"relative": [1.1, 1.0]}, "speed": {"grid": [11.0, 9.0]}}
     turned = wb.plan_study(
@@ -188,6 +189,7 @@ def lift(beat):
 """
 
 
+@pytest.mark.slow
 def test_not_a_number_from_a_users_function_is_told_beside_its_point(tmp_path, capsys):
     (tmp_path / "mine.py").write_text(MINE.format(more="+ jnp.where(beat.speed > 10.0, jnp.nan, 0.0)"))
     file = tmp_path / "lift.toml"

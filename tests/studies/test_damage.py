@@ -38,6 +38,7 @@ def sample(tmp_path_factory):
     return Sample(folder, known)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("end", "flips"), [("", 150), ("-wal", 30)])
 def test_every_flipped_bit_is_harmless_or_refused_in_words(sample, tmp_path, end, flips):
     found = campaign(sample, sample.logged(tmp_path) if end else sample.store, 1, flips, end)

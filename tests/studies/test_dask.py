@@ -101,6 +101,7 @@ def undisturbed(cheap, speeds):
     return study.points()
 
 
+@pytest.mark.slow
 def test_killed_workers_and_a_killed_driver_lose_nothing(cheap, cluster, tmp_path):
     study, log = cheap(GRID), tmp_path / "log"
     machines = cluster(study, log=log)
@@ -136,6 +137,7 @@ def test_killed_workers_and_a_killed_driver_lose_nothing(cheap, cluster, tmp_pat
     assert len(study.processes()) == 3
 
 
+@pytest.mark.slow
 def test_a_point_that_takes_its_dask_worker_along_fails_alone(cheap, cluster):
     # Without retries of Dask's own, so that whatever shares a worker with that point is lost with it.
     study = cheap([KILLS_PARENT, *GRID[:10]])
@@ -149,6 +151,7 @@ def test_a_point_that_takes_its_dask_worker_along_fails_alone(cheap, cluster):
     assert "Traceback" not in err
 
 
+@pytest.mark.slow
 def test_a_scheduler_that_dies_is_told_and_the_study_goes_on_elsewhere(cheap, cluster):
     study = cheap(GRID)
     machines = cluster(study)
@@ -168,6 +171,7 @@ def test_a_scheduler_that_dies_is_told_and_the_study_goes_on_elsewhere(cheap, cl
     assert study.points() == undisturbed(cheap, GRID)
 
 
+@pytest.mark.slow
 def test_dask_of_this_machine_through_the_program(cheap):
     speeds = [CRASHES, HANGS, RAISES, *GRID[:40]]
     study = cheap(speeds)
@@ -185,6 +189,7 @@ def test_dask_of_this_machine_through_the_program(cheap):
     assert {key: row for key, row in kept.items() if row[0] == "converged"} == undisturbed(cheap, GRID[:40])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGKILL, -9)])
 def test_a_driver_with_its_own_cluster_leaves_no_process(cheap, number, code):
     study = cheap(GRID)
@@ -197,6 +202,7 @@ def test_a_driver_with_its_own_cluster_leaves_no_process(cheap, number, code):
     assert 3 < len(study.points()) < len(GRID)
 
 
+@pytest.mark.slow
 def test_records_are_those_of_local_processes_to_the_bit(tmp_path):
     form = {"species": "pigeon", "starts": 1, "vary": {"speed": {"grid": [9.0, 11.0]}}}
     found = []

@@ -114,6 +114,7 @@ def test_a_driver_whose_deleted_lock_another_has_taken_ends(running):
     assert "converged 60" in statuses(study)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("how", ["deleted", "deleted with its log", "replaced"])
 def test_results_of_a_lost_store_are_beside_it(running, how):
     study, driver = running
@@ -140,6 +141,7 @@ def test_results_of_a_lost_store_are_beside_it(running, how):
     assert "converged 60" in statuses(study)
 
 
+@pytest.mark.slow
 def test_a_store_of_a_moved_folder_keeps_its_results(running, tmp_path):
     study, driver = running
     moved = tmp_path / "moved"
@@ -152,6 +154,7 @@ def test_a_store_of_a_moved_folder_keeps_its_results(running, tmp_path):
     assert study.run()[0] == 0
 
 
+@pytest.mark.slow
 def test_a_deleted_log_costs_no_result(running):
     study, driver = running
     (study.folder / f"{study.store.name}-wal").unlink()

@@ -44,6 +44,7 @@ def wait_for_points(study, count):
         time.sleep(0.01)
 
 
+@pytest.mark.slow
 def test_killed_drivers_lose_nothing_and_repeat_nothing_that_was_kept(cheap, undisturbed, tmp_path):
     study, log = cheap(GRID), tmp_path / "log"
     draw = random.Random(0)
@@ -80,6 +81,7 @@ def test_a_driver_killed_before_its_log_was_ever_emptied_leaves_a_sound_store(ch
     assert (code, err) == (0, "")
 
 
+@pytest.mark.slow
 def test_killed_workers_lose_nothing(cheap, undisturbed):
     study = cheap(GRID)
     driver = study.start("run", study.file, "-j", 2, seconds=0.02)
@@ -131,6 +133,7 @@ def test_workers_that_leave_cores_to_others_are_pinned_to_none(cheap):
     study.wait_gone()
 
 
+@pytest.mark.slow
 def test_a_point_that_crashes_hangs_or_raises_fails_alone_and_can_be_tried_again(cheap, monkeypatch):
     study = cheap([CRASHES, HANGS, RAISES, INFEASIBLE, LEAVES, BREAKS, *GRID[:20]])
     code, out, err = study.run("run", study.file, "-j", 2, "--timeout", 1)
@@ -157,6 +160,7 @@ def test_a_point_that_crashes_hangs_or_raises_fails_alone_and_can_be_tried_again
     study.wait_gone()
 
 
+@pytest.mark.slow
 @needs_terminal
 def test_on_a_terminal_it_shows_how_far_it_is(cheap):
     study = cheap([RAISES, INFEASIBLE, *GRID[:20]])
@@ -175,6 +179,7 @@ def test_on_a_terminal_it_shows_how_far_it_is(cheap):
     assert "/22" not in study.run("run", study.file, "--allow-failures")[2]  # no terminal, no bar
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("signals", "code"), [((2,), 130), ((2, 2), 130), ((15,), 143)])
 def test_signals_stop_it_with_all_in_order(cheap, signals, code):
     study = cheap(GRID)
@@ -264,6 +269,7 @@ def test_a_second_driver_is_refused(cheap):
     assert study.run()[0] == 0
 
 
+@pytest.mark.slow
 def test_a_full_disk_is_told_and_what_was_stored_stays(cheap, undisturbed):
     study = cheap(GRID)
     # What was planned fits, and a few answers do.

@@ -64,6 +64,7 @@ def test_outside_a_terminal_a_study_says_how_far_it_is(monkeypatch):
         wait_for("points: 2 of 10 done after 0 s; about 0 s left")
 
 
+@pytest.mark.slow
 def test_an_interrupt_before_the_first_point_says_what_waits_and_how_to_resume(cheap):
     study = cheap([HANGS, 6, 7], name="a folder")
     driver = study.start("run", study.file, "-j", 1)

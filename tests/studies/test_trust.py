@@ -112,6 +112,7 @@ def columns(store):
         ]
 
 
+@pytest.mark.slow
 def test_code_in_any_column_of_a_store_is_not_run(study, tmp_path, capsys):
     marker = tmp_path / "marker"
     code = f"import os; os.mkdir({str(marker)!r})\ndef least(beat): return 0.0 * beat.speed\n"

@@ -5,6 +5,7 @@ import pytest
 from tests.helpers.browsers import AXE
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("theme", ["light", "dark"])
 @pytest.mark.parametrize("width", [390, 1280])
 def test_axe_finds_no_fault(show, page_of_two, theme, width):

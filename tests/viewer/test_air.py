@@ -36,6 +36,7 @@ def ribbon_of(page, ribbon, attribute="position"):
     return np.array(values)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("side", "sign"), [("left", 1.0), ("right", -1.0)])
 def test_a_trail_is_the_path_of_the_tip(show, page_of_one, bat, side, sign):
     page = show(page_of_one).page
@@ -48,6 +49,7 @@ def test_a_trail_is_the_path_of_the_tip(show, page_of_one, bat, side, sign):
     np.testing.assert_allclose(drawn[:, 0], np.concatenate([before, path[1:]]), rtol=0, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_a_trail_is_drawn_for_the_last_beat_and_coloured_by_the_force_near_the_tip(show, page_of_one, bat):
     page = show(page_of_one).page
     page.evaluate(f"{VIEWER}.set(0.5)")
@@ -81,6 +83,7 @@ def projected(page, points):
     return seen[:, :2] / seen[:, 3:] * np.array(size) / 2, view
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [390, 1280])
 @pytest.mark.parametrize("camera", ["oblique", "top"])
 def test_the_scale_bar_is_as_long_as_the_arrow_of_its_force(show, page_of_one, bat, width, camera):
@@ -100,6 +103,7 @@ def test_the_scale_bar_is_as_long_as_the_arrow_of_its_force(show, page_of_one, b
     assert f"force {force:g} N ({force / weight:.2g} × weight)" in text
 
 
+@pytest.mark.slow
 def test_without_arrows_there_is_no_scale_bar(show, page_of_one):
     page = show(page_of_one).page
     page.locator(".wb-force-bar").wait_for()
@@ -107,6 +111,7 @@ def test_without_arrows_there_is_no_scale_bar(show, page_of_one):
     page.locator(".wb-force-bar").wait_for(state="hidden")
 
 
+@pytest.mark.slow
 def test_the_ground_passes_at_the_speed_of_the_flight_from_beat_to_beat(show, page_of_one, bat):
     page = show(page_of_one, reduced_motion="no-preference").page
     page.evaluate(f"{VIEWER}.pause()")
@@ -130,12 +135,14 @@ def test_the_ground_passes_at_the_speed_of_the_flight_from_beat_to_beat(show, pa
     assert f"squares of {cell} m" in page.locator(".wb-measures").inner_text()
 
 
+@pytest.mark.slow
 def test_the_ground_stands_where_less_motion_is_asked_for(show, page_of_one):
     page = show(page_of_one).page
     assert page.evaluate(f"({VIEWER}.set(0.2), {GROUND}.passed)") == 0
     assert page.evaluate(f"({VIEWER}.set(0.7), {GROUND}.passed)") == 0
 
 
+@pytest.mark.slow
 def test_trails_and_ground_can_be_left_out(show, page_of_one):
     page = show(page_of_one).page
     parts = f"[{ANIMAL}.trails.group.visible, {GROUND}.group.visible]"
@@ -148,6 +155,7 @@ def test_trails_and_ground_can_be_left_out(show, page_of_one):
     assert "squares" not in legend
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_the_sky_is_above_the_horizon_and_the_ground_below(show, page_of_one, theme):
     page = show(page_of_one, color_scheme=theme).page
@@ -181,6 +189,7 @@ def test_the_velocity_of_the_wake_is_the_induced_flow_of_the_model(bats, in_indu
     assert wake_of(in_induced_flow)["induced"][1] < 0
 
 
+@pytest.mark.slow
 def test_a_wake_is_offered_only_where_the_flight_has_one(show, page_of_one, in_induced_flow, tmp_path):
     label = "wake (a sketch, not computed)"
     page = show(page_of_one).page

@@ -18,6 +18,7 @@ def drawn(page, phase, flight=0, side="left"):
     return (np.array(found[name]).reshape(-1, 4, 3) for name in ("corners", "normals"))
 
 
+@pytest.mark.slow
 def test_what_is_drawn_are_the_corners_of_the_data_set(show, page_of_two, bats):
     page = show(page_of_two).page
     for index, (flight, orbit) in itertools.product([0, 64, 100, 192, 256], enumerate(bats.values())):
@@ -33,6 +34,7 @@ def test_what_is_drawn_are_the_corners_of_the_data_set(show, page_of_two, bats):
         np.testing.assert_allclose(normals[:, 0], upper, rtol=0, atol=1e-4)
 
 
+@pytest.mark.slow
 def test_it_plays_by_itself_and_asks_for_nothing(show, page_of_one):
     shown = show(page_of_one, reduced_motion="no-preference")
     page = shown.page
@@ -51,6 +53,7 @@ def test_who_asked_for_less_motion_finds_it_still(show, page_of_one):
     assert show(page_of_one).page.evaluate(f"{VIEWER}.playing") is False
 
 
+@pytest.mark.slow
 def test_controls_work_by_hand_and_by_key(show, page_of_one):
     page = show(page_of_one).page
     page.get_by_label("Play (space)").click()
@@ -78,6 +81,7 @@ def test_controls_work_by_hand_and_by_key(show, page_of_one):
     assert "lift of a strip [N]" in page.locator(".wb-scale").inner_text()
 
 
+@pytest.mark.slow
 def test_the_cursor_of_the_plots_moves_with_the_phase_and_moves_it(show, page_of_one):
     page = show(page_of_one).page
     page.evaluate(f"({VIEWER}.pause(), {VIEWER}.set(0.5))")
@@ -104,6 +108,7 @@ def test_arrows_are_the_loads_on_one_scale(show, page_of_one, bats):
     np.testing.assert_allclose(tip - root, scale * data["strip_force"], rtol=0, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_two_flights_stand_as_ghost_or_side_by_side(show, page_of_two):
     page = show(page_of_two).page
     page.evaluate(f"{VIEWER}.pause()")
@@ -115,6 +120,7 @@ def test_two_flights_stand_as_ghost_or_side_by_side(show, page_of_two):
     assert page.locator(".wb-flight-1").count() > 0
 
 
+@pytest.mark.slow
 def test_two_kinds_of_animal_stand_side_by_side_at_first(show, bats, tmp_path):
     pigeon = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), 10.0), starts=1)
     path = tmp_path / "two.html"
@@ -127,6 +133,7 @@ def test_two_kinds_of_animal_stand_side_by_side_at_first(show, bats, tmp_path):
     assert page.evaluate(f"{VIEWER}.stage.animals.map((animal) => animal.group.position.y)") == [0, 0]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("theme", ["light", "dark"])
 @pytest.mark.parametrize("width", [390, 1280])
 def test_it_fits_the_window_and_keeps_to_the_theme(show, page_of_two, theme, width):

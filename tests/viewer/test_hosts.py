@@ -22,6 +22,7 @@ def files(bats, tmp_path_factory):
     return folder
 
 
+@pytest.mark.slow
 def test_view_writes_a_page_of_one_and_of_two(files, tmp_path, capsys):
     one, two = tmp_path / "one.html", tmp_path / "two.html"
     assert main(["view", str(files / "su-fan.nc"), "-o", str(one)]) == 0
@@ -48,6 +49,7 @@ def test_view_refuses_what_it_cannot_do(files, monkeypatch, capsys, words, told)
     assert told in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_the_animated_picture_moves_and_repeats(files, tmp_path):
     path = tmp_path / "bat.gif"
     assert main(["view", str(files / "su-fan.nc"), "-o", str(path)]) == 0

@@ -60,6 +60,7 @@ def test_curves_and_readouts_are_the_data_set(show, page_of_two, bats):
     np.testing.assert_allclose(drawn_curve(page, 1)[:, 1], alpha, rtol=0, atol=1e-3 * 180)
 
 
+@pytest.mark.slow
 def test_the_reader_chooses_curves_and_only_of_one_unit_together(show, page_of_one, bats):
     page = show(page_of_one).page
     page.get_by_label("Second curve of plot 3").select_option("aerodynamic_power")
@@ -82,6 +83,7 @@ def test_the_reader_chooses_curves_and_only_of_one_unit_together(show, page_of_o
     assert page.get_by_label("Remove plot 1").is_hidden()
 
 
+@pytest.mark.slow
 def test_a_phase_portrait_is_the_data_set_one_closed_loop_with_its_downstroke(show, page_of_one, bats):
     page = show(page_of_one).page
     page.get_by_label("Curve 1 of plot 3").select_option("hinge_power")
@@ -107,6 +109,7 @@ def test_a_phase_portrait_is_the_data_set_one_closed_loop_with_its_downstroke(sh
     assert card.locator("polygon").count() == 0
 
 
+@pytest.mark.slow
 def test_zoom_by_drag_wheel_and_key(show, page_of_one):
     page = show(page_of_one, height=900).page
     plot = page.locator(".wb-plot").first
@@ -157,6 +160,7 @@ def test_the_csv_is_the_data_set(show, page_of_two, bats, tmp_path):
         np.testing.assert_allclose(found, np.stack(expected, axis=-1), rtol=1e-6, atol=1e-6)
 
 
+@pytest.mark.slow
 def test_copies_go_to_the_clipboard_where_the_browser_allows_it(show, page_of_one):
     shown = show(page_of_one, permissions=["clipboard-read", "clipboard-write"])
     page = shown.page
@@ -171,6 +175,7 @@ def test_copies_go_to_the_clipboard_where_the_browser_allows_it(show, page_of_on
     assert all(address.startswith("data:image/svg") for address in shown.requests[1:])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("theme", "paper"), [("light", (255, 255, 255)), ("dark", (20, 24, 29))])
 def test_the_picture_shows_the_plot_in_the_theme(show, page_of_one, tmp_path, theme, paper):
     page = show(page_of_one, color_scheme=theme).page
@@ -207,6 +212,7 @@ BOTH_DRAWN = """(address) => {
 }"""
 
 
+@pytest.mark.slow
 def test_a_copied_plot_looks_as_the_drawn_one(show, page_of_one):
     page = show(page_of_one).page
     page.evaluate(NO_CLIPBOARD)
@@ -220,6 +226,7 @@ def test_a_copied_plot_looks_as_the_drawn_one(show, page_of_one):
     assert ".wb-thick stroke-linecap: round" in drawn[1]
 
 
+@pytest.mark.slow
 def test_plots_keep_their_choices_with_another_flight(show, page_of_one, page_of_two):
     page = show(page_of_two).page
     page.get_by_label("Curve 1 of plot 4").select_option("flap")
@@ -231,6 +238,7 @@ def test_plots_keep_their_choices_with_another_flight(show, page_of_one, page_of
     assert page.locator(".wb-flight-1").count() == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_axe_finds_no_fault_in_a_portrait(show, page_of_two, theme):
     if not AXE.exists():

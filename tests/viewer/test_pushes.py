@@ -38,6 +38,7 @@ def page_of_pushes(orbit, pushes, tmp_path_factory):
     return path
 
 
+@pytest.mark.slow
 def test_there_is_a_flight_for_each_gust_with_and_without_feedback(pushes):
     assert len(pushes) == 2 * len(DIRECTIONS) * len(SIZES)
     assert len({(p.direction, p.size, p.feedback) for p in pushes}) == len(pushes)
@@ -72,6 +73,7 @@ def test_the_scene_holds_every_push_in_finite_numbers(orbit, pushes):
     assert "pushes" not in scene([("bat", orbit.dataset)])
 
 
+@pytest.mark.slow
 def test_what_cannot_be_flown_is_refused(orbit):
     with pytest.raises(InvalidInputError, match="beats = 2: must be a whole number from 3 to 100"):
         wb.fly_pushes(orbit, beats=2)
@@ -84,6 +86,7 @@ def test_what_cannot_be_flown_is_refused(orbit):
         wb.fly_pushes(lost, None)
 
 
+@pytest.mark.slow
 def test_the_reader_pushes_and_goes_back(show, page_of_pushes):
     shown = show(page_of_pushes, height=900)
     page = shown.page
@@ -107,6 +110,7 @@ def test_the_reader_pushes_and_goes_back(show, page_of_pushes):
     assert shown.requests == [page_of_pushes.as_uri()]
 
 
+@pytest.mark.slow
 def test_a_push_is_shown_once_and_then_stands_still(show, page_of_pushes):
     page = show(page_of_pushes, reduced_motion="no-preference").page
     page.get_by_label("Gust").select_option("tail")
@@ -120,6 +124,7 @@ def test_a_push_is_shown_once_and_then_stands_still(show, page_of_pushes):
     assert page.evaluate(f"[{VIEWER}.once, {VIEWER}.playing]") == [False, True]
 
 
+@pytest.mark.slow
 def test_a_link_restores_the_push_that_is_shown(show, page_of_pushes):
     page = show(page_of_pushes, height=900).page
     page.get_by_label("Gust").select_option("downward")
@@ -148,6 +153,7 @@ def test_a_page_without_pushes_offers_none(show, page_of_one):
     assert show(page_of_one).page.locator(".wb-push").is_hidden()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_axe_finds_no_fault_in_the_panel(show, page_of_pushes, theme):
     if not AXE.exists():
@@ -159,6 +165,7 @@ def test_axe_finds_no_fault_in_the_panel(show, page_of_pushes, theme):
     assert {fault["id"]: [node["html"] for node in fault["nodes"]] for fault in found["violations"]} == {}
 
 
+@pytest.mark.slow
 def test_the_command_writes_a_page_with_pushes_and_refuses_what_makes_no_sense(orbit, tmp_path, capsys):
     saved, page = tmp_path / "bat.nc", tmp_path / "bat.html"
     orbit.save(saved)

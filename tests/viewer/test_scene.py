@@ -150,6 +150,7 @@ def test_a_species_without_a_shape_gets_a_schematic_one_of_its_kind_and_size(kin
     assert shown["body"].keys() == whole["body"].keys()
 
 
+@pytest.mark.slow
 def test_a_schematic_bird_has_the_chords_and_the_tail_of_its_vehicle():
     species = wb.bird(mass=0.3, wing_span=0.7, wing_area=0.08, tail=True, chord=[0.12, 0.1, 0.05])
     shown = scene([("flight", flight_of(species))])["flights"][0]["shape"]
@@ -184,6 +185,7 @@ def test_files_of_versions_without_shapes_are_shown(bats, pigeon_model):
     assert scene([("flight", flight)])["flights"][0]["shape"]["kind"] == "bird"
 
 
+@pytest.mark.slow
 def test_a_saved_orbit_flies_with_its_own_look_and_so_do_its_pushes(bats, tmp_path):
     bats["su-fan"].save(tmp_path / "bat.nc")
     again = wb.load_orbit(tmp_path / "bat.nc")

@@ -50,6 +50,7 @@ def told(page, pattern):
     return found.groups()
 
 
+@pytest.mark.slow
 def test_the_link_restores_phase_camera_and_choices(show, page_of_one):
     page = arranged(show(page_of_one))
     link = page.get_by_label("Link to what is shown").input_value()
@@ -69,6 +70,7 @@ def test_the_link_restores_phase_camera_and_choices(show, page_of_one):
     assert {choice["x"] for choice in choices} == {"phase"}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "fragment",
     [
@@ -85,6 +87,7 @@ def test_a_fragment_that_makes_no_sense_changes_nothing_that_matters(show, page_
     assert shown.complaints == []
 
 
+@pytest.mark.slow
 def test_the_link_can_be_copied_or_is_selected(show, page_of_one):
     page = arranged(show(page_of_one, permissions=["clipboard-read", "clipboard-write"]))
     page.get_by_role("button", name="Copy link").click()
@@ -99,6 +102,7 @@ def test_the_link_can_be_copied_or_is_selected(show, page_of_one):
     assert field.evaluate("it => it.selectionEnd - it.selectionStart === it.value.length")
 
 
+@pytest.mark.slow
 def test_the_frame_is_an_iframe_that_loads_late(show, page_of_one):
     page = arranged(show(page_of_one))
     tags = []
@@ -112,6 +116,7 @@ def test_the_frame_is_an_iframe_that_loads_late(show, page_of_one):
     assert int(attributes["width"]) > int(attributes["height"]) > 0
 
 
+@pytest.mark.slow
 def test_the_saved_page_flies_offline_as_it_was_shown(show, page_of_one, tmp_path):
     first = show(page_of_one)
     page = arranged(first)
@@ -124,6 +129,7 @@ def test_the_saved_page_flies_offline_as_it_was_shown(show, page_of_one, tmp_pat
     assert "default-src 'none'" in path.read_text("utf-8")
 
 
+@pytest.mark.slow
 def test_the_gif_has_the_frames_and_the_width_asked_for(show, page_of_one, tmp_path):
     shown = show(page_of_one)
     page = arranged(shown)
@@ -155,6 +161,7 @@ def test_the_gif_has_the_frames_and_the_width_asked_for(show, page_of_one, tmp_p
     assert all(address.startswith(("file:", "blob:")) for address in shown.requests)
 
 
+@pytest.mark.slow
 def test_the_gif_can_be_stopped(show, page_of_one):
     page = arranged(show(page_of_one))
     page.get_by_label("Width").select_option("960")
@@ -164,6 +171,7 @@ def test_the_gif_can_be_stopped(show, page_of_one):
     assert page.evaluate(f"{VIEWER}.phase") == 0.375
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["WebM", "MP4"])
 def test_a_video_is_recorded_where_the_browser_can(show, page_of_one, tmp_path, kind):
     page = arranged(show(page_of_one))

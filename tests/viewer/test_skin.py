@@ -115,6 +115,7 @@ def test_the_right_wing_is_the_mirror_image_of_the_left(show, page_of_one):
         np.testing.assert_allclose(right, left * MIRROR, rtol=0, atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "parts"), [("common-swift", 1), ("annas-hummingbird", 1), ("robofalcon2", 2)])
 def test_other_animals_are_drawn_without_complaint(show, page_of_one, name, parts):
     shown = show(page_of_one)
@@ -128,6 +129,7 @@ def test_other_animals_are_drawn_without_complaint(show, page_of_one, name, part
     assert shown.complaints == []
 
 
+@pytest.mark.slow
 def test_strips_are_hidden_until_one_asks_for_them(show, page_of_one):
     page = show(page_of_one).page
     strips = f"{VIEWER}.stage.animals[0].strips.left.mesh.visible"
@@ -153,6 +155,7 @@ def test_the_legend_says_where_the_shape_is_schematic(show, page_of_one, pigeon)
         assert ("schematic" in page.locator(".wb-scale").inner_text()) is schematic
 
 
+@pytest.mark.slow
 def test_the_first_animal_casts_a_shadow_and_a_ghost_does_not(show, page_of_two):
     page = show(page_of_two).page
     casting = (

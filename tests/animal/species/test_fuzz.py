@@ -116,6 +116,7 @@ def test_random_toml(tmp_path: Path, leaves: dict[str, str]) -> None:
     outcome(tmp_path / "fuzz.toml", "".join(f"{path} = {leaf}\n" for path, leaf in leaves.items()).encode())
 
 
+@pytest.mark.slow
 @FIXED
 @given(st.data())
 def test_a_good_file_with_some_values_changed(tmp_path: Path, data: st.DataObject) -> None:
@@ -159,6 +160,7 @@ VALUES = st.recursive(
 )
 
 
+@pytest.mark.slow
 @FIXED
 @given(st.dictionaries(st.sampled_from(PATHS) | st.text(max_size=8), VALUES, max_size=5))
 def test_random_settings(values: dict[str, Any]) -> None:

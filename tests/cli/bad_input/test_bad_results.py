@@ -84,6 +84,7 @@ def test_a_result_of_somebody_else(folder: Path, capsys: Any, command: str) -> N
     refuse(capsys, f"{command} foreign.nc", "cannot read 'foreign.nc'|wingbeat|give a file that `")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("command", ["orbit --from", "simulate --from"])
 def test_inputs_that_were_changed_by_hand(orbit_bytes: bytes, folder: Path, capsys: Any, command: str) -> None:
     (folder / "orbit.nc").write_bytes(orbit_bytes)
@@ -101,6 +102,7 @@ def test_inputs_that_were_changed_by_hand(orbit_bytes: bytes, folder: Path, caps
         refuse(capsys, f"{command} changed.nc", "damaged (the inputs do not match their hash)")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "value", ["[]", "null", '"x"', "{", float("nan"), np.array([1.0, 2.0])], ids=lambda v: repr(v)[:6]
 )
@@ -159,6 +161,7 @@ REAL = [
 ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("words", "parts"), REAL, ids=[re.sub(r"\W+", "-", words) for words, _ in REAL])
 def test_the_real_program(folder: Path, words: str, parts: list[str]) -> None:
     (folder / "cut.nc").write_bytes(b"\x89HDF\r\n\x1a\n" + bytes(100))

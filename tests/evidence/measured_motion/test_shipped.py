@@ -34,6 +34,7 @@ def test_each_case_names_its_folder_source_and_licence():
     assert size < 1.3e6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("experiment", [1, 2, 3, 4])
 def test_a_dragonfly_is_carried(found, experiment):
     """Mean upward force 0.8 to 1.2 of the required one, by the row that the rule recommends."""

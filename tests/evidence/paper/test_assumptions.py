@@ -166,6 +166,7 @@ def made_up_study(count=800):
     return Judged(tuple(sets), claims, numbers, holds, np.full(count, 9))
 
 
+@pytest.mark.slow
 def test_the_page_says_what_holds_what_it_hangs_on_and_what_cannot_be_had_together(tmp_path):
     study = made_up_study()
     paths = pages.write_study(study, tmp_path, "`as run`")
@@ -203,6 +204,7 @@ OPEN = {
 }
 
 
+@pytest.mark.slow
 def test_one_set_is_flown_and_judged(tmp_path):
     mild = {"shoulder_ahead": 0.0, "shoulder_above": 0.0, "pitch_phase_deg": 0.0, "flap_amplitude_deg": 65.0}
     sets = [sample_sets(1)[0] | OPEN | mild]

@@ -60,6 +60,7 @@ def lines(axes):
     return {line.get_label(): line for axes in np.atleast_1d(axes) for line in axes.get_lines()}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", FIGURES)
 @pytest.mark.parametrize("solved", [True, False], ids=["solved", "nothing"])
 def test_every_axis_has_its_unit_and_no_text_is_lost(orbits, number, solved):

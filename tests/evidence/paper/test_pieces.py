@@ -69,6 +69,7 @@ def wait_for(driver, folder, pattern):
         time.sleep(0.02)
 
 
+@pytest.mark.slow
 def test_a_run_writes_page_table_figure_and_pieces(whole):
     names = {path.name for path in whole.iterdir()}
     assert names == {"assumptions.md", "assumptions.csv", "assumptions.png", "assumptions.pdf", "pieces"}
@@ -90,6 +91,7 @@ def test_a_run_writes_page_table_figure_and_pieces(whole):
     assert f"Of these orbits, {100 * certified / 42:.0f} % were found and certified" in page
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("without_figure")
 def test_killed_interrupted_and_resumed_it_says_the_same(whole, tmp_path, start):
     driver = start(tmp_path, 0.1)

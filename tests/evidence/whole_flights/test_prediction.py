@@ -17,6 +17,7 @@ def predicted():
     return found, told
 
 
+@pytest.mark.slow
 def test_flights_are_those_of_the_model(predicted):
     found, _ = predicted
     assert (found.model, found.objective) == ("paper", "frequency")

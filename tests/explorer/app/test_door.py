@@ -33,6 +33,7 @@ def own_log(program):
 pytestmark = pytest.mark.usefixtures("own_log")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("origin", ["http://evil.example", "http://127.0.0.1:1", "null", "http://["])
 def test_a_page_of_another_origin_cannot_drive_the_explorer(program, origin):
     client, _ = program.open_page()
@@ -135,6 +136,7 @@ MESSAGES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("message", MESSAGES.values(), ids=MESSAGES)
 def test_a_message_that_makes_no_sense_closes_its_socket_with_a_sentence(program, message):
     client, _ = program.open_page()
@@ -166,11 +168,13 @@ def test_an_address_that_makes_no_sense_is_answered_in_words(program, path, stat
     assert answer[1].strip()
 
 
+@pytest.mark.slow
 def test_a_long_link_says_so(visit):
     page = visit(f"species={70_000 * 'a'}")
     page.locator(".trouble", has_text="must be at most 24000").wait_for()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "content", "words"),
     [

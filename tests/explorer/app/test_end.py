@@ -28,6 +28,7 @@ def ended(pool, what):
     return endings[0]
 
 
+@pytest.mark.slow
 def test_a_solver_without_memory_is_told_of_and_replaced():
     pool = FairPool("wingbeat_explorer.app.jobs:do", 1)
     question = {"do": "orbit", "scenario": to_plain(Scenario(starts=1))}
@@ -81,6 +82,7 @@ def interrupted_while_browsers_linger(program):
         return *program.interrupt(), workers
 
 
+@pytest.mark.slow
 def test_ctrl_c_ends_the_explorer_within_two_seconds_though_browsers_linger(start):
     shortest = math.inf
     for _ in range(3):  # whatever else keeps the machine busy can only make it longer
@@ -96,6 +98,7 @@ def test_ctrl_c_ends_the_explorer_within_two_seconds_though_browsers_linger(star
     assert shortest < 2.0
 
 
+@pytest.mark.slow
 def test_a_killed_explorer_leaves_no_worker(start):
     program = start()
     client, _ = program.open_page(LONG)

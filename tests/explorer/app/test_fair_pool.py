@@ -106,6 +106,7 @@ def test_background_jobs_wait_for_all_others(make_pool):
     assert order == ["a", "b", "quiet"]
 
 
+@pytest.mark.slow
 def test_background_jobs_leave_a_worker_free(make_pool):
     pool = make_pool(2)
     quiet = [Heard(), Heard()]

@@ -23,6 +23,7 @@ IN_SHAPE = """() => {
 FLIES = "() => window.wingbeatPage?.face?.viewer?.flights.length === 1"
 
 
+@pytest.mark.slow
 def test_what_was_solved_beforehand_is_what_a_fresh_solve_finds():
     """After a change of numbers or scenes, ``python -m wingbeat_explorer.app.first`` writes the file again."""
     first, context = read_first(), Context(lambda told: None, lambda: False)
@@ -47,6 +48,7 @@ def test_what_was_solved_beforehand_is_what_a_fresh_solve_finds():
     assert point["mean_positive_power"] == pytest.approx(first.points[3]["mean_positive_power"], rel=1e-6)
 
 
+@pytest.mark.slow
 def test_the_first_picture_comes_without_a_solve(visit, served, monkeypatch):
     asked, earlier = [], set(served.house.pages)  # pages of other tests live on for a while
 
@@ -94,6 +96,7 @@ def test_a_second_worker_gets_ready_after_the_first(served, monkeypatch):
     assert len(asked) == 2
 
 
+@pytest.mark.slow
 def test_the_limits_of_the_first_flight_can_be_dropped_and_taken_again(visit):
     page = visit("")
     page.wait_for_function(FLIES)
@@ -113,6 +116,7 @@ def test_the_limits_of_the_first_flight_can_be_dropped_and_taken_again(visit):
     assert chosen.locator("option:checked").text_content() == "live animal, no limits"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("theme", ["light", "dark"])
 def test_on_a_phone_the_animal_is_in_the_first_screen(visit, theme):
     page = visit("", viewport={"width": 390, "height": 844}, color_scheme=theme)
@@ -125,6 +129,7 @@ def test_on_a_phone_the_animal_is_in_the_first_screen(visit, theme):
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
 
 
+@pytest.mark.slow
 def test_on_a_phone_the_picture_is_still_drawn_as_it_goes_below_the_head(visit):
     page = visit("", viewport={"width": 390, "height": 844})
     page.wait_for_function(FLIES)
@@ -136,6 +141,7 @@ def test_on_a_phone_the_picture_is_still_drawn_as_it_goes_below_the_head(visit):
     assert len(picture.getcolors(300 * 50)) > 20  # the ground, not one flat colour
 
 
+@pytest.mark.slow
 def test_the_point_of_the_curve_is_dragged_to_another_speed(visit):
     page = visit("species=pigeon&speed=10&starts=1&sweep=9:12:1")
     solved(page, "pigeon at 10 m/s")
@@ -160,6 +166,7 @@ def test_the_point_of_the_curve_is_dragged_to_another_speed(visit):
     assert drawer(page).get_by_label("Speed [m/s]", exact=True).first.input_value() == "12"
 
 
+@pytest.mark.slow
 def test_the_curve_comes_by_itself_and_goes_with_its_scenario(visit):
     page = visit("species=pigeon&speed=10&starts=1&sweep=9:11:1")
     solved(page, "pigeon")
@@ -180,6 +187,7 @@ def test_the_curve_comes_by_itself_and_goes_with_its_scenario(visit):
     assert "rings on the axis: still to be computed" in words
 
 
+@pytest.mark.slow
 def test_a_refused_choice_opens_the_drawer_at_its_control(visit):
     page = visit("species=pigeon&speed=10&starts=1&set=vehicle.wing.mass%3D-1.0")
     line = page.locator(".refusal", has_text="mass [kg]: must be > 0 kg; give the mass of one wing.")
@@ -197,6 +205,7 @@ def test_a_refused_choice_opens_the_drawer_at_its_control(visit):
     page.locator(".refusal", has_text="Speed [m/s]: 'fast' is not a number; type one, such as 9.5.").wait_for()
 
 
+@pytest.mark.slow
 def test_the_flight_is_pushed_and_says_how_it_ends(visit):
     page = visit()
     solved(page, "pigeon")
@@ -211,6 +220,7 @@ def test_the_flight_is_pushed_and_says_how_it_ends(visit):
     page.locator(".wb-push").wait_for(state="hidden")  # these were flights of another orbit
 
 
+@pytest.mark.slow
 def test_a_species_file_that_is_dropped_on_the_page_is_solved(visit, tmp_path):
     path = tmp_path / "mine.toml"
     text = (Path(wb.__file__).parent / "data" / "pigeon.toml").read_text()
@@ -227,6 +237,7 @@ def test_a_species_file_that_is_dropped_on_the_page_is_solved(visit, tmp_path):
     page.locator(".wbx-own-state", has_text="a file may have at most 5 million bytes").wait_for()
 
 
+@pytest.mark.slow
 def test_a_tour_says_nothing_of_an_answer_that_was_only_continued(visit):
     page = visit("")
     page.wait_for_function(FLIES)

@@ -80,6 +80,7 @@ def test_a_point_of_the_background_is_its_neighbours_continued(answer, monkeypat
     assert point["frequency"] == pytest.approx(answer["record"]["wingbeat"]["frequency"], rel=0.05)
 
 
+@pytest.mark.slow
 def test_a_flight_is_pushed_from_four_sides_and_tells_how_far_it_is(known):
     told = []
     found = do({"do": "pushes", "of": known}, Context(told.append, lambda: False))
@@ -107,6 +108,7 @@ def test_a_search_that_is_not_wanted_any_more_stops():
         work({"do": "orbit", "scenario": to_plain(PIGEON)}, stopped=True)
 
 
+@pytest.mark.slow
 def test_memory_is_flat_over_two_hundred_solves():
     pool, memory = FairPool("wingbeat_explorer.app.jobs:do", 1), []
     near = None

@@ -26,6 +26,7 @@ def wait_for(page, condition):
 # Tours ------------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_tour_solves_its_flights_from_start_to_close(visit):
     page = visit("species=bat&speed=8&starts=1&sweep=7:9:1")
     solved(page, "bat at 8 m/s")
@@ -59,6 +60,7 @@ def test_a_tour_solves_its_flights_from_start_to_close(visit):
 # Comparison -------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_flight_is_pinned_in_the_face_and_flies_beside_the_next(visit):
     page = visit(QUERY)
     solved(page, "pigeon at 10 m/s")
@@ -95,6 +97,7 @@ def test_a_flight_is_pinned_in_the_face_and_flies_beside_the_next(visit):
 # Pushes -----------------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_same_gust_with_and_without_feedback(visit):
     page = visit(QUERY)
     solved(page, "pigeon at 10 m/s")
@@ -122,6 +125,7 @@ def test_the_same_gust_with_and_without_feedback(visit):
 # The reader's own files -------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_measured_flights_that_are_dropped_lie_behind_the_curve_and_stay_in_the_browser(visit):
     page = visit(QUERY)
     solved(page, "pigeon at 10 m/s")
@@ -147,6 +151,7 @@ def test_measured_flights_that_are_dropped_lie_behind_the_curve_and_stay_in_the_
     assert page.locator(".wbx-own-mark").count() == 0
 
 
+@pytest.mark.slow
 def test_a_species_file_that_is_dropped_is_solved_or_refused_in_words(visit):
     page = visit(QUERY)
     solved(page, "pigeon at 10 m/s")
@@ -166,6 +171,7 @@ def test_a_species_file_that_is_dropped_is_solved_or_refused_in_words(visit):
 # Keyboard and motion ----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_the_keyboard_alone_reaches_the_point_of_the_curve_and_changes_the_speed(visit):
     page = visit(QUERY)
     solved(page, "pigeon at 10 m/s")
@@ -194,6 +200,7 @@ def test_the_keyboard_alone_reaches_the_point_of_the_curve_and_changes_the_speed
     assert not page.evaluate(f"{focused}.matches('.wbx-handle')")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("motion", ["reduce", "no-preference"])
 def test_what_moves_by_itself_is_what_the_visitor_allows(visit, motion):
     page = visit("", reduced_motion=motion)

@@ -56,6 +56,7 @@ def test_a_species_file_travels_in_the_link():
     assert problem_of(scenario).species.vehicle.mass > 0
 
 
+@pytest.mark.slow
 @given(st.text(max_size=80))
 @settings(max_examples=200, deadline=None)
 def test_no_text_breaks_the_reader(text):

@@ -1,8 +1,11 @@
 """The fields for the numbers of an animal, in a real browser."""
 
+import pytest
+
 from tests.explorer.app.page import asks_for, drawer, solved
 
 
+@pytest.mark.slow
 def test_bounds_free_the_tilt_of_the_tail_and_empty_fields_hold_it(visit):
     page = visit()
     solved(page, "pigeon")

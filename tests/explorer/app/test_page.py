@@ -16,6 +16,7 @@ from tests.helpers.browsers import AXE, PATIENCE
 from wingbeat.cli import main
 
 
+@pytest.mark.slow
 def test_a_visit(visit, capsys, tmp_path):
     page = visit()
     solved(page, "pigeon at 10 m/s, su-fan")
@@ -63,6 +64,7 @@ def test_a_visit(visit, capsys, tmp_path):
     asks_for(page, "aero=dickinson")
 
 
+@pytest.mark.slow
 def test_a_broken_species_file_is_refused_in_words(visit, tmp_path):
     page = visit()
     solved(page, "pigeon")
@@ -85,6 +87,7 @@ def test_a_broken_species_file_is_refused_in_words(visit, tmp_path):
     assert page.locator(".what b, select b, .what script").count() == 0
 
 
+@pytest.mark.slow
 def test_faults_are_told_beside_their_control(visit):
     page = visit()
     solved(page, "pigeon")
@@ -102,6 +105,7 @@ def test_faults_are_told_beside_their_control(visit):
     page.locator(".fault", has_text="has 70000 characters; at most 5000 are allowed").wait_for()
 
 
+@pytest.mark.slow
 def test_what_is_typed_and_chosen_stays_while_answers_come(visit):
     page = visit()
     solved(page, "pigeon")
@@ -113,6 +117,7 @@ def test_what_is_typed_and_chosen_stays_while_answers_come(visit):
     assert field.input_value() == "0.5"
 
 
+@pytest.mark.slow
 def test_a_curve_fills_in_and_can_be_cancelled(visit):
     page = visit("species=pigeon&speed=10&starts=1&sweep=9:11:1")
     solved(page, "pigeon")
@@ -129,6 +134,7 @@ def test_a_curve_fills_in_and_can_be_cancelled(visit):
     page.locator(".curve .note", has_text="Cancelled after").wait_for()
 
 
+@pytest.mark.slow
 def test_answers_are_pinned_and_fly_as_ghosts(visit):
     page = visit()
     solved(page, "su-fan")
@@ -141,6 +147,7 @@ def test_answers_are_pinned_and_fly_as_ghosts(visit):
     solved(page, "su-fan")
 
 
+@pytest.mark.slow
 def test_a_slider_is_answered_by_continuing_and_then_by_a_whole_search(visit, monkeypatch):
     page = visit()
     solved(page, "pigeon at 10 m/s")
@@ -181,6 +188,7 @@ def is_bright(page, place=".wbx-lights"):
     page.wait_for_function(f"({GREY})({place!r}) === 0")
 
 
+@pytest.mark.slow
 def test_an_answer_is_dimmed_while_another_question_is_solved(visit, served):
     page = visit("species=pigeon&speed=10&starts=1&sweep=9:10:1")
     solved(page, "pigeon")
@@ -210,6 +218,7 @@ def test_an_answer_is_dimmed_while_another_question_is_solved(visit, served):
     assert not page.get_by_text(EARLIER).is_visible()
 
 
+@pytest.mark.slow
 def test_an_answer_is_dimmed_while_the_form_says_something_else(visit):
     page = visit()
     solved(page, "pigeon")
@@ -231,6 +240,7 @@ def test_an_answer_is_dimmed_while_the_form_says_something_else(visit):
     is_bright(page)
 
 
+@pytest.mark.slow
 def test_what_cannot_fly_says_why_and_what_would(visit):
     page = visit("species=pigeon&speed=10&starts=1&bound=frequency:1.0:3.0")
     page.locator(".wbx-light", has_text="Does not close").wait_for(timeout=2 * PATIENCE)
@@ -241,6 +251,7 @@ def test_what_cannot_fly_says_why_and_what_would(visit):
     assert "upper bound of frequency 3 -> 9.7 Hz" in rows
 
 
+@pytest.mark.slow
 def test_eight_visitors_at_once_and_a_solver_that_dies(visit, served):
     pages = [
         visit(f"species=pigeon&speed={9 + 0.25 * i}&starts=1", viewport={"width": 400, "height": 500})
@@ -269,6 +280,7 @@ OUT_OF_REACH = """() => [...document.querySelectorAll('input, select, button')]
     .map((e) => e.outerHTML)"""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("width", [390, 1280])
 def test_every_control_is_reached_by_the_keyboard_and_axe_finds_no_serious_fault(visit, width):
     window = {"width": width, "height": 844}
@@ -307,6 +319,7 @@ def test_every_control_is_reached_by_the_keyboard_and_axe_finds_no_serious_fault
         assert len(found["passes"]) > 20, theme
 
 
+@pytest.mark.slow
 def test_a_link_that_cannot_be_says_so(visit):
     page = visit("species=dodo")
     solved(page, "pigeon")  # what it falls back to, and says so until something else is asked
@@ -316,6 +329,7 @@ def test_a_link_that_cannot_be_says_so(visit):
     trouble.wait_for(state="hidden")
 
 
+@pytest.mark.slow
 def test_a_large_upload_is_cut_off(visit, served):
     page = visit()
     solved(page, "pigeon")

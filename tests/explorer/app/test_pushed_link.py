@@ -1,11 +1,14 @@
 """The address of the server's page names the push that is shown, and shows it again."""
 
+import pytest
+
 from tests.explorer.app.page import solved
 from tests.helpers.browsers import PATIENCE
 
 SHOWN = "() => wingbeatPage.face?.viewer?.pushes.name === 'tail*1'"
 
 
+@pytest.mark.slow
 def test_the_link_of_a_push_shows_it_again(visit):
     page = visit("species=pigeon&speed=10&starts=1")
     solved(page, "pigeon at 10 m/s, su-fan")
@@ -30,6 +33,7 @@ def test_the_link_of_a_push_shows_it_again(visit):
     page.wait_for_function(SHOWN)
 
 
+@pytest.mark.slow
 def test_the_push_of_a_flight_that_was_solved_beforehand_is_shown(visit):
     page = visit("#push=tail*1")
     page.wait_for_function(SHOWN, timeout=3 * PATIENCE)

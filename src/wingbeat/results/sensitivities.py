@@ -273,10 +273,7 @@ _NAMED = 3
 def influence_report(found: Sensitivities, bars: Sequence[ErrorBar] | None = None) -> Report:
     """Return what each quantity depends on most, the sensitivities, and the prices of the active bounds.
 
-    Parameters
-    ----------
-    found : from `sensitivities`.
-    bars : the error bar of each quantity, if the uncertainty of a fit belongs to it.
+    `bars` are the error bars of the quantities, if the uncertainty of a fit belongs to them.
     """
     names = list(found.values)
     if bars is None:
@@ -307,15 +304,13 @@ def _cells(slope: Sensitivity, found: Sensitivities) -> tuple[str, ...]:
 def ranked_in_words(bar: ErrorBar) -> str:
     """Return what a quantity depends on most, without an error bar."""
     parts = ", ".join(f"{name} ({share:.0%})" for name, share in list(bar.ranking.items())[:_NAMED])
-    due = f"largest shares of the variance: {parts}" if parts else _nothing_moves(bar)
+    if parts:
+        due = f"largest shares of the variance: {parts}"
+    elif bar.set_by_limit:
+        due = "set by the limit, so it is no prediction and has no error bar"
+    else:
+        due = "no plausible range moves it" if bar.due_to else "no plausible ranges are known"
     return f"{bar.quantity.replace('_', ' ')} {written(bar.value, unit=bar.unit)}; {due}"
-
-
-def _nothing_moves(bar: ErrorBar) -> str:
-    """Say why no spread moves a quantity."""
-    if bar.set_by_limit:
-        return "set by the limit, so it is no prediction and has no error bar"
-    return "no plausible range moves it" if bar.due_to else "no plausible ranges are known"
 
 
 def in_words(bar: ErrorBar) -> str:

@@ -20,9 +20,9 @@ from typing import Any, NamedTuple
 import uvicorn
 from playwright.sync_api import Page, sync_playwright
 
-from wingbeat_explorer.app.face import Face
-from wingbeat_explorer.app.house import House
-from wingbeat_explorer.app.site import build
+from wingbeat_explorer.app.face_element import Face
+from wingbeat_explorer.app.pages import House
+from wingbeat_explorer.app.server import build
 
 FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-background-networking", "--enable-unsafe-swiftshader"]
 PATIENCE = 120_000  # ms

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import wingbeat as wb
-from wingbeat_explorer.face import is_plausible, lights_of
+from wingbeat_explorer.face_data import is_plausible, lights_of
 
 if TYPE_CHECKING:
     from sphinx.application import Sphinx

@@ -1,30 +1,43 @@
-"""The flights of one animal with one model at several speeds, ready for a page without a server."""
+"""The flights of one animal with one model at several speeds, ready for a page without a server.
+
+With them go flights through gusts. Scenes are thinned: fewer samples of a beat, in whole numbers of 16 bits.
+"""
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from wingbeat._base import FaultList
+from wingbeat._base import FaultList, InvalidInputError, first_line
 from wingbeat.animal.species.scaling import CRUISE_BY_MASS
 from wingbeat.animal.species.species import Species
 from wingbeat.models import model_of
+from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
 from wingbeat.results.orbit import Orbit, solve_orbits
-from wingbeat_explorer.face import face_of, is_plausible
-from wingbeat_explorer.measured import measured_points
+from wingbeat.stability.gust_flights import fly_pushes
+from wingbeat.viewer import scene
+from wingbeat.viewer.scene import EXACT, packed
+from wingbeat_explorer.face_data import face_of, is_plausible, measured_points
 from wingbeat_explorer.models import EXPLORER_MODELS, LATTICE_MODELS, search_starts
-from wingbeat_explorer.pushed import pushes_of
-from wingbeat_explorer.thinning import thinned
 
 SPEEDS = 9
 # What speeds to show, as shares of the cruise of a bird of the same mass. Robots fly slower.
 _SHARES = {"robot": (0.25, 0.85)}
 _OTHERS = (0.35, 1.5)
 _HOVERS = 0.02  # kg; lighter vehicles are also shown in hover
+# The gusts of a page without a server.
+DIRECTIONS = ("upward", "tail")
+SIZES = (1.0,)  # m/s
+BEATS = 12  # that are flown through them
+SAMPLES = 64  # of a beat; the viewer draws straight lines between them
+_WHOLE = 32767
+# The viewer shows resultants first; without the two parts, a page has room for half as many flights again.
+_LEFT_OUT = ("lift", "drag")
 
 
 def default_speeds(species: Species, count: int = SPEEDS) -> list[float]:
@@ -169,3 +182,122 @@ def _first(points: Sequence[dict[str, Any]]) -> float:
         if fit:
             return min(fit, key=lambda point: point["power"])["speed"]
     return points[0]["speed"]
+
+
+def flown_through_gusts(orbit: Orbit, **asked: Any) -> tuple[list[dict[str, Any]], str]:
+    """Return flights through gusts as the viewer's scene holds them, and why those with feedback are left out.
+
+    The reason is empty if they are not left out.
+
+    Parameters
+    ----------
+    orbit : the flight that meets the gusts.
+    asked : further parameters of `fly_pushes`.
+
+    Raises
+    ------
+    InvalidInputError : an orbit that is not certified; parameters that `fly_pushes` refuses.
+    """
+    why_not = ""
+    try:
+        flown = fly_pushes(orbit, **asked)
+    except InvalidInputError as error:
+        flown = fly_pushes(orbit, delay=None, **asked)  # refuses what does not concern the feedback
+        why_not = first_line(error)
+    return scene([("", orbit.dataset)], flown)["pushes"], why_not
+
+
+def pushes_of(orbit: Orbit) -> list[dict[str, Any]]:
+    """Return flights through gusts of 1 m/s from below and from behind, small enough for a page with many animals.
+
+    They last twelve beats, or until the animal is lost, without and with feedback. If no feedback holds the orbit,
+    there are only those without. An orbit that is not certified has none.
+
+    Parameters
+    ----------
+    orbit : the flight that meets the gusts.
+    """
+    if orbit.status is not Status.CONVERGED:
+        return []
+    pushes, _ = flown_through_gusts(orbit, beats=BEATS, directions=DIRECTIONS, sizes=SIZES)
+    return thinned_pushes(pushes)
+
+
+def thinned(scene: dict[str, Any]) -> dict[str, Any]:
+    """Return a scene with about 64 samples of each flight, its arrays in 16 bits, and without lift and drag.
+
+    An array keeps its values to a thirty-thousandth of its largest one; phase, time and the body's path are in
+    single precision. Of a strip's four corners three are kept: it is a parallelogram.
+
+    Parameters
+    ----------
+    scene : from `wingbeat.viewer.scene`.
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
+    >>> small = thinned(wb.viewer.scene([("pigeon", orbit.dataset)]))
+    >>> len(unpacked(small["flights"][0]["arrays"]["phase"]))
+    65
+    """
+    return scene | {"flights": [_thinned(flight) for flight in scene["flights"]]}
+
+
+def thinned_pushes(pushes: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Return the pushes of a scene with arrays in 16 bits; they keep all their samples, which are few.
+
+    Parameters
+    ----------
+    pushes : from the key ``pushes`` of `wingbeat.viewer.scene`.
+    """
+    return [
+        push | {"scene": push["scene"] | {"flights": [_smaller(push["scene"]["flights"][0])]}} for push in pushes
+    ]
+
+
+def _thinned(flight: dict[str, Any]) -> dict[str, Any]:
+    count = len(unpacked(flight["arrays"]["phase"]))
+    return _smaller(flight, np.unique(np.round(np.linspace(0, count - 1, min(count, SAMPLES + 1))).astype(int)))
+
+
+def _smaller(flight: dict[str, Any], kept: Any = slice(None)) -> dict[str, Any]:
+    """Return a flight with these of its samples, in 16 bits."""
+    count = len(unpacked(flight["arrays"]["phase"]))
+    arrays = {}
+    for name, array in flight["arrays"].items():
+        if name not in _LEFT_OUT:
+            values = unpacked(array).reshape(count, -1)[kept]
+            if name == "corners":
+                values = values.reshape(len(values), -1, 4, 3)[:, :, :3].reshape(len(values), -1)
+            arrays[name] = packed(values, "f4") if name in EXACT else in_16_bits(values)
+    return flight | {"arrays": arrays}
+
+
+def unpacked(array: dict[str, Any]) -> np.ndarray:
+    """Return the flat values of an array of a scene.
+
+    Parameters
+    ----------
+    array : with ``kind``, ``data`` and, for 16 bits, ``scale`` and ``samples``.
+    """
+    data = base64.b64decode(array["data"])
+    if array["kind"] != "d2":
+        return np.frombuffer(data, f"<{array['kind']}")
+    steps = np.frombuffer(data, np.uint8).reshape(2, -1).T.copy().view("<i2").reshape(-1, array["samples"])
+    return np.cumsum(steps, axis=1, dtype=np.int16).T.ravel() * array["scale"]
+
+
+def in_16_bits(values: np.ndarray) -> dict[str, Any]:
+    """Return an array of a scene in 16 bits that compress well: steps from sample to sample, low bytes first.
+
+    Parameters
+    ----------
+    values : finite, shape (samples, numbers in each).
+
+    >>> unpacked(in_16_bits(np.array([[0.0], [2.0], [1.0]]))).round(4).tolist()
+    [0.0, 2.0, 1.0]
+    """
+    scale = float(np.abs(values).max()) / _WHOLE or 1.0
+    whole = np.round(values / scale).astype(np.int16).T
+    steps = np.diff(whole, axis=1, prepend=np.int16(0)).astype("<i2")  # modulo 2^16, as the sums that undo it
+    data = base64.b64encode(steps.ravel().view(np.uint8).reshape(-1, 2).T.tobytes())
+    return {"kind": "d2", "data": data.decode(), "scale": scale, "samples": len(values)}

@@ -8,7 +8,7 @@ import pytest
 
 from tests.helpers.browsers import AXE, shown_files
 from wingbeat_explorer import write_explorer
-from wingbeat_explorer.thinning import unpacked
+from wingbeat_explorer.lattice import unpacked
 
 FACE = "document.querySelector('.wbx').face"
 ACROSS = """speed => {

@@ -8,9 +8,8 @@ import pytest
 
 import wingbeat as wb
 from wingbeat._base import FileError
-from wingbeat_explorer import face
-from wingbeat_explorer.face import is_plausible, lights_of, sentence_of
-from wingbeat_explorer.gauges import gauges_of
+from wingbeat_explorer import face_data as face
+from wingbeat_explorer.face_data import gauges_of, is_plausible, lights_of, sentence_of
 
 
 @pytest.fixture

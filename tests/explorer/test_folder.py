@@ -13,9 +13,7 @@ from wingbeat._base import InvalidInputError
 from wingbeat.cli.app import main
 from wingbeat_explorer import default_speeds, measured_points, solve_lattice, write_explorer
 from wingbeat_explorer.folder import check_names
-from wingbeat_explorer.lattice import SPEEDS
-from wingbeat_explorer.pushed import pushes_of
-from wingbeat_explorer.thinning import in_16_bits, thinned, unpacked
+from wingbeat_explorer.lattice import SPEEDS, in_16_bits, pushes_of, thinned, unpacked
 
 
 def test_the_folder_holds_all_it_needs_and_names_no_other_host(folder):

@@ -9,11 +9,10 @@ from collections.abc import Callable
 from typing import Any
 
 from wingbeat._workers.pool import Event, Job
-from wingbeat_explorer.app.answer import Influence
-from wingbeat_explorer.app.downloads import Download, Downloads
-from wingbeat_explorer.app.face import Face
+from wingbeat_explorer.app.face_element import Download, Downloads, Face
 from wingbeat_explorer.app.formatting import sentence
 from wingbeat_explorer.app.links import from_plain, to_json
+from wingbeat_explorer.app.panels import Influence
 from wingbeat_explorer.app.scenario import Scenario
 from wingbeat_explorer.app.session import BUSY, Session, View, known
 from wingbeat_explorer.app.widgets import run_script

@@ -202,6 +202,13 @@ def _built_in(name: str) -> Species:
     return load_species(name)
 
 
+@functools.cache
+def animals() -> tuple[tuple[str, str], ...]:
+    """Return name and title of every built-in species, by title; the first call reads all their files."""
+    named = ((name, load_species(name).common_name or name) for name in species_names())
+    return tuple(sorted(named, key=lambda pair: pair[1].lower()))
+
+
 def species_in(scenario: Scenario) -> Species:
     """Return the species with the numbers of its file and of its model, before the user's changes.
 

@@ -1,4 +1,4 @@
-"""Plain HTML controls, which assistive technology handles best, with labels, units, hints and faults."""
+"""Plain HTML controls, which assistive technology handles best, with labels, units, hints and messages."""
 
 from __future__ import annotations
 
@@ -17,6 +17,7 @@ _KEEP = "(event) => { element.props.value = event.target.value; }"
 # The value is sent as a text, whatever the control; a client that sends anything else is not one of ours.
 _EMIT = "(event) => { element.props.value = event.target.value; emit(event.target.value); }"
 _LONGEST = 5000  # characters of one entry
+_MOST_LINES = 10
 
 
 def tag(name: str, text: str | None = None, classes: str = "", **attributes: Any) -> Any:
@@ -249,3 +250,27 @@ class Rows:
 def run_script(text: str) -> None:
     """Run a script in the visitor's browser; quote any text of the visitor in it with `json.dumps`."""
     ui.run_javascript(text)
+
+
+class Trouble:
+    """The place of the messages; it is made where the page has it, and hidden while there are none."""
+
+    def __init__(self) -> None:
+        self._box = tag("div", classes="trouble hidden", role="alert")
+        with self._box:
+            self._lines = tag("ul", classes="plain")
+            button("Close", self.close, "small")
+
+    def show(self, *lines: str) -> None:
+        """Show these messages in place of earlier ones; of many, the first ten."""
+        self._lines.clear()
+        with self._lines:
+            for line in lines[:_MOST_LINES]:
+                tag("li", line)
+            if len(lines) > _MOST_LINES:
+                tag("li", f"And {len(lines) - _MOST_LINES} more.")
+        self._box.classes(remove="hidden")
+
+    def close(self) -> None:
+        """Hide the messages."""
+        self._box.classes("hidden")

@@ -3,7 +3,7 @@
 import pytest
 
 from wingbeat.orbits.problem.quantities import QUANTITIES
-from wingbeat_explorer.app.answer import _message
+from wingbeat_explorer.app.panels import _message
 
 FOUND = {"record": {"status": "converged", "message": "", "objective": "frequency"}}
 

@@ -5,9 +5,9 @@ import dataclasses
 import pytest
 
 from wingbeat._workers.pool import Event
-from wingbeat_explorer.app.curve import Curve, drawn
 from wingbeat_explorer.app.links import from_plain
 from wingbeat_explorer.app.scenario import Scenario
+from wingbeat_explorer.app.speed_curve import Curve, drawn
 
 HERE = Scenario(speed=10.0, sweep=(8.0, 12.0, 1.0))
 ANSWER = {

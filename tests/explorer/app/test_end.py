@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from tests.explorer.app.program import PATIENCE, Program, wait_gone
-from wingbeat_explorer.app.fair_pool import FairPool
 from wingbeat_explorer.app.links import to_plain
 from wingbeat_explorer.app.scenario import Scenario
+from wingbeat_explorer.app.session import FairPool
 
 
 def ended(pool, what):

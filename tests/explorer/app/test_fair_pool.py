@@ -9,7 +9,7 @@ import pytest
 
 from wingbeat._workers import pool as pools
 from wingbeat._workers.pool import Event
-from wingbeat_explorer.app.fair_pool import FairPool
+from wingbeat_explorer.app.session import FairPool
 
 PATIENCE = 60.0
 

@@ -11,10 +11,10 @@ import pytest
 
 import wingbeat as wb
 from wingbeat._workers.process import Context, StoppedError
-from wingbeat_explorer.app.fair_pool import FairPool
 from wingbeat_explorer.app.jobs import do
 from wingbeat_explorer.app.links import to_plain
 from wingbeat_explorer.app.scenario import Scenario
+from wingbeat_explorer.app.session import FairPool
 
 PIGEON = Scenario(species="pigeon", speed=10.0, starts=1)
 

@@ -42,7 +42,7 @@ def test_pages_that_are_only_fetched_are_few(served, monkeypatch):
 
     program, pages = Program.__new__(Program), served.house.pages
     program.port = int(served.address.rpartition(":")[2])
-    monkeypatch.setattr("wingbeat_explorer.app.house.MOST_WAITING", 4)
+    monkeypatch.setattr("wingbeat_explorer.app.pages.MOST_WAITING", 4)
     client, session = program.open_page()
     with program.connect(client):  # a visitor, who stays whatever others fetch
         until = time.monotonic() + PATIENCE

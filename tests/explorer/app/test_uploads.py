@@ -14,11 +14,10 @@ from wingbeat.animal.species.reading import template
 from wingbeat.models import model_of
 from wingbeat.records.inputs import inputs_of
 from wingbeat.results.orbit import load_orbit
-from wingbeat_explorer.app import uploads
-from wingbeat_explorer.app.jobs import do
+from wingbeat_explorer.app import jobs as uploads
+from wingbeat_explorer.app.jobs import clean_label, do, scenario_of
 from wingbeat_explorer.app.links import from_plain, to_json
 from wingbeat_explorer.app.scenario import Scenario, problem_of
-from wingbeat_explorer.app.uploads import clean_label, scenario_of
 
 
 def read(path, label="sent.nc"):

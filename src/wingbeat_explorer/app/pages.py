@@ -1,33 +1,39 @@
-"""The page: its layout, and how choices, answers and files go from one part to the other."""
+"""The page of each visitor: its layout, and how choices, answers and files go from one part to the other.
+
+The `House` is what all visitors share: the pool of workers, the downloads, and the open pages.
+"""
 
 from __future__ import annotations
 
 import json
+import secrets
+import tempfile
 from collections.abc import Callable
 from contextlib import AbstractContextManager
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from nicegui import Client, ui
 
 from wingbeat._base import InvalidInputError
-from wingbeat_explorer.app.answer import Answer, Brief, Influence
+from wingbeat._workers.pool import Event
 from wingbeat_explorer.app.controls import Controls
-from wingbeat_explorer.app.curve import Curve, drawn
-from wingbeat_explorer.app.curve_panel import CurvePanel
 from wingbeat_explorer.app.errands import Errands
-from wingbeat_explorer.app.face import Face
-from wingbeat_explorer.app.links import from_plain, from_query, to_query
-from wingbeat_explorer.app.pins import Pins
-from wingbeat_explorer.app.scenario import Scenario
-from wingbeat_explorer.app.session import Session
-from wingbeat_explorer.app.trouble import Trouble
-from wingbeat_explorer.app.widgets import button, choice_field, folded, part, run_script, set_class, tag
-
-if TYPE_CHECKING:
-    from wingbeat_explorer.app.house import House
+from wingbeat_explorer.app.face_element import Downloads, Face
+from wingbeat_explorer.app.first import read_first
+from wingbeat_explorer.app.links import from_plain, from_query, to_plain, to_query
+from wingbeat_explorer.app.panels import Answer, Brief, CurvePanel, Influence, Pins
+from wingbeat_explorer.app.scenario import Scenario, animals
+from wingbeat_explorer.app.session import FairPool, Session
+from wingbeat_explorer.app.speed_curve import Curve, drawn
+from wingbeat_explorer.app.widgets import Trouble, button, choice_field, folded, part, run_script, set_class, tag
 
 _THEMES = (("system", "System"), ("light", "Light"), ("dark", "Dark"))
 _ACCEPT = ".toml,.nc,.json"
+_WORK = "wingbeat_explorer.app.jobs:do"
+# Most pages that were fetched and wait for their browser to connect. Browsers connect within a second. Programs
+# that only fetch pages never do, and each page takes 3.2 MB of memory until NiceGUI drops it after a minute. A
+# browser whose page was dropped loads it again by itself.
+MOST_WAITING = 20
 
 
 class Page:
@@ -262,3 +268,57 @@ class Page:
         with self._client:
             self._trouble.close()
             self._errands.read(path, label, done)
+
+
+class House:
+    """What all visitors share.
+
+    Parameters
+    ----------
+    processes : worker processes of the pool.
+    """
+
+    def __init__(self, processes: int) -> None:
+        self._is_warm = False
+        self.pool = FairPool(_WORK, processes)
+        self.downloads = Downloads()
+        self.first = read_first()
+        animals()  # now, so that the first visitor need not wait for it
+        self.pages: dict[str, Page] = {}
+        self.folder = tempfile.TemporaryDirectory(prefix="wingbeat-")
+
+    def warm_up(self) -> None:
+        """Solve the first flight in one worker, then in another, so that a move need not wait for its compilation.
+
+        Only the first call does anything.
+        """
+        if self._is_warm:
+            return
+        self._is_warm = True
+        near = self.first.answer["near"]
+        what = {"do": "orbit", "scenario": to_plain(self.first.scenario), "near": near}
+
+        def go_on(event: Event) -> None:
+            if event.ends:  # in the background, which takes another worker
+                self.pool.submit("warm-up", what, lambda event: None, background=True)
+
+        self.pool.submit("warm-up", what, go_on)
+
+    def open_page(self, client: Client, query: str) -> None:
+        """Build a page for a new visitor; of pages to which nobody has connected, only the latest are kept."""
+        waiting = [page for page in self.pages.values() if page.waits]
+        for page in waiting[: max(len(waiting) - MOST_WAITING + 1, 0)]:
+            page.drop()
+        name = secrets.token_urlsafe(12)
+        page = self.pages[name] = Page(name, self, query)
+
+        def leave() -> None:
+            del self.pages[name]
+            page.leave()
+
+        client.on_delete(leave)
+
+    def close(self) -> None:
+        """End the workers and delete all temporary files."""
+        self.pool.close()
+        self.folder.cleanup()

@@ -1,4 +1,7 @@
-"""The face of an orbit: a sentence, two lights, gauges, numbers, warnings and the scene of the viewer."""
+"""What the explorer shows of an orbit: a sentence, two lights, gauges, numbers, warnings and the viewer's scene.
+
+`measured_points` adds what was measured on live animals, which the page draws behind its curve against speed.
+"""
 
 from __future__ import annotations
 
@@ -6,15 +9,17 @@ import re
 from collections import Counter
 from typing import Any
 
-from wingbeat._base import NOMENCLATURE, FileError, for_people
+from wingbeat._base import NOMENCLATURE, FileError, cf, for_people
 from wingbeat.animal.species.building import NOT_MEASURED
+from wingbeat.animal.species.species import Species
 from wingbeat.orbits.options import Status
-from wingbeat.records.judgements import set_by_limit, statements
+from wingbeat.records.judgements import JUDGED_NAMES, set_by_limit, statements
 from wingbeat.records.numbers import SPENT, beat_mean
 from wingbeat.results.orbit import Orbit
 from wingbeat.viewer import scene
 from wingbeat.words.orbit_words import limits_in_words, mass_of
-from wingbeat_explorer.gauges import gauges_of
+from wingbeat_evidence.whole_flights import Measurement, measured_animals, read_measured_flights
+from wingbeat_evidence.whole_flights.comparison import ends_of, name_of
 from wingbeat_explorer.models import EXPLORER_MODELS
 
 # Numbers of the record that are listed, and how they are called; those that a record lacks are left out.
@@ -27,6 +32,7 @@ _LISTED = {
     "body_pitch_range": "range of body pitch within a beat",
 }
 _MUSCLE = "positive_power_per_mass"
+_NUMBERS = ("value", "low", "high")
 
 
 def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
@@ -209,3 +215,79 @@ def _shorter(warning: str) -> str:
 
 def _sentence(text: str) -> str:
     return f"{text[:1].upper()}{text[1:]}" + ("" if text.endswith(".") else ".")
+
+
+def gauges_of(record: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the gauges of an orbit record: one for each number of its ``plausibility``.
+
+    Each has name, label, value, unit, low, high, inside, limited and source. Angles are in degrees. An end of a
+    range that is open or unknown is None. `inside` is None if the number has no value, such as the Strouhal number
+    in hover, or if nothing is known of its range. `limited` says whether a limit has set the number, or it follows
+    from a limit.
+
+    Parameters
+    ----------
+    record : from `Orbit.record`.
+
+    >>> judged = {"name": "frequency", "value": 12.0, "unit": "Hz", "low": 4.0, "high": 10.0, "within": False}
+    >>> gauge = gauges_of({"plausibility": [judged | {"source": "a law"}]})[0]
+    >>> gauge["label"], gauge["value"], gauge["inside"]
+    ('Wingbeat frequency', 12.0, False)
+    """
+    limited = set_by_limit(record)
+    return [_gauge(one, one["name"] in limited) for one in record.get("plausibility") or []]
+
+
+def _gauge(judged: dict[str, Any], limited: bool) -> dict[str, Any]:
+    factor, unit = for_people(cf(judged["unit"]))
+    value, low, high = (None if part is None else factor * part for part in (judged[n] for n in _NUMBERS))
+    known = low is not None or high is not None
+    label = JUDGED_NAMES[judged["name"]]
+    return {
+        "name": judged["name"],
+        "label": "Wingbeat frequency" if label == "frequency" else label[:1].upper() + label[1:],
+        "value": value,
+        "unit": unit,
+        "low": low,
+        "high": high,
+        "inside": judged["within"] if known else None,
+        "limited": limited,
+        "source": " ".join(judged["source"].split()),
+    }
+
+
+def measured_points(species: Species) -> list[dict[str, Any]]:
+    """Return what the package holds of a species' flights, for a curve of power or frequency; often nothing.
+
+    Each has ``speed`` [m/s], ``power`` [W] or ``frequency`` [Hz], all as a lowest and a highest value, and basis,
+    label and source. Powers per mass are multiplied by the mass of the species. The speed of minimum power has
+    neither power nor frequency.
+
+    Parameters
+    ----------
+    species : the animal.
+
+    >>> import wingbeat as wb
+    >>> points = measured_points(wb.load_species("pigeon"))
+    >>> points[0]["frequency"], [round(watt, 1) for watt in points[3]["power"]]
+    ([7.33, 8.71], [14.6, 17.8])
+    """
+    if species.name not in measured_animals():
+        return []
+    found = [_point(one, species.vehicle.mass) for one in read_measured_flights(species.name).measurements]
+    return [one for one in found if one is not None]
+
+
+def _point(one: Measurement, mass: float) -> dict[str, Any] | None:
+    about = {
+        "basis": one.basis,
+        "label": f"{name_of(one.quantity)}, {one.basis}: {ends_of(one.values)}. {one.what}",
+        "source": one.source,
+    }
+    if one.speeds is None:
+        return about | {"speed": list(one.values)}
+    if one.quantity == "frequency":
+        return about | {"speed": list(one.speeds), "frequency": list(one.values)}
+    if one.quantity == "positive_power_per_mass":
+        return about | {"speed": list(one.speeds), "power": [mass * value for value in one.values]}
+    return None

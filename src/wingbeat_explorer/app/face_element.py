@@ -1,33 +1,61 @@
-"""The face of the explorer on the page: this module places the component and sends it answers."""
+"""The face of the explorer as an element of the page, and what the browser fetches for it.
+
+Each download has a name that nobody can guess; a session keeps its last few.
+"""
 
 from __future__ import annotations
 
-import functools
 import json
+import secrets
+from collections import OrderedDict
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 from nicegui import ui
 
-from wingbeat.animal.species.making import load_species
-from wingbeat.animal.species.reading import species_names
 from wingbeat.orbits.problem.quantities import FASTEST
-from wingbeat_explorer.app.downloads import Download, Downloads
-from wingbeat_explorer.app.scenario import Scenario
+from wingbeat_explorer.app.scenario import Scenario, animals
 from wingbeat_explorer.app.widgets import run_script, tag
 from wingbeat_explorer.models import EXPLORER_MODELS
 
+DOWNLOADS = "/wingbeat/downloads/"  # the address, without the name
+_MOST = 12
 BUNDLE = "/wingbeat/explorer.js"
 READY = "/wingbeat/first.json"  # the face that was solved beforehand
 # What the face asks is sent at most about twenty times a second while its point is dragged.
 _THROTTLE = 0.05
 
 
-@functools.cache
-def animals() -> tuple[tuple[str, str], ...]:
-    """Return name and title of every built-in species, by title; the first call reads all their files."""
-    named = ((name, load_species(name).common_name or name) for name in species_names())
-    return tuple(sorted(named, key=lambda pair: pair[1].lower()))
+class Download(NamedTuple):
+    """Bytes with their media type, and the file name under which a browser saves them, if it does."""
+
+    content: bytes
+    kind: str
+    name: str = ""
+
+
+class Downloads:
+    """Keeps the last few downloads of each session."""
+
+    def __init__(self) -> None:
+        self._kept: dict[str, OrderedDict[str, Download]] = {}
+
+    def put(self, session: str, download: Download) -> str:
+        """Return the address at which a download can be fetched."""
+        own = self._kept.setdefault(session, OrderedDict())
+        name = secrets.token_urlsafe(16)
+        own[name] = download
+        while len(own) > _MOST:
+            own.popitem(last=False)
+        return DOWNLOADS + name
+
+    def get(self, name: str) -> Download | None:
+        """Return a download; None if it has been dropped."""
+        return next((own[name] for own in self._kept.values() if name in own), None)
+
+    def leave(self, session: str) -> None:
+        """Drop all downloads of a session."""
+        self._kept.pop(session, None)
 
 
 class Face:
@@ -103,7 +131,7 @@ class Face:
         self._run("show", self._address(answer["face"]), bool(answer.get("continued")))
 
     def show_curve(self, data: dict[str, Any]) -> None:
-        """Show the curve, as `wingbeat_explorer.app.curve.drawn` returns it."""
+        """Show the curve, as `wingbeat_explorer.app.speed_curve.drawn` returns it."""
         self._run("showCurve", data)
 
     def compare(self, answer: dict[str, Any] | None) -> None:

@@ -56,6 +56,9 @@ def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
     """
     record, species = orbit.record(), orbit.problem.species
     title = species.common_name or species.name
+    certified, limits = orbit.status is Status.CONVERGED, limits_in_words(record)
+    spent = {name: beat_mean(orbit.dataset[series].values) for name, series in SPENT.items()} if certified else None
+    warnings = [f"set by limits, not predicted: {limits}"] if limits else []
     return {
         "species": species.name,
         "title": title,
@@ -67,13 +70,13 @@ def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
         "status": record["status"],
         "power": record["mean_positive_power"],
         "frequency": record["wingbeat"]["frequency"],
-        "spent": _spent(orbit),
+        "spent": spent,
         "mass": mass_of(record["vehicle"]),
         "sentence": sentence_of(record, title),
         "lights": lights_of(record),
         "gauges": gauges_of(record),
         "numbers": numbers_of(record),
-        "warnings": [_sentence(_shorter(text)) for text in (*_limits(record), *record["warnings"])],
+        "warnings": [_sentence(_shorter(text)) for text in (*warnings, *record["warnings"])],
         "scene": _scene_of(orbit, title),
     }
 
@@ -88,25 +91,8 @@ def _scene_of(orbit: Orbit, title: str) -> dict[str, Any] | None:
         return None
 
 
-def _limits(record: dict[str, Any]) -> list[str]:
-    limits = limits_in_words(record)
-    return [f"set by limits, not predicted: {limits}"] if limits else []
-
-
-def _spent(orbit: Orbit) -> dict[str, float] | None:
-    if orbit.status is not Status.CONVERGED:
-        return None
-    return {name: beat_mean(orbit.dataset[series].values) for name, series in SPENT.items()}
-
-
 def sentence_of(record: dict[str, Any], title: str) -> str:
-    """Return one sentence on an orbit: who flies how fast, how often it beats, what it needs, and what is amiss.
-
-    Parameters
-    ----------
-    record : from `Orbit.record`.
-    title : the animal's name.
-    """
+    """Return one sentence on an orbit: who flies how fast, how often it beats, what it needs, and what is amiss."""
     who = f"{_article(title)} {title} {_place(record)}"
     if record["status"] == "infeasible":
         which = "that closes within its limits" if record.get("constraints") else "that closes"
@@ -133,10 +119,6 @@ def lights_of(record: dict[str, Any]) -> list[dict[str, Any]]:
     """Return the two lights: whether the flight closes, and whether its numbers are those of flying animals.
 
     Each has name, good, known and text. What is not known is not good either, but no fault.
-
-    Parameters
-    ----------
-    record : from `Orbit.record`.
     """
     said = statements(record)
     certified = record["status"] == "converged"
@@ -154,23 +136,13 @@ def lights_of(record: dict[str, Any]) -> list[dict[str, Any]]:
 
 
 def is_plausible(lights: list[dict[str, Any]]) -> bool | None:
-    """Return whether a flight closes and its numbers are plausible; None if it closes and too little is known.
-
-    Parameters
-    ----------
-    lights : from `lights_of`.
-    """
+    """Return whether a flight closes and its numbers are plausible; None if it closes and too little is known."""
     closes, plausible = lights
     return None if closes["good"] and not plausible["known"] else closes["good"] and plausible["good"]
 
 
 def numbers_of(record: dict[str, Any]) -> list[list[str]]:
-    """Return label, value and unit of the main numbers, as texts; a number without a value is left out.
-
-    Parameters
-    ----------
-    record : from `Orbit.record`.
-    """
+    """Return label, value and unit of the main numbers, as texts; a number without a value is left out."""
     mass, beat = mass_of(record["vehicle"]), record["wingbeat"]
     rows = [["mass", f"{1e3 * mass:.4g}", "g"], ["wingbeat frequency", f"{beat['frequency']:.4g}", "Hz"]]
     for name, label in _LISTED.items():
@@ -224,10 +196,6 @@ def gauges_of(record: dict[str, Any]) -> list[dict[str, Any]]:
     range that is open or unknown is None. `inside` is None if the number has no value, such as the Strouhal number
     in hover, or if nothing is known of its range. `limited` says whether a limit has set the number, or it follows
     from a limit.
-
-    Parameters
-    ----------
-    record : from `Orbit.record`.
 
     >>> judged = {"name": "frequency", "value": 12.0, "unit": "Hz", "low": 4.0, "high": 10.0, "within": False}
     >>> gauge = gauges_of({"plausibility": [judged | {"source": "a law"}]})[0]

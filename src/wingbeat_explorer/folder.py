@@ -109,17 +109,7 @@ def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any
 
 
 def check_names(flyers: Iterable[tuple[str, str]], known: Sequence[str] = ()) -> None:
-    """Refuse species whose names cannot name a file, and a species and model that come twice.
-
-    Parameters
-    ----------
-    flyers : names of species and model.
-    known : names of files that are there already, without ending.
-
-    Raises
-    ------
-    InvalidInputError : all of them.
-    """
+    """Refuse species whose names cannot name a file, and flyers that come twice or whose files are `known`."""
     faults, seen = FaultList(), set(known)
     for species, model in flyers:
         if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]*", species):

@@ -101,36 +101,21 @@ def solve_lattice(
 def check_lattice(
     species: Species, model: str, speeds: Sequence[float], starts: int | None = None, seed: int = 0
 ) -> tuple[list[OrbitProblem], int | None]:
-    """Return the problems of a lattice and the number of starts of each, without solving them.
-
-    Parameters
-    ----------
-    species, model, speeds, starts, seed : as in `solve_lattice`.
-
-    Raises
-    ------
-    InvalidInputError : as `solve_lattice`.
-    """
+    """Return the problems of `solve_lattice` and the number of starts of each, with its faults, without solving."""
     faults = FaultList()
     if not len(speeds) or any(np.diff(speeds) <= 0):
         faults.add("speeds", list(speeds), "must be at least one, and increase", "for example 8, 10, 12")
     faults.choice("model", model, LATTICE_MODELS)
     faults.raise_if_any()
     check_search(1 if starts is None else starts, seed)
-    problems = [_problem(model, species, float(speed)) for speed in speeds]
-    return problems, search_starts(starts, EXPLORER_MODELS[model].within_plausible)
+    meant = EXPLORER_MODELS[model]
+    made = model_of(meant.model, species)
+    problems = [made.problem(species, float(speed), **meant.changes) for speed in speeds]
+    return problems, search_starts(starts, meant.within_plausible)
 
 
 def lattice_of(species: Species, model: str, orbits: Sequence[Orbit], push: bool = False) -> dict[str, Any]:
-    """Return what the static explorer shows of orbits that are solved already; `solve_lattice` says what it is.
-
-    Parameters
-    ----------
-    species : the animal or robot.
-    model : name of the model of all orbits.
-    orbits : in increasing order of speed.
-    push : as in `solve_lattice`.
-    """
+    """Return what `solve_lattice` returns, of orbits by one model that are solved already, the slowest first."""
     answers = [face_of(orbit, model) for orbit in orbits]
     points = [point_of(answer) for answer in answers]
     first = _first(points)
@@ -147,11 +132,6 @@ def lattice_of(species: Species, model: str, orbits: Sequence[Orbit], push: bool
     }
     pushed = next(orbit for orbit, point in zip(orbits, points, strict=True) if point["speed"] == first)
     return lattice | ({"pushes": pushes_of(pushed)} if push else {})
-
-
-def _problem(model: str, species: Species, speed: float) -> OrbitProblem:
-    meant = EXPLORER_MODELS[model]
-    return model_of(meant.model, species).problem(species, speed, **meant.changes)
 
 
 def _small(answer: dict[str, Any], sources: dict[str, str]) -> dict[str, Any]:
@@ -187,16 +167,8 @@ def _first(points: Sequence[dict[str, Any]]) -> float:
 def flown_through_gusts(orbit: Orbit, **asked: Any) -> tuple[list[dict[str, Any]], str]:
     """Return flights through gusts as the viewer's scene holds them, and why those with feedback are left out.
 
-    The reason is empty if they are not left out.
-
-    Parameters
-    ----------
-    orbit : the flight that meets the gusts.
-    asked : further parameters of `fly_pushes`.
-
-    Raises
-    ------
-    InvalidInputError : an orbit that is not certified; parameters that `fly_pushes` refuses.
+    The reason is empty if they are not left out. `asked` are further parameters of `fly_pushes`, which refuses an
+    orbit that is not certified.
     """
     why_not = ""
     try:
@@ -212,15 +184,13 @@ def pushes_of(orbit: Orbit) -> list[dict[str, Any]]:
 
     They last twelve beats, or until the animal is lost, without and with feedback. If no feedback holds the orbit,
     there are only those without. An orbit that is not certified has none.
-
-    Parameters
-    ----------
-    orbit : the flight that meets the gusts.
     """
     if orbit.status is not Status.CONVERGED:
         return []
     pushes, _ = flown_through_gusts(orbit, beats=BEATS, directions=DIRECTIONS, sizes=SIZES)
-    return thinned_pushes(pushes)
+    return [
+        push | {"scene": push["scene"] | {"flights": [_smaller(push["scene"]["flights"][0])]}} for push in pushes
+    ]
 
 
 def thinned(scene: dict[str, Any]) -> dict[str, Any]:
@@ -229,34 +199,18 @@ def thinned(scene: dict[str, Any]) -> dict[str, Any]:
     An array keeps its values to a thirty-thousandth of its largest one; phase, time and the body's path are in
     single precision. Of a strip's four corners three are kept: it is a parallelogram.
 
-    Parameters
-    ----------
-    scene : from `wingbeat.viewer.scene`.
-
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
     >>> small = thinned(wb.viewer.scene([("pigeon", orbit.dataset)]))
     >>> len(unpacked(small["flights"][0]["arrays"]["phase"]))
     65
     """
-    return scene | {"flights": [_thinned(flight) for flight in scene["flights"]]}
-
-
-def thinned_pushes(pushes: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Return the pushes of a scene with arrays in 16 bits; they keep all their samples, which are few.
-
-    Parameters
-    ----------
-    pushes : from the key ``pushes`` of `wingbeat.viewer.scene`.
-    """
-    return [
-        push | {"scene": push["scene"] | {"flights": [_smaller(push["scene"]["flights"][0])]}} for push in pushes
-    ]
-
-
-def _thinned(flight: dict[str, Any]) -> dict[str, Any]:
-    count = len(unpacked(flight["arrays"]["phase"]))
-    return _smaller(flight, np.unique(np.round(np.linspace(0, count - 1, min(count, SAMPLES + 1))).astype(int)))
+    flights = []
+    for flight in scene["flights"]:
+        count = len(unpacked(flight["arrays"]["phase"]))
+        kept = np.unique(np.round(np.linspace(0, count - 1, min(count, SAMPLES + 1))).astype(int))
+        flights.append(_smaller(flight, kept))
+    return scene | {"flights": flights}
 
 
 def _smaller(flight: dict[str, Any], kept: Any = slice(None)) -> dict[str, Any]:
@@ -273,12 +227,7 @@ def _smaller(flight: dict[str, Any], kept: Any = slice(None)) -> dict[str, Any]:
 
 
 def unpacked(array: dict[str, Any]) -> np.ndarray:
-    """Return the flat values of an array of a scene.
-
-    Parameters
-    ----------
-    array : with ``kind``, ``data`` and, for 16 bits, ``scale`` and ``samples``.
-    """
+    """Return the flat values of an array of a scene, which may be one in 16 bits."""
     data = base64.b64decode(array["data"])
     if array["kind"] != "d2":
         return np.frombuffer(data, f"<{array['kind']}")
@@ -289,9 +238,7 @@ def unpacked(array: dict[str, Any]) -> np.ndarray:
 def in_16_bits(values: np.ndarray) -> dict[str, Any]:
     """Return an array of a scene in 16 bits that compress well: steps from sample to sample, low bytes first.
 
-    Parameters
-    ----------
-    values : finite, shape (samples, numbers in each).
+    The values are finite, of shape (samples, numbers in each).
 
     >>> unpacked(in_16_bits(np.array([[0.0], [2.0], [1.0]]))).round(4).tolist()
     [0.0, 2.0, 1.0]

@@ -46,11 +46,6 @@ def search_starts(starts: int | None, within_plausible: bool) -> int | None:
 
     Within plausible ranges a start takes seconds, so that a reader who waits gets fewer of them.
 
-    Parameters
-    ----------
-    starts : the number that was chosen, or None.
-    within_plausible : whether the flights keep to the plausible ranges.
-
     >>> search_starts(None, True), search_starts(8, True), search_starts(None, False)
     (3, 8, None)
     """
@@ -58,13 +53,7 @@ def search_starts(starts: int | None, within_plausible: bool) -> int | None:
 
 
 def name_of(model: str, coefficients: str, within_plausible: bool = False) -> str:
-    """Return the explorer's name of a model.
-
-    Parameters
-    ----------
-    model : its name in `wingbeat.models`.
-    coefficients : name of the coefficients that it is flown with.
-    within_plausible : whether its flights keep to the plausible ranges.
+    """Return the explorer's name of a model of `wingbeat.models`, flown with these coefficients.
 
     >>> name_of("paper", "su-fan"), name_of("paper", "dickinson"), name_of("animal", "membrane", True)
     ('paper', 'dickinson', 'plausible')

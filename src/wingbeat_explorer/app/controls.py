@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from wingbeat._base import NOMENCLATURE, InvalidInputError, for_people
@@ -58,17 +58,27 @@ _BY_LAWS = {"vehicle.tail": ("tail", tail_numbers), "vehicle.muscle": ("muscle",
 # Bounds of the tail's tilt until the user gives both: the range in the template of species files [rad].
 _TILTS = (-math.radians(30.0), math.radians(30.0))
 _OWN = "(loaded file)"
+# The choices of the air loads: name, label, and the words to choose from or None for a number.
+_AIR_LOADS = (
+    ("aero", "Model", LIBRARY),
+    ("extension", "Extension", EXTENSIONS),
+    ("force_point", "Force acts at", FORCE_POINTS),
+    ("airspeed", "Airspeed", AIRSPEEDS),
+    ("unsteady", "Unsteady terms", UNSTEADY),
+    ("inflow", "Induced flow", INFLOWS),
+    ("induced_factor", "Induced factor", None),
+    ("hand", "Model of the hand", ("none", *LIBRARY)),
+    ("hand_from", "Hand begins at span fraction", None),
+    ("upstroke_factor", "Upstroke factor", None),
+)
 _FASTEST = 25.0  # m/s, the right end of the slider; faster is typed
 
 
 class Numbers:
-    """The fields for the numbers of one animal.
+    """The fields for the bounds and numbers of one animal.
 
-    Parameters
-    ----------
-    species : the species with the numbers of its file.
-    scenario : gives the numbers that the user changed.
-    change : called with the new ``values`` or ``bounds``, which replace the previous ones.
+    `species` has the numbers of its file, `scenario` those that the user changed. `change` is called with the new
+    ``values`` or ``bounds``, which replace the previous ones.
     """
 
     def __init__(self, species: Species, scenario: Scenario, change: Callable[..., Any]) -> None:
@@ -147,7 +157,8 @@ class Numbers:
             changed = path in scenario.values
             now = number._replace(value=scenario.values[path]) if changed else number
             field.show(shown_text(path, now))
-            outside = _is_outside(now)
+            parts = now.value if isinstance(now.value, tuple) else (now.value,)
+            outside = now.range is not None and not all(now.range[0] <= part <= now.range[1] for part in parts)
             hint = range_text(path, now)
             if changed and number.value != ():
                 hint = f"{hint}; changed from {shown_text(path, number)}".removeprefix("; ")
@@ -213,19 +224,8 @@ class Numbers:
         return act
 
 
-def _is_outside(number: Number) -> bool:
-    values = number.value if isinstance(number.value, tuple) else (number.value,)
-    return number.range is not None and not all(number.range[0] <= value <= number.range[1] for value in values)
-
-
 class Controls:
-    """The controls of one page.
-
-    Parameters
-    ----------
-    scenario : the choices that the controls show at first.
-    change : called with the choices that were changed.
-    """
+    """The controls of one page: they show a scenario, and call `change` with the choices that were changed."""
 
     def __init__(self, scenario: Scenario, change: Callable[..., Any]) -> None:
         self._scenario, self._change = scenario, change
@@ -240,13 +240,12 @@ class Controls:
             self._animal_place = tag("div")
             with self._animal_place:
                 self._build_animal()
-            self._fields["speed"] = number_field("Speed", f"{now.speed:g}", self._number("speed"), unit="m/s")
+            self._make("speed", "Speed", unit="m/s")
             self._slider = slider("Speed [m/s]", now.speed, 0.0, _FASTEST, 0.1, self._number("speed"))
-            self._fields["climb"] = number_field("Climb", f"{now.climb:g}", self._number("climb"), unit="m/s")
+            self._make("climb", "Climb", unit="m/s")
             whole = [(name, one.title) for name, one in EXPLORER_MODELS.items() if one.coefficients is None]
             self._fields["model"] = choice_field("Flight model", whole, _flight_model(now), self._choose_model)
-            quantities = [(name, _quantity(name)) for name in QUANTITIES]
-            self._fields["minimise"] = choice_field("Minimise", quantities, now.minimise, self._word("minimise"))
+            self._make("minimise", "Minimise", [(name, _quantity(name)) for name in QUANTITIES])
             button("Solve", solve, "primary", title="Search again from every start")
 
     def _build_animal(self) -> None:
@@ -258,43 +257,17 @@ class Controls:
         """Make the controls of air loads, search, bounds and numbers."""
         now = self._scenario
         with box("Air loads"):
-            models, points = [[(name, name) for name in each] for each in (LIBRARY, FORCE_POINTS)]
-            reach = [(name, name) for name in EXTENSIONS]
-            self._fields["aero"] = choice_field("Model", models, now.aero, self._word("aero"))
-            self._fields["extension"] = choice_field("Extension", reach, now.extension, self._word("extension"))
-            self._fields["force_point"] = choice_field(
-                "Force acts at", points, now.force_point, self._word("force_point")
-            )
-            speeds = [(name, name) for name in AIRSPEEDS]
-            self._fields["airspeed"] = choice_field("Airspeed", speeds, now.airspeed, self._word("airspeed"))
-            terms, flows = [[(name, name) for name in each] for each in (UNSTEADY, INFLOWS)]
-            self._fields["unsteady"] = choice_field("Unsteady terms", terms, now.unsteady, self._word("unsteady"))
-            self._fields["inflow"] = choice_field("Induced flow", flows, now.inflow, self._word("inflow"))
-            self._fields["induced_factor"] = number_field(
-                "Induced factor", f"{now.induced_factor:g}", self._number("induced_factor")
-            )
-            hands = [("none", "none"), *models]
-            self._fields["hand"] = choice_field("Model of the hand", hands, now.hand, self._word("hand"))
-            for name, label in (
-                ("hand_from", "Hand begins at span fraction"),
-                ("upstroke_factor", "Upstroke factor"),
-            ):
-                self._fields[name] = number_field(label, f"{getattr(now, name):g}", self._number(name))
-            width, strips = f"{now.blend_width_deg:g}", str(now.strips)
-            self._fields["blend_width_deg"] = number_field(
-                "Half width of the blends", width, self._number("blend_width_deg"), unit="deg"
-            )
-            self._fields["strips"] = number_field("Strips of a wing", strips, self._whole("strips"))
+            for name, label, options in _AIR_LOADS:
+                self._make(name, label, None if options is None else [(each, each) for each in options])
+            self._make("blend_width_deg", "Half width of the blends", unit="deg")
+            self._make("strips", "Strips of a wing")
         with box("Solver"):
-            starts = "" if now.starts is None else str(now.starts)
-            hint = "empty: the default number"
-            self._fields["starts"] = number_field("Starts", starts, self._whole("starts"), hint=hint)
-            self._fields["seed"] = number_field("Seed", str(now.seed), self._whole("seed"))
-            answers, answer = [(word, word) for word in NO_YES], NO_YES[now.within_plausible]
+            self._make("starts", "Starts", hint="empty: the default number")
+            self._make("seed", "Seed")
             self._fields["within_plausible"] = choice_field(
                 "Keep to plausible ranges",
-                answers,
-                answer,
+                [(word, word) for word in NO_YES],
+                NO_YES[now.within_plausible],
                 lambda text: self._change(within_plausible=truth_in(text)),
             )
             hint = "such as peak_power<=30, body_pitch_range<=10 deg; separate limits by commas"
@@ -302,6 +275,23 @@ class Controls:
             self._fields["limits"] = text_field("Within limits", limits, self._limits, hint=hint)
         self._numbers_place = tag("div", classes="numbers")
         self._build_numbers()
+
+    def _make(
+        self,
+        name: str,
+        label: str,
+        options: Sequence[tuple[str, str]] | None = None,
+        unit: str = "",
+        hint: str = "",
+    ) -> None:
+        """Make the control of a choice: one of several (value, label) pairs, or a number."""
+        value = getattr(self._scenario, name)
+        if options is not None:
+            made = choice_field(label, options, value, lambda text: self._change(**{name: text}))
+        else:
+            act = self._whole(name) if name in WHOLE else self._number(name)
+            made = number_field(label, _typed(value), act, unit=unit, hint=hint)
+        self._fields[name] = made
 
     def _build_numbers(self) -> None:
         self._species = _animal_of(self._scenario)
@@ -320,16 +310,13 @@ class Controls:
             self._build_numbers()
         elif scenario.values != before.values or scenario.bounds != before.bounds:
             self._numbers.show(scenario)
-        for name in NUMBERS:
-            self._fields[name].show(f"{getattr(scenario, name):g}")
+        for name in (*NUMBERS, *WHOLE):
+            self._fields[name].show(_typed(getattr(scenario, name)))
         for name in WORDS:
             if name not in ("species", "model"):  # each has more to it
                 self._fields[name].show(getattr(scenario, name))
         self._fields["model"].show(_flight_model(scenario))
         self._fields["within_plausible"].show(NO_YES[scenario.within_plausible])
-        for name in WHOLE:
-            value = getattr(scenario, name)
-            self._fields[name].show("" if value is None else str(value))
         self._fields["limits"].show(", ".join(scenario.limits))
         if self._slider.props.get("value") != f"{scenario.speed:g}":
             self._slider.props["value"] = f"{scenario.speed:g}"
@@ -354,12 +341,7 @@ class Controls:
         return self._fields.get(name) or self._numbers.field_of(where)
 
     def choose(self, **asked: Any) -> None:
-        """Change animal, model or speed, as the controls do.
-
-        Parameters
-        ----------
-        asked : what is to change: species, model (its name in the face), speed [m/s].
-        """
+        """Change species, model (its name in the face) or speed [m/s], as the controls do."""
         if "species" in asked:
             self._choose_animal(asked["species"], asked.get("model"))
         elif "model" in asked:
@@ -386,9 +368,6 @@ class Controls:
             self._fields["model"].refuse("; ".join(fault.fix for fault in error.faults))
             return
         self._change(values={}, bounds={}, **chosen)
-
-    def _word(self, name: str) -> Callable[[str], None]:
-        return lambda text: self._change(**{name: text})
 
     def _number(self, name: str) -> Callable[[str], None]:
         def act(text: str) -> None:
@@ -443,6 +422,11 @@ def _animal_of(scenario: Scenario) -> tuple[str, str]:
 def _flight_model(scenario: Scenario) -> str:
     """Return the model's name in the drawer, which has the coefficients in a field of their own."""
     return name_of(scenario.model, "", scenario.within_plausible)
+
+
+def _typed(value: float | None) -> str:
+    """Return a number as the visitor would type it; the default number of starts is left empty."""
+    return "" if value is None else str(value) if isinstance(value, int) else f"{value:g}"
 
 
 def _quantity(name: str) -> str:

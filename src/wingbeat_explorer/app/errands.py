@@ -21,13 +21,7 @@ _KINDS = {"nc": "application/x-netcdf", "png": "image/png", "pdf": "application/
 
 
 class Errands:
-    """The errands of one page.
-
-    Parameters
-    ----------
-    session, downloads : of the page.
-    view : shows what went wrong.
-    """
+    """The errands of one page; `view` shows what went wrong."""
 
     def __init__(self, session: Session, downloads: Downloads, view: View) -> None:
         self._session, self._downloads, self._view = session, downloads, view
@@ -100,12 +94,7 @@ class Errands:
         told: Callable[[int, int], str] | None = None,
         name: str = "The request",
     ) -> Job | None:
-        """Submit a job to the pool in addition to the search, and show its progress and result.
-
-        Parameters
-        ----------
-        name : what is refused, if the job is.
-        """
+        """Submit a job beside the search, and show its progress and result; `name` is what may be refused."""
         say = say or (lambda text: self._view.show_state(text, busy=False))
 
         def hear(event: Event) -> None:

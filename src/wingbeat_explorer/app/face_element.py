@@ -59,16 +59,11 @@ class Downloads:
 
 
 class Face:
-    """The element of a page that holds the component.
+    """The element of a page that holds the component, which fetches the session's answers from `downloads`.
 
-    Parameters
-    ----------
-    downloads, session : the browser fetches answers from `downloads`, which keeps them for this session.
-    scenario : what is chosen at first.
-    is_ready : whether the answer to the first choice was solved beforehand.
-    ask : called with the choices that were changed: species, model or speed [m/s].
-    push : called when the visitor wants the flight on the page pushed.
-    pin : called with whether the flight on the page is to stay beside those that follow.
+    `is_ready` says whether the answer to the first scenario was solved beforehand. `ask` is called with the choices
+    that were changed (species, model or speed [m/s]), `push` when the visitor wants the flight pushed, and `pin`
+    with whether it is to stay beside those that follow.
     """
 
     def __init__(

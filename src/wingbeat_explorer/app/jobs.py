@@ -12,7 +12,7 @@ import itertools
 import json
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from wingbeat._base import FileError, InvalidInputError, first_line, read_text
 from wingbeat._workers.process import Context
@@ -33,9 +33,6 @@ from wingbeat_explorer.app.links import from_json, from_plain, to_plain
 from wingbeat_explorer.app.scenario import MOST_STARTS, Scenario, problem_of, species_from_text, species_in
 from wingbeat_explorer.face_data import face_of, is_plausible, lights_of, measured_points
 from wingbeat_explorer.lattice import flown_through_gusts
-
-if TYPE_CHECKING:
-    import xarray as xr
 
 _MOST_RANKED = 12
 MOST_BYTES = 5_000_000
@@ -181,28 +178,25 @@ def _influence(what: dict[str, Any], context: Context) -> dict[str, Any]:
 def _file(what: dict[str, Any], context: Context) -> dict[str, Any]:
     """Return an orbit as the bytes of a file, in base 64."""
     dataset = orbit_again(what["of"]).dataset
-    content = netcdf_bytes(dataset) if what["as"] == "nc" else _figure(dataset, what["as"])
+    if what["as"] == "nc":
+        content = netcdf_bytes(dataset)
+    else:
+        from wingbeat.plots import wingbeat_page
+
+        with io.BytesIO() as file:
+            wingbeat_page(dataset).savefig(file, format=what["as"], dpi=200)
+            content = file.getvalue()
     return {"content": base64.b64encode(content).decode()}
 
 
-def _figure(dataset: xr.Dataset, kind: str) -> bytes:
-    from wingbeat.plots import wingbeat_page
-
-    with io.BytesIO() as file:
-        wingbeat_page(dataset).savefig(file, format=kind, dpi=200)
-        return file.getvalue()
-
-
 def _read(what: dict[str, Any], context: Context) -> dict[str, Any]:
-    """Return the content of an uploaded file: a scenario, or an orbit with its scenario."""
-    found = read_upload(what["path"], what["label"])
-    if isinstance(found, Orbit):
-        return _answer_of_file(found, what["label"])
-    return found
+    """Return the content of an uploaded file: a scenario, a species, or an answer.
 
-
-def _answer_of_file(orbit: Orbit, label: str) -> dict[str, Any]:
-    """Return the answer in a file, and its scenario if the page's controls can represent it."""
+    An answer comes with its scenario, if the page's controls can represent it.
+    """
+    orbit, label = read_upload(what["path"], what["label"]), what["label"]
+    if not isinstance(orbit, Orbit):
+        return orbit
     begun = time.perf_counter()
     origin = orbit.problem.origin.name if orbit.problem.origin else MODELS[0]
     try:
@@ -230,14 +224,7 @@ def clean_label(name: str) -> str:
 def read_upload(path: str, label: str) -> Orbit | dict[str, Any]:
     """Return the orbit in a file, or ``{"scenario": ...}`` of a saved state, or ``{"species": ..., "text": ...}``.
 
-    Parameters
-    ----------
-    path : where the server stored the file, under a name that the server chose.
-    label : the visitor's name for the file.
-
-    Raises
-    ------
-    FileError, InvalidInputError : every fault of the file.
+    The server stored the file under a path that it chose; `label` is the visitor's name for it.
     """
     with open(path, "rb") as file:
         start = file.read(8)
@@ -285,13 +272,10 @@ def scenario_of(orbit: Orbit) -> tuple[dict[str, Any] | None, str]:
 
 
 def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool, within: bool) -> Scenario:
-    """Return a scenario for the problem.
+    """Return a scenario for the problem and inputs of an orbit.
 
-    Parameters
-    ----------
-    problem, inputs : of an orbit.
-    written_out : whether its species is the text of a file, or the built-in one of its name.
-    within : whether it keeps to the plausible ranges, or has bounds and limits of its own.
+    Its species is the text of a file if `written_out`, or the built-in one of its name. It keeps to the plausible
+    ranges if `within`, or has bounds and limits of its own.
     """
     species, aero = problem.species, problem.aero
     name, text = species.name, ""

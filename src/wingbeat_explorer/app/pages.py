@@ -37,14 +37,7 @@ MOST_WAITING = 20
 
 
 class Page:
-    """The page of one visitor; it is the `View` of its session.
-
-    Parameters
-    ----------
-    name : of the session.
-    house : what all visitors share.
-    query : query of the page's address, which may hold a scenario.
-    """
+    """The page of one visitor: the `View` of the session of its name. The address may hold a scenario."""
 
     def __init__(self, name: str, house: House, query: str) -> None:
         self.name, self._house, self._first = name, house, house.first
@@ -271,12 +264,7 @@ class Page:
 
 
 class House:
-    """What all visitors share.
-
-    Parameters
-    ----------
-    processes : worker processes of the pool.
-    """
+    """What all visitors share, with so many worker processes."""
 
     def __init__(self, processes: int) -> None:
         self._is_warm = False

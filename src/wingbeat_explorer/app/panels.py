@@ -11,7 +11,19 @@ from wingbeat_explorer.app.formatting import number, tiles
 from wingbeat_explorer.app.scenario import Scenario
 from wingbeat_explorer.app.session import Session
 from wingbeat_explorer.app.speed_curve import Curve
-from wingbeat_explorer.app.widgets import Field, Rows, box, button, folded, number_field, part, set_class, tag
+from wingbeat_explorer.app.widgets import (
+    Field,
+    Rows,
+    box,
+    button,
+    folded,
+    heads,
+    number_field,
+    part,
+    scrolled,
+    set_class,
+    tag,
+)
 
 _SWEEP = ("from", "to", "step")
 _MOST_PINS = 8
@@ -57,12 +69,7 @@ def _message(answer: dict[str, Any]) -> str:
 
 
 class Answer:
-    """The panel with all numbers of an answer, and buttons that save it.
-
-    Parameters
-    ----------
-    acts : the function that each button calls, by the button's text.
-    """
+    """The panel with all numbers of an answer, and buttons that save it: texts and what they call."""
 
     def __init__(self, acts: dict[str, Callable[[], Any]]) -> None:
         with folded("All numbers and files", "answer"):
@@ -99,11 +106,8 @@ class Influence:
 
     def __init__(self, ask: Callable[[], Any]) -> None:
         with folded("Sensitivities", "influence"):
-            tag(
-                "p",
-                "Exact derivatives of the certified optimum with respect to every number on which it depends.",
-                "note",
-            )
+            what = "Exact derivatives of the certified optimum with respect to every number on which it depends."
+            tag("p", what, "note")
             with tag("div", classes="acts"):
                 button("Compute sensitivities", ask)
             self._state = tag("p", "", "note", role="status")
@@ -126,19 +130,12 @@ class Influence:
             with tag("ul", classes="plain"):
                 for one in found["rankings"]:
                     tag("li", _ranking(one))
-            with (
-                tag("div", classes="scroll", tabindex="0", role="region", aria_label="Sensitivities"),
-                tag("table"),
-            ):
+            with scrolled("Sensitivities"), tag("table"):
                 tag(
-                    "caption",
-                    "Change at the ends of each plausible range, extrapolated linearly: for ranking only",
+                    "caption", "Change at the ends of each plausible range, extrapolated linearly: for ranking only"
                 )
-                with tag("thead"), tag("tr"):
-                    tag("th", "Number", scope="col")
-                    tag("th", "Plausible", scope="col")
-                    for name in names:
-                        tag("th", f"{name.replace('_', ' ')} [{found['units'][name]}]", scope="col")
+                units = [f"{name.replace('_', ' ')} [{found['units'][name]}]" for name in names]
+                heads("Number", "Plausible", *units)
                 with tag("tbody"):
                     for one in found["ranked"]:
                         _ranked(one, names)
@@ -184,13 +181,7 @@ def _price(price: dict[str, Any], units: dict[str, str]) -> str:
 
 
 class CurvePanel:
-    """What stands below the face of a page's curve.
-
-    Parameters
-    ----------
-    session, curve : of the page.
-    choose : called with the speed whose answer the user wants to see.
-    """
+    """The panel of the curve; `choose` is called with the speed whose answer the user wants to see."""
 
     def __init__(self, session: Session, curve: Curve, choose: Callable[[float], Any]) -> None:
         self._session, self._curve, self._choose = session, curve, choose
@@ -215,9 +206,7 @@ class CurvePanel:
         self._found = tag("div", classes="found")
         with self._found:
             tag("p", "These results belong to an earlier request.", "earlier")
-            self._table = tag(
-                "div", classes="scroll", tabindex="0", role="region", aria_label="Points of the curve"
-            )
+            self._table = scrolled("Points of the curve")
 
     def _set(self, place: int) -> Callable[[str], None]:
         def act(text: str) -> None:
@@ -260,11 +249,8 @@ class CurvePanel:
         if asked is None or not self._shown:
             return
         with tag("table"):
-            what = f"{asked.species}, {asked.aero}, minimum {asked.minimise.replace('_', ' ')}"
-            tag("caption", what)
-            with tag("thead"), tag("tr"):
-                for head in ("Speed [m/s]", "Frequency [Hz]", "Power [W]", "Status", "Result"):
-                    tag("th", head, scope="col")
+            tag("caption", f"{asked.species}, {asked.aero}, minimum {asked.minimise.replace('_', ' ')}")
+            heads("Speed [m/s]", "Frequency [Hz]", "Power [W]", "Status", "Result")
             with tag("tbody"):
                 for point in self._shown:
                     self._row(point)
@@ -281,12 +267,10 @@ class CurvePanel:
 
 
 class Pins:
-    """The pinned answers of a page.
+    """The pinned answers of a page: a table to compare them.
 
-    Parameters
-    ----------
-    fly_beside : called with the answer to show as a ghost; with None to show no ghost.
-    bring_back : called with the answer whose choices the form should show again.
+    `fly_beside` is called with the answer to show as a ghost, or with None; `bring_back` with the one whose choices
+    the form should show again.
     """
 
     def __init__(self, fly_beside: Callable[[Any], Any], bring_back: Callable[[Any], Any]) -> None:
@@ -296,7 +280,7 @@ class Pins:
         self._box = box("Pinned results", "pins hidden")
         with self._box:
             self._note = tag("p", "", "note")
-            self._place = tag("div", classes="scroll", tabindex="0", role="region", aria_label="Pinned results")
+            self._place = scrolled("Pinned results")
 
     def pin(self, answer: dict[str, Any]) -> None:
         """Pin an answer; if there are too many, the oldest is removed."""
@@ -338,12 +322,10 @@ class Pins:
             return
         with self._place, tag("table"):
             tag("caption", "Pinned results", "unseen")
-            heads = [
-                f"{label} [{unit}]" if unit else label for label, _, unit, _ in tiles(self._answers[0]["record"])
-            ]
-            with tag("thead"), tag("tr"):
-                for head in ("What", *heads, "Stable", "Action"):
-                    tag("th", head, scope="col")
+            shown = tiles(self._answers[0]["record"])
+            heads(
+                "What", *(f"{label} [{unit}]" if unit else label for label, _, unit, _ in shown), "Stable", "Action"
+            )
             with tag("tbody"):
                 for answer in self._answers:
                     self._row(answer)

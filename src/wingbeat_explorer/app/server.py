@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
-import os
 import secrets
 import socket
 import sys
@@ -151,13 +150,13 @@ async def _take(house: House, session: str, request: Request) -> Response:
     except (ClientDisconnect, OSError):
         path.unlink(missing_ok=True)
         return Response("The file did not arrive completely; send it again.", 400, media_type="text/plain")
-    page.read_file(str(path), label, lambda: _remove(path))
+
+    def remove() -> None:
+        with contextlib.suppress(OSError):
+            path.unlink()
+
+    page.read_file(str(path), label, remove)
     return Response(status_code=204)
-
-
-def _remove(path: Path) -> None:
-    with contextlib.suppress(OSError):
-        os.unlink(path)
 
 
 class _Server(uvicorn.Server):

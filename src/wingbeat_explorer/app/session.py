@@ -144,14 +144,7 @@ class View(Protocol):
 
 
 class Session:
-    """The requests of one page to the pool.
-
-    Parameters
-    ----------
-    name : unique name of the session.
-    pool : the worker pool that does the work.
-    scenario : the first scenario.
-    """
+    """The requests of one page to the pool, under a unique name; they begin with a scenario."""
 
     def __init__(self, name: str, pool: FairPool, scenario: Scenario, view: View) -> None:
         self.name, self.scenario = name, scenario

@@ -20,13 +20,7 @@ _ENDINGS = {
 
 
 class Curve:
-    """The points of one page's curve.
-
-    Parameters
-    ----------
-    session : requests the points from the solver.
-    show : called when points or state have changed.
-    """
+    """The points of one page's curve; `show` is called when points or state have changed."""
 
     def __init__(self, session: Session, show: Callable[[], Any]) -> None:
         self._session, self._show = session, show
@@ -195,12 +189,8 @@ def drawn(
 ) -> dict[str, Any]:
     """Return the curve of a scenario as the face draws it.
 
-    Parameters
-    ----------
-    points : as a worker returns them.
-    answer : the one on the page, if it belongs to the curve; it is one of the points.
-    measured : on animals, from `measured_points`.
-    pending : speeds that are still to be solved [m/s].
+    The points are as a worker returns them; the answer on the page is one of them, if it belongs to the curve.
+    `measured` is from `measured_points`, and `pending` are the speeds that are still to be solved [m/s].
     """
     found = {point["speed"]: _drawn(point) for point in points}
     if answer is not None:

@@ -23,10 +23,7 @@ _MOST_LINES = 10
 def tag(name: str, text: str | None = None, classes: str = "", **attributes: Any) -> Any:
     """Return an HTML element with a text; the text is escaped and never interpreted as HTML.
 
-    Parameters
-    ----------
-    attributes : attributes of the element; an underscore stands for a hyphen (``aria_label``) and is dropped at the
-        end (``for_``).
+    In names of attributes an underscore stands for a hyphen (``aria_label``), and is dropped at the end (``for_``).
     """
     made = Element(tag=name) if text is None else TextElement(tag=name, text=text)
     if classes:
@@ -71,6 +68,18 @@ def folded(title: str, classes: str = "") -> Any:
     return fold
 
 
+def scrolled(label: str) -> Any:
+    """Return a part of the page that scrolls by itself, such as a wide table."""
+    return tag("div", classes="scroll", tabindex="0", role="region", aria_label=label)
+
+
+def heads(*texts: str) -> None:
+    """Make the head of a table."""
+    with tag("thead"), tag("tr"):
+        for text in texts:
+            tag("th", text, scope="col")
+
+
 def set_class(element: Any, name: str, on: bool) -> None:
     """Give an element a class of the style sheet, or remove it."""
     element.classes(name) if on else element.classes(remove=name)
@@ -89,12 +98,7 @@ def button(text: str, act: Callable[[], Any], classes: str = "", **attributes: A
 
 
 class Field:
-    """A control with its label, unit and hint, and a place for the message about its fault.
-
-    Parameters
-    ----------
-    control : the element that holds the value, made inside `row`.
-    """
+    """A control that holds the value, inside a row with its label, unit, hint and a place for its fault."""
 
     def __init__(self, row: Element, control: Any, fault: Any, hint: Any) -> None:
         self.row, self.control, self._fault, self._hint = row, control, fault, hint

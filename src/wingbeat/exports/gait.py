@@ -120,18 +120,15 @@ class Gait:
         found = [Column(NOMENCLATURE["time"], self.dataset["time"].values)]
         laws = laws_at(self.orbit.wingbeat, self.phase)
         for i, name in enumerate(LAW_NAMES):
-            if name in ("flap", "wing_pitch") or np.ptp(laws[0][:, i]) > 0 or self._is_held(name, laws[0][0, i]):
+            values = laws[0][:, i]
+            # A law that does not move may be held away from where it is if it is off.
+            if name in ("flap", "wing_pitch") or np.ptp(values) > 0 or values[0] != _OFF.get(name, 0.0):
                 found += [Column(term, of[:, i]) for term, of in zip(_derivatives(name), laws, strict=True)]
         for name in _OF_ONE_WING:
             term = NOMENCLATURE[name]
             label = term.label.replace("both wings", "one wing").replace("hinges, one wing", "hinge of one wing")
             found.append(Column(Term(f"{name}_per_wing", term.unit, label), 0.5 * self.dataset[name].values))
         return found
-
-    @staticmethod
-    def _is_held(name: str, value: float) -> bool:
-        """Return whether a law that does not move is held away from where it is if it is off."""
-        return bool(abs(value - _OFF.get(name, 0.0)) > 0)
 
     @functools.cached_property
     def constants(self) -> dict[str, tuple[float, str]]:
@@ -207,7 +204,13 @@ def gait_mat(gait: Gait) -> bytes:
 
     time, *series = gait.columns
     content: dict[str, Any] = {
-        "gait": {column.term.name: _with_time(time.values, column) for column in series},
+        "gait": {
+            term.name: {
+                "time": time.values[:, None],
+                "signals": {"values": values[:, None], "dimensions": 1.0, "label": term.name},
+            }
+            for term, values in series
+        },
         "units": {term.name: term.unit for term, _ in gait.columns},
         "meaning": {term.name: term.label for term, _ in gait.columns},
         "constants": {name: value for name, (value, _) in gait.constants.items()},
@@ -217,11 +220,6 @@ def gait_mat(gait: Gait) -> bytes:
     held = io.BytesIO()
     savemat(held, content, long_field_names=True, do_compression=True, oned_as="column")
     return held.getvalue()
-
-
-def _with_time(time: np.ndarray, column: Column) -> dict[str, Any]:
-    signals = {"values": column.values[:, None], "dimensions": 1.0, "label": column.term.name}
-    return {"time": time[:, None], "signals": signals}
 
 
 class Points(NamedTuple):

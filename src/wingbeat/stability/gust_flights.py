@@ -90,16 +90,11 @@ def fly_gust(
     height = tops[:, 1] - float(start.z) - float(orbit.inputs["climb"]) * flown.time[::SAMPLES]
     kept = bool(options.keeps(np.abs(pitch).max(), height.min()))
     changes = np.zeros((beats, 0)) if controller is None else np.array(controller.commands)
-    return GustFlight(flown, pitch, height, changes, flown.completed and kept, _settled(tops, orbit))
-
-
-def _settled(tops: np.ndarray, orbit: Orbit) -> int | None:
     scales = np.array([FEEDBACK.scale(name) for name in PITCH_STATE])
-    away = np.abs((tops[:, 2:] - np.array(orbit.initial_state, dtype=float)[2:]) / scales).max(axis=1)
-    unsettled = np.flatnonzero(~(away < 0.5))
-    if not len(unsettled):
-        return 0
-    return int(unsettled[-1]) + 1 if unsettled[-1] + 1 < len(tops) else None
+    away = np.abs((tops[:, 2:] - np.array(start, dtype=float)[2:]) / scales).max(axis=1)
+    settled = max(np.flatnonzero(~(away < 0.5)).tolist(), default=-1) + 1
+    kept = flown.completed and kept
+    return GustFlight(flown, pitch, height, changes, kept, settled if settled < len(tops) else None)
 
 
 def fly_pushes(

@@ -25,7 +25,12 @@ _MOST = 10
 def linear_report(record: dict[str, Any]) -> Report:
     """Return the verdict, the numbers of each mode, and the verdict of the averaged model."""
     modes = [block for mode in record["modes"] for block in mode_report(mode)]
-    return [Line(headline(record), wraps=False), *modes, Line(""), Line(_averaged(record), wraps=False)]
+    averaged = record["averaged"]
+    last = (
+        f"averaged over the beat, spectral radius {averaged['spectral_radius']:.3f} "
+        f"({averaged['modes'][0]['kind']}) in place of {record['spectral_radius']:.3f} ({record['modes'][0]['kind']})"
+    )
+    return [Line(headline(record), wraps=False), *modes, Line(""), Line(last, wraps=False)]
 
 
 def mode_report(mode: dict[str, Any]) -> Report:
@@ -41,15 +46,6 @@ def headline(record: dict[str, Any]) -> str:
         verdict = "stable" if record["stable"] else "unstable"
         return f"{where}: {verdict}, spectral radius {record['spectral_radius']:.3f}"
     return f"{where}: unstable, disturbances double in {seconds:.3g} s ({seconds / record['dt']:.3g} beats)"
-
-
-def _averaged(record: dict[str, Any]) -> str:
-    averaged = record["averaged"]
-    kind = averaged["modes"][0]["kind"]
-    return (
-        f"averaged over the beat, spectral radius {averaged['spectral_radius']:.3f} ({kind}) in place of "
-        f"{record['spectral_radius']:.3f} ({record['modes'][0]['kind']})"
-    )
 
 
 def _rows(mode: dict[str, Any]) -> list[tuple[str, str]]:
@@ -81,7 +77,8 @@ def causes_report(record: dict[str, Any]) -> Report:
 
 
 def _cause(parameter: dict[str, Any]) -> tuple[str, ...]:
-    factor, unit = _shown(parameter["unit"])
+    unit = parameter["unit"]
+    factor, unit = (math.degrees(1.0), " deg") if unit == "rad" else (1.0, "" if unit == "1" else f" {unit}")
     ends = parameter["plausible"]
     low, high = parameter["change_to_ends"]
     per = f" per{unit}" if unit else ""
@@ -92,13 +89,6 @@ def _cause(parameter: dict[str, Any]) -> tuple[str, ...]:
         "+-1 %" if ends is None else f"{factor * ends[0]:.3g} to {factor * ends[1]:.3g}{unit}",
         f"{low + 0.0:+.2g}, {high + 0.0:+.2g}",
     )
-
-
-def _shown(unit: str) -> tuple[float, str]:
-    """Return the factor and the unit in which a parameter is shown: angles in degrees."""
-    if unit == "rad":
-        return math.degrees(1.0), " deg"
-    return 1.0, "" if unit == "1" else f" {unit}"
 
 
 def feedback_report(record: dict[str, Any]) -> Report:

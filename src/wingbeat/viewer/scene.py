@@ -81,13 +81,6 @@ def _series(names: Iterable[str]) -> list[dict[str, Any]]:
     return [*made, *(_term(name) for name in names)]
 
 
-def _series_away() -> list[dict[str, Any]]:
-    """Return the two series that a disturbed flight has beside those of every flight."""
-    pitch = {"name": "pitch_away", "label": "body pitch away from the orbit's", "array": "pitch_away"}
-    height = {"name": "height", "label": "height above the path", "array": "height"}
-    return [_term("body_pitch") | pitch, _term("z") | height]
-
-
 def _term(name: str) -> dict[str, Any]:
     term = NOMENCLATURE[name]
     scale, unit = for_people(term.unit)
@@ -117,7 +110,12 @@ def _push(push: Push) -> dict[str, Any]:
         "outcome": push.outcome,
         "scene": {
             "flights": [flight],
-            "series": [*_series_away(), *_series(name for name in names if name not in left_out)],
+            "series": [
+                _term("body_pitch")
+                | {"name": "pitch_away", "label": "body pitch away from the orbit's", "array": "pitch_away"},
+                _term("z") | {"name": "height", "label": "height above the path", "array": "height"},
+                *_series(name for name in names if name not in left_out),
+            ],
             "panels": _PUSHED,
         },
     }

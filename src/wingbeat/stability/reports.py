@@ -25,10 +25,10 @@ _MOST = 10
 def linear_report(record: dict[str, Any]) -> Report:
     """Return the verdict, the numbers of each mode, and the verdict of the averaged model."""
     modes = [block for mode in record["modes"] for block in mode_report(mode)]
-    averaged = record["averaged"]
+    averaged, kinds = record["averaged"], (record["averaged"]["modes"][0]["kind"], record["modes"][0]["kind"])
     last = (
-        f"averaged over the beat, spectral radius {averaged['spectral_radius']:.3f} "
-        f"({averaged['modes'][0]['kind']}) in place of {record['spectral_radius']:.3f} ({record['modes'][0]['kind']})"
+        f"averaged over the beat, spectral radius {averaged['spectral_radius']:.3f} ({kinds[0]}) in place of "
+        f"{record['spectral_radius']:.3f} ({kinds[1]})"
     )
     return [Line(headline(record), wraps=False), *modes, Line(""), Line(last, wraps=False)]
 

@@ -43,7 +43,7 @@ class _Flown(Protocol):
     """What the pages ask of a `Flight`."""
 
     @property
-    def time(self) -> np.ndarray: ...
+    def time(self) -> Any: ...  # kept once computed, which no array's property is
     @property
     def states(self) -> np.ndarray: ...
     @property

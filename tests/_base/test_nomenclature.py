@@ -37,6 +37,7 @@ def test_meanings_of_the_harmonics_name_the_highest_order():
     assert len(said) == 6
 
 
+@pytest.mark.slow
 def test_every_series_of_an_orbit_is_said_by_the_table(solved):
     dataset = solved.orbit.dataset
     assert [*dataset.variables] == [*dict.fromkeys([*dataset.variables])]

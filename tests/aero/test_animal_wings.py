@@ -223,6 +223,7 @@ def test_a_model_of_ones_own_comes_back_from_its_record():
         assert again == given_aero
 
 
+@pytest.mark.slow
 def test_searches_with_animal_wings_are_certified():
     """All three models share one compiled flight."""
     cases = ("pigeon", 8.0, "feathered"), ("bat", 5.0, "membrane"), ("pigeon", 6.0, "feathered-revolving")

@@ -130,6 +130,7 @@ def test_an_orbit_of_a_function_says_so_and_keeps_it(tmp_path, capsys):
     assert "the user's own function 'plate' is not in the file" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_two_functions_of_one_name_are_two():
     """In memory, on disk, in records, and where problems of a batch that are alike help one another."""
     other = wb.OrbitProblem(PIGEON, speed=10.0, aero=draggy)

@@ -72,6 +72,7 @@ def test_air_from_above_meets_a_factor_and_air_from_below_does_not():
     assert np.abs(np.diff(change, 2)).max() / step**2 < 1.0
 
 
+@pytest.mark.slow
 def test_an_orbit_says_what_it_was_flown_with_and_its_inputs_bring_it_back():
     hand = wb.aero.Dickinson(extension="signed-drag")
     aero = BladeElement("su-fan", strips=4, hand=hand, hand_from=0.4, upstroke_factor=0.7)

@@ -101,6 +101,7 @@ def run(path, command, capsys):
     return code, told.out + told.err
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "command", "code", "words"), ROWS)
 def test_each_file_gives_its_value_or_a_sentence(name, command, code, words, capsys):
     ended, said = run(CASES / name, command, capsys)

@@ -21,6 +21,7 @@ def file(pigeon_orbit, tmp_path_factory):
     return path
 
 
+@pytest.mark.slow
 def test_table_record_and_figure(standin, file, tmp_path, capsys):
     assert main(["compare", str(file), "--with", "uvlm", *SMALL, "--plot", str(tmp_path / "lift.png")]) == 0
     told = " ".join(capsys.readouterr().out.split())

@@ -126,6 +126,7 @@ def test_a_synthetic_film_of_a_known_orbit_returns_its_power_within_its_error_ba
     assert all(np.mean(hits) >= 0.9 for hits in inside.values()), inside
 
 
+@pytest.mark.slow
 def test_the_spread_is_about_the_orbit(known, refound):
     wingbeat = refound.problem.species.wingbeat
     again = wb.orbit_spread(refound, [wingbeat] * 3)

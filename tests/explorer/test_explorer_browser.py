@@ -10,6 +10,8 @@ from tests.helpers.browsers import AXE, shown_files
 from wingbeat_explorer import write_explorer
 from wingbeat_explorer.lattice import unpacked
 
+pytestmark = pytest.mark.slow
+
 FACE = "document.querySelector('.wbx').face"
 ACROSS = """speed => {
     const { curve } = document.querySelector(".wbx").face;
@@ -30,7 +32,6 @@ def gauge(page, name):
     return page.locator(f"[data-gauge={name}] .wbx-value")
 
 
-@pytest.mark.slow
 def test_it_flies_at_once_and_asks_no_other_host(show, answers):
     page, complaints, requests = show()
     first = min(answers["pigeon"], key=lambda answer: answer["power"])
@@ -40,7 +41,6 @@ def test_it_flies_at_once_and_asks_no_other_host(show, answers):
     assert page.locator(".wbx-light").all_inner_texts()[0].startswith("✓")
 
 
-@pytest.mark.slow
 def test_dragging_changes_the_speed_the_numbers_and_the_animal(show, answers):
     page = show().page
     page.mouse.move(*page.evaluate(ACROSS, 8.2))
@@ -70,7 +70,6 @@ def slid(page, speed):
     return reached, np.array(page.evaluate(SHOWN))
 
 
-@pytest.mark.slow
 def test_between_two_computed_speeds_the_picture_is_blended_and_no_number_is(show, answers):
     page = show(fragment="#animal=pigeon&model=paper&speed=12").page
     at_twelve = np.array(page.evaluate(SHOWN))
@@ -91,7 +90,6 @@ def test_between_two_computed_speeds_the_picture_is_blended_and_no_number_is(sho
     np.testing.assert_array_equal(page.evaluate(SHOWN), at_twelve)
 
 
-@pytest.mark.slow
 def test_no_picture_lies_beside_a_flight_that_differs_or_does_not_close(browser, pushed, tmp_path):
     lattice = copy.deepcopy(pushed)
     del lattice["pushes"]
@@ -119,7 +117,6 @@ def test_the_strips_are_those_of_the_whole_flight(show, answers):
     np.testing.assert_allclose(shown, exact, rtol=0, atol=1e-4 * np.abs(exact).max())
 
 
-@pytest.mark.slow
 def test_the_keyboard_moves_the_point(show, answers):
     page = show(fragment="#animal=pigeon&model=paper&speed=10").page
     slider = page.get_by_role("slider", name="Speed")
@@ -151,7 +148,6 @@ def test_another_flight_of_the_animal_keeps_its_wings_and_leaves_nothing_behind(
         assert page.evaluate(held) == [nth, *first[1:]]
 
 
-@pytest.mark.slow
 def test_folded_plots_are_not_drawn_and_unfolded_ones_keep_their_menus(show):
     page = show(fragment="#animal=pigeon&model=paper&speed=10").page
     plots = f"{FACE}.viewer.plots"
@@ -171,7 +167,6 @@ def test_folded_plots_are_not_drawn_and_unfolded_ones_keep_their_menus(show):
     assert page.evaluate(f"{plots}.choices") == [{"ys": ["body_pitch"], "x": "phase"}]
 
 
-@pytest.mark.slow
 def test_another_animal_is_loaded_and_its_link_opens_it(show, answers):
     page = show().page
     page.get_by_label("Animal").select_option("bat")
@@ -181,7 +176,6 @@ def test_another_animal_is_loaded_and_its_link_opens_it(show, answers):
     assert sentence(page) == answers["bat"][1]["sentence"]
 
 
-@pytest.mark.slow
 def test_a_link_put_into_the_open_page_is_followed(show, answers):
     page, complaints, _ = show(fragment="#animal=pigeon&model=paper&speed=12")
     for fragment, answer in (
@@ -207,7 +201,6 @@ def test_numbers_stand_out_in_the_sentence_but_not_those_of_a_name(show):
     assert page.locator(".wbx h1 b").all_inner_texts() == ["6 m/s", "3.8 times a second", "112 W"]
 
 
-@pytest.mark.slow
 def test_gauges_say_in_words_where_the_number_lies(show, answers):
     page = show(fragment="#speed=12").page
     words = {one["name"]: one for one in answers["pigeon"][2]["gauges"]}
@@ -234,7 +227,6 @@ def test_measurements_say_their_source_on_focus(show):
     assert "Usherwood et al. 2005" in page.locator(".wbx-curve-box > .wbx-note").inner_text()
 
 
-@pytest.mark.slow
 def test_a_pinned_flight_stays_as_ghost(show, answers):
     page = show(fragment="#speed=8").page
     page.get_by_role("button", name="Pin this flight").click()
@@ -248,7 +240,6 @@ def test_a_pinned_flight_stays_as_ghost(show, answers):
     assert page.evaluate("document.querySelector('.wb-viewer').viewer.flights.length") == 1
 
 
-@pytest.mark.slow
 def test_a_gap_shows_no_line_and_no_number(show):
     """A curve with a speed that is not certified, handed over as the server's page does."""
     page = show().page
@@ -293,7 +284,6 @@ def test_an_uncertified_flight_is_told_in_words(show, answers):
     assert page.get_by_role("button", name="Pin this flight").is_disabled()
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("width", [1440, 1024, 390])
 def test_a_long_list_of_warnings_ends_at_a_whole_line(show, width):
     page = show(width=width).page
@@ -317,7 +307,6 @@ def test_on_a_phone_the_animal_is_in_the_first_screen(show):
     assert page.evaluate("document.documentElement.scrollWidth") <= 390
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("theme", "width"), [("light", 390), ("dark", 1280)])
 def test_axe_finds_no_fault(show, theme, width):
     if not AXE.exists():

@@ -11,6 +11,8 @@ from wingbeat._base import FileError
 from wingbeat_explorer import face_data as face
 from wingbeat_explorer.face_data import gauges_of, is_plausible, lights_of, sentence_of
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def record(orbits):

@@ -15,6 +15,8 @@ from wingbeat_explorer import default_speeds, measured_points, solve_lattice, wr
 from wingbeat_explorer.folder import check_names
 from wingbeat_explorer.lattice import SPEEDS, in_16_bits, pushes_of, thinned, unpacked
 
+pytestmark = pytest.mark.slow
+
 
 def test_the_folder_holds_all_it_needs_and_names_no_other_host(folder):
     names = sorted(path.relative_to(folder).as_posix() for path in folder.rglob("*") if path.is_file())
@@ -50,7 +52,6 @@ def test_the_gusts_are_those_of_fly_pushes_from_two_sides(folder, orbits):
     np.testing.assert_allclose(shown, flown[0].pitch, rtol=0, atol=1e-4)
 
 
-@pytest.mark.slow
 def test_an_orbit_that_is_not_certified_has_no_gusts():
     heavy = wb.load_species("pigeon").with_values({"body.mass": 3.0})
     assert pushes_of(wb.solve_orbit(wb.OrbitProblem(heavy, 3.0), starts=1)) == []

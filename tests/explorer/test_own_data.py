@@ -10,6 +10,8 @@ from tests.helpers.browsers import AXE, DROP
 from tests.helpers.places import ROOT
 from wingbeat_explorer import measured_points
 
+pytestmark = pytest.mark.slow
+
 FACE = "document.querySelector('.wbx').face"
 EXAMPLE = ROOT / "examples" / "pigeon_flights.csv"
 FLIGHTS = "Speed [m/s],Power (W),sd,who\n8,41,3,bird A\n10,38.5,,\n13,52,4,bird B\n"
@@ -32,7 +34,6 @@ def listed(page):
     return page.locator(".wbx-own-list li").all_inner_texts()
 
 
-@pytest.mark.slow
 def test_measured_flights_lie_where_the_axes_put_them(show):
     page, complaints, requests = show()
     asked = len(requests)
@@ -65,7 +66,6 @@ def test_points_outside_the_curve_are_in_sight(show):
     assert slider.get_attribute("aria-valuemax") == "14"  # of the curve, not of the file
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     "header",
     [
@@ -121,7 +121,6 @@ def test_every_fault_of_a_file_is_told_at_once(show):
         assert words in state(page)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "told"),
     [
@@ -229,7 +228,6 @@ def test_a_wingbeat_is_drawn_at_its_phase_over_the_plots(show):
     assert (complaints, len(requests)) == ([], asked)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "phase"),
     [
@@ -243,7 +241,6 @@ def test_time_becomes_phase(show, text, phase):
     assert page.evaluate(f"{FACE}.own.shown[0].curves[0].phase") == pytest.approx(phase)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(
     ("text", "told"),
     [
@@ -262,7 +259,6 @@ def test_a_wingbeat_with_a_fault_is_refused(show, text, told):
     assert listed(page) == []
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("theme", "width"), [("light", 390), ("dark", 1280)])
 def test_axe_finds_no_fault_beside_own_data(show, theme, width):
     if not AXE.exists():

@@ -3,6 +3,8 @@
 import pytest
 from PIL import Image
 
+pytestmark = pytest.mark.slow
+
 FACE = "document.querySelector('.wbx').face"
 WARNING = "the closest wingbeat: it does not fly"
 # Notes the texts that are painted into a frame, with their places.
@@ -36,7 +38,6 @@ def uncertified(page):
     page.evaluate(f"(face => face.showAnswer({{ ...face.answer, status: 'infeasible' }}))({FACE})")
 
 
-@pytest.mark.slow
 def test_a_moving_picture_says_animal_speed_and_frequency(show, orbits, tmp_path):
     page, complaints, _ = show(fragment="#animal=pigeon&model=paper&speed=12")
     picture, painted = record(page, tmp_path / "pigeon.gif")
@@ -48,7 +49,6 @@ def test_a_moving_picture_says_animal_speed_and_frequency(show, orbits, tmp_path
     assert complaints == []
 
 
-@pytest.mark.slow
 def test_lines_of_two_flights_stay_in_the_picture(show, tmp_path):
     page = show(fragment="#animal=pigeon&model=paper&speed=12").page
     page.get_by_role("button", name="Pin this flight").click()
@@ -59,7 +59,6 @@ def test_lines_of_two_flights_stay_in_the_picture(show, tmp_path):
     assert " ".join(lines).count("pigeon at 12 m/s, su-fan") == 2
 
 
-@pytest.mark.slow
 def test_the_warning_is_a_text_of_the_page_and_of_the_moving_picture(show, tmp_path):
     page = show().page
     warning = page.get_by_text(WARNING)

@@ -6,6 +6,8 @@ import pytest
 
 from tests.helpers.browsers import AXE, NODE_MODULES
 
+pytestmark = pytest.mark.slow
+
 FACE = "document.querySelector('.wbx').face"
 SOURCES = NODE_MODULES.parent / "src" / "explorer"
 
@@ -29,7 +31,6 @@ def told(page):
     return page.locator(".wbx-tour-text").inner_text()
 
 
-@pytest.mark.slow
 def test_a_tour_shows_the_flights_of_its_steps_and_says_their_numbers(show, plates_and_flies):
     page, complaints, _ = show()
     plate, fly = (
@@ -59,7 +60,6 @@ def test_a_tour_shows_the_flights_of_its_steps_and_says_their_numbers(show, plat
     assert complaints == []
 
 
-@pytest.mark.slow
 def test_keys_go_on_back_and_out_and_the_view_follows(show):
     page = show().page
     begin(page, "A plate against a fruit fly")
@@ -86,7 +86,6 @@ CHOSEN = f"""(() => {{
 }})()"""
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("pins", [True, False])
 def test_what_the_reader_had_chosen_is_back_after_a_tour(show, pins):
     page = show(fragment="#animal=bat&model=paper&speed=6").page
@@ -109,7 +108,6 @@ def test_what_the_reader_had_chosen_is_back_after_a_tour(show, pins):
     assert page.evaluate(f"{FACE}.viewer.flights.length") == 1 + pins
 
 
-@pytest.mark.slow
 def test_a_gust_is_read_when_the_tour_needs_it_and_its_outcome_is_said(show, pushed):
     page, complaints, requests = show()
     assert not any("pushes" in url for url in requests)
@@ -128,7 +126,6 @@ def test_a_gust_is_read_when_the_tour_needs_it_and_its_outcome_is_said(show, pus
     assert complaints == []
 
 
-@pytest.mark.slow
 def test_the_button_brings_the_gusts_also_from_another_speed(show, pushed):
     page = show(fragment="#animal=pigeon&model=paper&speed=14").page
     page.get_by_role("button", name=f"Push it with a gust, at {pushed['speed']:g} m/s").click()
@@ -140,7 +137,6 @@ def test_the_button_brings_the_gusts_also_from_another_speed(show, pushed):
     assert page.evaluate(f"{FACE}.viewer.last") > 1
 
 
-@pytest.mark.slow
 def test_the_link_of_a_push_shows_it_again(show, pushed):
     page = show(fragment="#animal=pigeon&model=paper").page
     page.get_by_role("button", name="Push it with a gust").click()
@@ -159,7 +155,6 @@ def test_the_link_of_a_push_shows_it_again(show, pushed):
     assert complaints == []
 
 
-@pytest.mark.slow
 def test_a_link_with_a_push_that_the_flight_lacks_shows_the_flight(show, pushed):
     page, complaints, _ = show(fragment="#animal=pigeon&model=paper&speed=14&push=tail*1")
     assert page.evaluate(f"{FACE}.answer.speed") == 14
@@ -171,7 +166,6 @@ def test_a_link_with_a_push_that_the_flight_lacks_shows_the_flight(show, pushed)
     assert complaints == []
 
 
-@pytest.mark.slow
 def test_a_step_without_its_flight_is_left_out_and_the_tour_says_so(show):
     page = show().page
     page.evaluate(f"() => {{ {FACE}.has = ({{ animal, model }}) => animal === 'bat' && model === 'paper'; }}")
@@ -186,14 +180,12 @@ def test_a_step_without_its_flight_is_left_out_and_the_tour_says_so(show):
     assert page.get_by_role("button", name="Back", exact=True).is_disabled()
 
 
-@pytest.mark.slow
 def test_a_tour_without_any_flight_cannot_begin(show):
     page = show().page
     assert page.get_by_role("button", name="Build a robot").is_disabled()
     assert "no flight of this tour" in page.locator(".wbx-tours").inner_text()
 
 
-@pytest.mark.slow
 def test_a_reader_who_leaves_the_flight_of_a_step_can_go_back_to_it(show):
     page = show().page
     begin(page, "Why it tumbles")
@@ -208,7 +200,6 @@ def test_a_reader_who_leaves_the_flight_of_a_step_can_go_back_to_it(show):
     assert again.is_hidden()
 
 
-@pytest.mark.slow
 def test_on_a_phone_the_tour_leaves_the_animal_in_sight(show):
     page = show(width=390, height=844).page
     begin(page, "Why it tumbles")
@@ -228,7 +219,6 @@ def test_no_number_of_a_result_is_typed_into_a_tour():
             assert re.search(r"\d", re.sub(r"et al\. \d{4}|robofalcon2", "", plain)) is None, plain
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize(("theme", "width"), [("dark", 390), ("light", 1280)])
 def test_axe_finds_no_fault_in_a_tour(show, theme, width):
     if not AXE.exists():

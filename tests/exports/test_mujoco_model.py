@@ -9,6 +9,8 @@ import pytest
 import wingbeat as wb
 from tests.exports.conftest import derivative
 
+pytestmark = pytest.mark.slow
+
 mujoco = pytest.importorskip("mujoco")
 
 TOLERANCE = 1e-6

@@ -145,6 +145,7 @@ def orbit(speed, free=False):
     return wb.solve_orbit(wb.OrbitProblem(TAILED, speed=speed, **asked), starts=1)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("free", [False, True])
 @pytest.mark.parametrize("speed", [8.0, 10.0, 12.0])
 def test_a_pigeon_with_a_tail_flies_certified(speed, free):

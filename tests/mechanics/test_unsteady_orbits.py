@@ -27,6 +27,8 @@ from wingbeat.mechanics.wing_motion import stroke_attitude
 from wingbeat.orbits.solution import search_near
 from wingbeat.records.flight_dataset import evaluate
 
+pytestmark = pytest.mark.slow
+
 # --- Shares
 
 
@@ -80,7 +82,6 @@ def slopes(orbit):
     return {one.parameter.path: one for one in wb.sensitivities(orbit, quantities=("frequency",)).slopes}
 
 
-@pytest.mark.slow
 def test_on_an_orbit_with_all_terms_the_air_holds_the_weight(orbit):
     """The mean over a beat by SciPy's spline through 4 096 separate evaluations of the five coordinates."""
     assert orbit.status is wb.Status.CONVERGED, orbit.message
@@ -135,7 +136,6 @@ def test_the_mean_force_of_the_wings_is_what_made_the_inflow(orbit):
 # --- Sensitivities, files
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("path", ["aero.induced_factor", "air.density", "wing.semi_span"])
 def test_sensitivities_with_all_terms_are_those_of_orbits_solved_again(orbit, slopes, path):
     """Searched again from the orbit itself: from starts of their own, they would end in other families."""
@@ -151,7 +151,6 @@ def test_sensitivities_with_all_terms_are_those_of_orbits_solved_again(orbit, sl
     assert slope.quantities["frequency"] == pytest.approx(difference, rel=2e-2)
 
 
-@pytest.mark.slow
 def test_an_orbit_with_all_terms_comes_back_from_its_file(orbit, tmp_path):
     orbit.save(tmp_path / "orbit.nc")
     again = wb.load_orbit(tmp_path / "orbit.nc")

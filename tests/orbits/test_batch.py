@@ -196,6 +196,7 @@ def test_beside_an_orbit_only_what_may_be_better_is_certified(monkeypatch):
     assert same.seconds > best.seconds
 
 
+@pytest.mark.slow
 def test_if_nothing_is_said_each_problem_is_searched_as_often_as_by_itself(monkeypatch):
     asked = []
 

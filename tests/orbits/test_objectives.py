@@ -202,6 +202,7 @@ def test_a_constraint_out_of_reach_is_infeasible_and_named():
     assert "with mean_positive_power<=5" in found.message
 
 
+@pytest.mark.slow
 def test_functions_of_ones_own(free):
     steady = wb.Quantity("lift_swing", lift_swing, scale=0.1)
     found = find_orbit(wb.OrbitProblem(PIGEON, speed=SPEED, minimise=steady), Settings(1))

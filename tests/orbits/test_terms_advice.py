@@ -152,6 +152,7 @@ def slow():
     return find_orbit(problem, Settings(1, most_starts=1, options=HASTY), threads=1)
 
 
+@pytest.mark.slow
 def test_the_term_that_made_the_difference_is_told_and_certified():
     found = slow()
     assert found.status is wb.Status.INFEASIBLE

@@ -42,6 +42,7 @@ def test_the_numbers_of_feathered_are_made_from_the_data(fitted):
             assert number == pytest.approx(wanted, rel=5e-3, abs=5e-5), name
 
 
+@pytest.mark.slow
 @needs_data
 def test_the_page_holds_the_tables_of_the_fit(fitted):
     from animal_wings import estimates, gulls, parameters

@@ -39,7 +39,7 @@ FILE = re.compile(r"[\w./-]+\.(toml|csv|nc|json|jsonl|html|gif|png|pdf|mat|parqu
 WRITES = {"-o", "--output", "--plot", "--tornado", "--plot-kinematics"}
 TOOLS = {"pytest", "ruff", "pyright", "lint-imports", "pre-commit"}  # of the group dev
 # Of pages, pictures, and what the site is made with.
-SUFFIXES = {".css", ".gif", ".html", ".md", ".png", ".py", ".rst", ".txt", ".woff2"}
+SUFFIXES = {".css", ".gif", ".html", ".md", ".png", ".py", ".rst", ".svg", ".txt", ".woff2"}
 
 
 def page_name(page):

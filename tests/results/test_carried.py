@@ -26,6 +26,7 @@ def flown():
     return all_terms("pigeon")
 
 
+@pytest.mark.slow
 def test_a_body_that_flies_freely_misses_nothing_and_any_other_its_share(flown):
     """With the free acceleration the loads are those of a flight; another needs mass times the difference."""
     model, beat = flown

@@ -84,6 +84,7 @@ def test_a_gap_in_a_row_of_speeds_is_told(capsys, tmp_path):
     assert found.err.startswith("100 m/s: ")
 
 
+@pytest.mark.slow
 def test_an_orbit_of_a_function_is_refused_in_words(capsys, tmp_path):
     def plate(alpha):
         return 2.0 * jnp.sin(alpha) * jnp.cos(alpha), 0.1 + 2.0 * jnp.sin(alpha) ** 2

@@ -50,6 +50,7 @@ def test_free_flights_are_those_of_the_adaptive_integrator(cruise):
     assert np.allclose(many.time, times, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_more_steps_come_closer(cruise):
     states, _ = one_by_one(cruise, GUSTS, 2)
     away = [

@@ -65,6 +65,7 @@ def test_a_survey_shows_the_shares(survey):
     check_figure(survey.plot())
 
 
+@pytest.mark.slow
 def test_a_manoeuvre_shows_its_ends(plan):
     shown = check_table(plan)
     assert f"12.5 {plan.legs[0]} {plan.ends[0].frequency:.4g}" in shown

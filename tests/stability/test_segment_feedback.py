@@ -66,6 +66,7 @@ def test_bumps_begin_and_end_without_a_jump(bat, downstroke):
         assert np.abs(apart).max() == pytest.approx(abs(bump), rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("gust", [2.0, -2.0])
 def test_it_holds_the_bat_that_feedback_from_beat_to_beat_does_not(bat, gust):
     assert wb.linearise(bat.orbit).spectral_radius > 4
@@ -120,6 +121,7 @@ def test_many_flights_are_those_of_the_adaptive_integrator(bat):
         assert many.largest_pitch[i] >= np.abs(alone.deviations[:, 1]).max() - 1e-3
 
 
+@pytest.mark.slow
 def test_feedback_within_a_beat_measures_with_noise_and_is_never_late(bat):
     calm = [wb.winds.CosineGust()]
     noisy = wb.simulate_many(bat.orbit, calm, 10, feedback=bat, noise={"body_pitch": 0.01}, seed=1)

@@ -273,10 +273,11 @@ def test_a_cluster_with_the_certificates_of_the_guide(cheap, cluster, tmp_path):
 
 def test_workers_with_other_numbers_are_refused(cheap, monkeypatch):
     study = cheap(GRID[:2])
-    monkeypatch.setattr(dask_engine, "NUMERICAL_VERSION", NUMERICAL_VERSION + 1)
+    _, versions_of_packages = dask_engine.greet()
+    monkeypatch.setattr(dask_engine, "greet", lambda: (NUMERICAL_VERSION - 1, versions_of_packages))
     code, _, err = study.run("run", study.file, "--dask", "local:1")
     assert code == 2
-    versions = f"version {NUMERICAL_VERSION}, but this process has version {NUMERICAL_VERSION + 1}"
+    versions = f"version {NUMERICAL_VERSION - 1}, but this process has version {NUMERICAL_VERSION}"
     assert f"has a wingbeat of numerical {versions}" in err
     # One that joined in between refuses by itself.
     order = Order(1, [], "tests.helpers.study_standin:solve", 1.0, "someone", NUMERICAL_VERSION + 1)

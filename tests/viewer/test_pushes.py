@@ -44,6 +44,7 @@ def test_there_is_a_flight_for_each_gust_with_and_without_feedback(pushes):
     assert len({(p.direction, p.size, p.feedback) for p in pushes}) == len(pushes)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("feedback", [False, True])
 def test_a_push_is_the_flight_that_simulate_flies(orbit, pushes, feedback):
     push = chosen(pushes, "downward", 1.0, feedback)

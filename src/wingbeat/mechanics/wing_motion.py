@@ -362,7 +362,7 @@ def _work(row: _Row, rates: StripRates, lift: PerStrip, moved: StripSpeeds) -> A
     return _products((row.mass, rates.mid), (row.inertia, rates.turn), _rotation(lift, moved, row.speeds))
 
 
-def _sums(motion: StripMotion, *rows: Any) -> Any:
+def _sums(motion: StripMotion, *rows: PerStripOrNone) -> Any:
     zero = jnp.zeros_like(motion.speeds[3].mid)
     return mass_moments(2.0, [zero if row is None else row for row in rows])
 

@@ -36,6 +36,8 @@ from wingbeat_evidence.paper.treatments import (
     solve_cases,
 )
 
+pytestmark = pytest.mark.slow
+
 DATA = ROOT / "data"
 KEYS = {"id", "where", "claim", "paper", "ours", "unit", "verdict", "assumptions", "orbits"}
 SPEEDS = (5.0, 10.0, 12.0)
@@ -126,7 +128,6 @@ def test_reynolds_numbers_are_asked_at_each_speed():
     assert claim.verdict == HOLDS_UNDER
 
 
-@pytest.mark.slow
 def test_the_pigeon_is_judged_by_each_reference_and_never_by_our_guess(claims, orbits):
     found = {claim.id: claim for claim in claims}
     assert found["pigeon-agrees"].verdict == UNTESTABLE
@@ -187,7 +188,6 @@ def test_the_shape_of_the_wing_is_judged_at_equal_area_and_at_equal_second_momen
         assert finding.number == pytest.approx(np.median(changes), rel=1e-12)
 
 
-@pytest.mark.slow
 def test_a_quick_run_never_gives_another_verdict(orbits):
     full = {claim.id: claim for claim in judging.judge_claims(orbits)}
     few = {case: orbit for case, orbit in orbits.items() if case.speed == 10.0 and case.animal == "bat"}

@@ -299,7 +299,7 @@ class Spring(NamedTuple):
 
 
 @jax.jit
-def _left(spring: Any, flap: Any, flap_rate: Any, power: Any) -> Any:
+def _left(spring: Columns, flap: Samples, flap_rate: Samples, power: Samples) -> Any:
     """Return the mean positive power left by a spring ``(k, k rest)``, and its derivative."""
 
     def left(k: Any, preload: Any) -> Any:
@@ -308,7 +308,7 @@ def _left(spring: Any, flap: Any, flap_rate: Any, power: Any) -> Any:
     return jax.value_and_grad(lambda s: left(s[0], s[1]))(spring)
 
 
-def best_spring(flap: Any, flap_rate: Any, hinge_power: Any) -> Spring:
+def best_spring(flap: Samples, flap_rate: Samples, hinge_power: Samples) -> Spring:
     """Return the springs with which the actuators need the least mean positive power, for one closed beat.
 
     The power is linear in stiffness and in stiffness times rest angle, so its mean positive part is convex in both,

@@ -80,8 +80,8 @@ def parameters_of(problem: OrbitProblem) -> list[Parameter]:
 
     The terms of a cambered wing have names such as ``aero.wing.lift_slope``.
 
-    >>> from wingbeat.animal.species.making import load_species
-    >>> found = parameters_of(OrbitProblem(load_species("pigeon"), speed=10.0))
+    >>> import wingbeat as wb
+    >>> found = parameters_of(wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0))
     >>> [p.path for p in found][:3], found[0].value
     (['body.mass', 'body.pitch_inertia', 'body.drag_area'], 0.276)
     """

@@ -82,7 +82,7 @@ _PAGE = """# The paper's claims beside our results
 Su, Fan, Onoue, Vejdani and Breuer, arXiv 2302.09602: each quantitative or directional claim beside our number
 under the default assumptions, the first below, with the range over the six sets of assumptions below in brackets.
 A claim *holds* if it holds under every one of the six, and *fails* if under none. Under other sets some verdicts
-change: the page *Which claims hold* gives the share of 20 000 random sets. A claim that holds is consistent with our
+change: the page *Which claims hold* gives the share of 20 000 sets. A claim that holds is consistent with our
 result; this does not prove that the authors made the same assumptions. C_L, C_D and C_M are those of the plate of
 Su et al. unless the claim names another model. `claims.json` (a copy is in `data/`) gives the test of each claim,
 our number under each set of assumptions, and the place in the paper.

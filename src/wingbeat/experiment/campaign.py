@@ -170,7 +170,7 @@ def save_runs(runs: list[LoadCellRun], folder: str | Path) -> list[Path]:
     Parameters
     ----------
     runs : the records.
-    folder : to write to; it is made if missing.
+    folder : to write to; it must be there already.
 
     Raises
     ------

@@ -28,24 +28,29 @@ if TYPE_CHECKING:
 # --- options ---
 
 
+def option(text: str, *names: str) -> Parameter:
+    """Return an option or an argument with its help, and its names if it is not called as its parameter is."""
+    return Parameter(name=names or None, help=text)
+
+
 def flag(text: str) -> Parameter:
     """Return an option that is either given or not, with its help."""
     return Parameter(negative="", help=text)
 
 
-def several(text: str) -> Parameter:
-    """Return an option that takes all values up to the next option, with its help."""
-    return Parameter(consume_multiple=True, negative=(), help=text)
+def several(text: str, *names: str) -> Parameter:
+    """Return an `option` that takes all values up to the next option."""
+    return Parameter(name=names or None, consume_multiple=True, negative=(), help=text)
 
 
 def figure(what: str) -> Parameter:
     """Return the option of a figure's file."""
-    return Parameter(help=f"{what}: .png, .pdf or .svg.")
+    return option(f"{what}: .png, .pdf or .svg.")
 
 
 def written_to(text: str) -> Parameter:
     """Return the option ``--output``, with its help."""
-    return Parameter(name=["--output", "-o"], help=text)
+    return option(text, "--output", "-o")
 
 
 def _whole(type_: type, tokens: Sequence[Token]) -> int:
@@ -58,7 +63,7 @@ def _whole(type_: type, tokens: Sequence[Token]) -> int:
 
 
 Whole = Annotated[int, Parameter(converter=_whole)]
-Seed = Annotated[Whole, Parameter(help="Seed of the random starts.")]
+Seed = Annotated[Whole, option("Seed of the random starts.")]
 Output = Annotated[
     Path | None, written_to("Write the result: .nc for `show`, `plot`, `view`; .csv; .mat for MATLAB.")
 ]

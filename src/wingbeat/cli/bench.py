@@ -5,15 +5,13 @@ from __future__ import annotations
 import json as json_format
 from typing import Annotated, Any
 
-from cyclopts import Parameter
-
-from wingbeat.cli.arguments import Whole, flag
+from wingbeat.cli.arguments import Whole, flag, option
 from wingbeat.cli.terminal import progress_bar
 
 
 def bench(
     *,
-    batch: Annotated[Whole, Parameter(help="Mixed problems in the batch.")] = 1024,
+    batch: Annotated[Whole, option("Mixed problems in the batch.")] = 1024,
     json: Annotated[bool, flag("Print JSON alone.")] = False,
 ) -> None:
     """Measure how fast this machine solves orbits, on one core, in about a minute.

@@ -5,9 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter
-
 from wingbeat._base import FaultList
+from wingbeat.cli import problem_options as options
 from wingbeat.cli.arguments import (
     Output,
     Seed,
@@ -16,60 +15,47 @@ from wingbeat.cli.arguments import (
     check_result,
     figure,
     flag,
+    option,
     parse_range,
     several,
 )
 from wingbeat.cli.plot import page_of
-from wingbeat.cli.problem_options import (
-    DEFAULT_MODEL,
-    SPECIES,
-    Climb,
-    Limits,
-    ModelOptions,
-    Settings,
-    Stable,
-    WithinPlausible,
-    limits_of,
-)
 from wingbeat.cli.terminal import deliver, progress_bar
 from wingbeat.results.curve import REFINEMENTS, solve_curve
 from wingbeat.words.curve_words import curve_report
 
 
 def curve(
-    species: Annotated[str, SPECIES],
+    species: Annotated[str, options.SPECIES],
     *,
     speeds: Annotated[
         list[str],
         several("Speeds [m/s]: numbers, or start:stop:step. 0 3:20:1 is hover, and 3 to 20 m/s in steps of 1."),
     ],
-    climb: Climb = 0.0,
-    model: ModelOptions = DEFAULT_MODEL,
-    within_plausible: WithinPlausible = False,
+    climb: options.Climb = 0.0,
+    model: options.ModelOptions = options.DEFAULT_MODEL,
+    within_plausible: options.WithinPlausible = False,
     minimise: Annotated[
         str | None,
-        Parameter(
-            help="Quantity to minimise at each speed: frequency, positive-power, ...; default that of the model."
-        ),
+        option("Quantity to minimise at each speed: frequency, positive-power, ...; default that of the model."),
     ] = None,
-    subject_to: Limits = None,
-    stable: Stable = False,
+    subject_to: options.Limits = None,
+    stable: options.Stable = False,
     power_limit: Annotated[
         float | None,
-        Parameter(
-            help="Sustainable power [W] of the kind that is minimised; the slowest and the fastest speed within it "
+        option(
+            "Sustainable power [W] of the kind that is minimised; the slowest and the fastest speed within it "
             "are printed."
         ),
     ] = None,
     starts: Annotated[
-        Whole, Parameter(help="Number of starts at the first and last speed; other speeds get a third as many.")
+        Whole, option("Number of starts at the first and last speed; other speeds get a third as many.")
     ] = 6,
     refinements: Annotated[
-        Whole,
-        Parameter(help="Most speeds to add until each characteristic speed is known to 0.1 m/s; 0 adds none."),
+        Whole, option("Most speeds to add until each characteristic speed is known to 0.1 m/s; 0 adds none.")
     ] = REFINEMENTS,
     seed: Seed = 0,
-    set_: Settings = None,
+    set_: options.Settings = None,
     json: Annotated[bool, flag("Print the curve as JSON and nothing else.")] = False,
     output: Output = None,
     plot: Annotated[Path | None, figure("Draw power and frequency")] = None,
@@ -88,7 +74,7 @@ def curve(
     check_result(faults, output, plot=plot)
     faults.raise_if_any()
     row = sorted(float(speed) for text in speeds for speed in parse_range(text, "--speeds"))
-    asked = {"climb": climb, "minimise": minimise, "subject_to": limits_of(subject_to, stable)}
+    asked = {"climb": climb, "minimise": minimise, "subject_to": options.limits_of(subject_to, stable)}
     problem = model.problem(species, row[-1] if row else 0.0, set_, within_plausible=within_plausible, **asked)
     check_outputs(output, plot)
     with progress_bar(f"{problem.species.name} along speed") as progress:

@@ -6,10 +6,8 @@ import sys
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter
-
 from wingbeat._base import FaultList
-from wingbeat.cli.arguments import Whole, check_outputs, written_to
+from wingbeat.cli.arguments import Whole, check_outputs, option, written_to
 from wingbeat.cli.problem_options import unpacking
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.exports.save import SAMPLES, check_export
@@ -19,7 +17,7 @@ from wingbeat.results.orbit import load_orbit
 
 
 def export(
-    file: Annotated[Path, Parameter(help="A file written by `orbit -o`.")],
+    file: Annotated[Path, option("A file written by `orbit -o`.")],
     *,
     output: Annotated[
         Path,
@@ -28,7 +26,7 @@ def export(
             ".xml for MuJoCo."
         ),
     ],
-    samples: Annotated[Whole, Parameter(help="Number of equal phases of the beat.")] = SAMPLES,
+    samples: Annotated[Whole, option("Number of equal phases of the beat.")] = SAMPLES,
 ) -> int:
     """Write the gait of a saved orbit for another tool.
 

@@ -7,10 +7,8 @@ import math
 from pathlib import Path
 from typing import Annotated, Any
 
-from cyclopts import Parameter
-
 from wingbeat._base import FaultList, Line, heading
-from wingbeat.cli.arguments import Whole, check_files, check_outputs, figure, flag, named_numbers, several
+from wingbeat.cli.arguments import Whole, check_files, check_outputs, figure, flag, named_numbers, option, several
 from wingbeat.cli.problem_options import Gust, Turbulence, WindSeed, saved_orbit, wind_of
 from wingbeat.cli.terminal import deliver, plain_console, print_report, progress_bar
 from wingbeat.plots import gust_page
@@ -32,7 +30,7 @@ _ADVICE = (
 
 
 def feedback(
-    source: Annotated[Path, Parameter(help="A saved orbit (.nc).", name="ORBIT")],
+    source: Annotated[Path, option("A saved orbit (.nc).", "ORBIT")],
     *,
     inputs: Annotated[
         list[str] | None,
@@ -41,23 +39,21 @@ def feedback(
             "the free parameters whose jumps harmonics can undo."
         ),
     ] = None,
-    delay: Annotated[Whole, Parameter(help="Beats between a measurement and the beat that it changes.")] = 0,
+    delay: Annotated[Whole, option("Beats between a measurement and the beat that it changes.")] = 0,
     late: Annotated[
         Whole,
-        Parameter(
-            help="Further beats by which the inputs are late in the flights; the feedback is computed without them."
-        ),
+        option("Further beats by which the inputs are late in the flights; the feedback is computed without them."),
     ] = 0,
     gust: Gust = None,
     turbulence: Turbulence = None,
     wind_seed: WindSeed = 0,
-    beats: Annotated[Whole, Parameter(help="Number of wingbeats of each flight.")] = 30,
+    beats: Annotated[Whole, option("Number of wingbeats of each flight.")] = 30,
     noise: Annotated[
         list[str] | None,
         several("Standard deviations of the sensors: z=0.02 body_pitch=0.01 u=0.1 ... [m, rad, m/s, rad/s]."),
     ] = None,
-    survey: Annotated[Whole, Parameter(help="Number of random gusts of up to 5 m/s to survey; 0 for none.")] = 0,
-    seed: Annotated[Whole, Parameter(help="Seed of the noise and of the surveyed gusts.")] = 0,
+    survey: Annotated[Whole, option("Number of random gusts of up to 5 m/s to survey; 0 for none.")] = 0,
+    seed: Annotated[Whole, option("Seed of the noise and of the surveyed gusts.")] = 0,
     json: Annotated[bool, flag("Print the numbers as JSON and nothing else.")] = False,
     plot: Annotated[Path | None, figure("Draw flights and survey")] = None,
 ) -> int:

@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
-from cyclopts import Parameter
 
 from wingbeat._base import NOMENCLATURE, FaultList, for_people, plain_unit, written
 from wingbeat.aero import BladeElement
 from wingbeat.animal.species.species import Species
+from wingbeat.cli.arguments import option
 from wingbeat.experiment.film import WHOLE
 from wingbeat.experiment.film_file import read_film
 from wingbeat.experiment.film_fit import BodyPath, FilmedBeat, fit_body_path, fit_film
@@ -28,12 +28,11 @@ if TYPE_CHECKING:
 # Number of random draws of the film that are solved for an error bar, which is then accurate to an eighth.
 DRAWS = 32
 Kinematics = Annotated[
-    Path | None,
-    Parameter(help="A filmed wingbeat (.csv): time [s], or phase in beats, with flap_deg, pitch_deg, ..."),
+    Path | None, option("A filmed wingbeat (.csv): time [s], or phase in beats, with flap_deg, pitch_deg, ...")
 ]
 Side = Annotated[
     Literal["both", "left", "right"] | None,
-    Parameter(help="With --kinematics: the wing to read where left and right were filmed; default: their mean."),
+    option("With --kinematics: the wing to read where left and right were filmed; default: their mean."),
 ]
 _POWERS = ("mean_power", "mean_positive_power", "peak_power")
 

@@ -7,11 +7,9 @@ import sys
 from pathlib import Path
 from typing import Annotated, Any
 
-from cyclopts import Parameter
-
 from wingbeat._base import FaultList, written_range
 from wingbeat.aero.coefficient_model import check_aspect_ratio
-from wingbeat.cli.arguments import check_files, check_outputs, figure, flag, written_to
+from wingbeat.cli.arguments import check_files, check_outputs, figure, flag, option, written_to
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import answer
 from wingbeat.experiment.coefficient_table import load_measurements
@@ -20,23 +18,22 @@ from wingbeat.plots import fit_page
 
 
 def fit(
-    coefficients: Annotated[Path, Parameter(help="A table of `reduce`, or your own with alpha_deg, C_L, C_D.")],
+    coefficients: Annotated[Path, option("A table of `reduce`, or your own with alpha_deg, C_L, C_D.")],
     /,
     *,
-    form: Annotated[str, Parameter(help="Curves to fit: su-fan, dickinson, sine-cosine or cambered.")] = "su-fan",
+    form: Annotated[str, option("Curves to fit: su-fan, dickinson, sine-cosine or cambered.")] = "su-fan",
     output: Annotated[Path | None, written_to("The model file: .toml.")] = None,
     plot: Annotated[Path | None, figure("Draw data, fit and bands")] = None,
-    name: Annotated[str, Parameter(help="Name of the model; default: the name of the output file.")] = "",
-    citation: Annotated[str, Parameter(help="Where the measurements come from, kept in the model file.")] = "",
+    name: Annotated[str, option("Name of the model; default: the name of the output file.")] = "",
+    citation: Annotated[str, option("Where the measurements come from, kept in the model file.")] = "",
     aspect_ratio: Annotated[
-        float | None,
-        Parameter(help="Aspect ratio of the measured wing; inf for a section. Kept in the model file."),
+        float | None, option("Aspect ratio of the measured wing; inf for a section. Kept in the model file.")
     ] = None,
-    alpha_min: Annotated[float, Parameter(help="Leave out angles below this [deg].")] = -180.0,
-    alpha_max: Annotated[float, Parameter(help="Leave out angles above this [deg].")] = 180.0,
+    alpha_min: Annotated[float, option("Leave out angles below this [deg].")] = -180.0,
+    alpha_max: Annotated[float, option("Leave out angles above this [deg].")] = 180.0,
     reynolds_range: Annotated[
         tuple[float, float] | None,
-        Parameter(help="Use only rows from one Reynolds number to another: LOW HIGH; needs a column reynolds."),
+        option("Use only rows from one Reynolds number to another: LOW HIGH; needs a column reynolds."),
     ] = None,
     json: Annotated[bool, flag("Print one JSON object.")] = False,
 ) -> int:

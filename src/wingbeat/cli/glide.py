@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import Annotated
 
 import numpy as np
-from cyclopts import Parameter
 
 from wingbeat._base import NOMENCLATURE, FaultList, for_people
-from wingbeat.cli.arguments import Output, check_outputs, check_result, figure, flag, parse_range
+from wingbeat.cli.arguments import Output, check_outputs, check_result, figure, flag, option, parse_range
 from wingbeat.cli.problem_options import DEFAULT_MODEL, SPECIES, ModelOptions, Payload, Settings
 from wingbeat.cli.terminal import deliver, plain_console
 from wingbeat.mechanics.glide import Glide
@@ -31,10 +30,10 @@ _HEADS |= {"body": "body_pitch", "wing": "wing_pitch", "flap": "flap", "tail": "
 def glide(
     species: Annotated[str, SPECIES],
     *,
-    alpha: Annotated[str, Parameter(help="Angles of attack at the wing's root [deg], start:stop:step.")] = "1:30:1",
-    flap_deg: Annotated[float, Parameter(help="Flap angle at which the wings are held, up positive [deg].")] = 0.0,
+    alpha: Annotated[str, option("Angles of attack at the wing's root [deg], start:stop:step.")] = "1:30:1",
+    flap_deg: Annotated[float, option("Flap angle at which the wings are held, up positive [deg].")] = 0.0,
     trim: Annotated[
-        str, Parameter(help="What turns to trim the pitching moment: body-pitch, flap or (if there is one) tail.")
+        str, option("What turns to trim the pitching moment: body-pitch, flap or (if there is one) tail.")
     ] = "body-pitch",
     model: ModelOptions = DEFAULT_MODEL,
     set_: Settings = None,

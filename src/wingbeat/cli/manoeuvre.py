@@ -5,20 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter
-
 from wingbeat._base import FaultList
-from wingbeat.cli.arguments import Seed, Whole, check_files, check_outputs, figure, flag, several
-from wingbeat.cli.problem_options import (
-    DEFAULT_MODEL,
-    Climb,
-    Gust,
-    ModelOptions,
-    Settings,
-    Starts,
-    saved_orbit,
-    wind_of,
-)
+from wingbeat.cli import problem_options as options
+from wingbeat.cli.arguments import Seed, Whole, check_files, check_outputs, figure, flag, option, several
 from wingbeat.cli.terminal import deliver, plain_console, print_report, progress_bar
 from wingbeat.orbits.options import Status
 from wingbeat.results.flight import Flight
@@ -29,23 +18,22 @@ from wingbeat.stability.reports import manoeuvre_report
 
 
 def manoeuvre(
-    species: Annotated[str, Parameter(help="Name or file of a species, or a saved orbit (.nc).")],
+    species: Annotated[str, option("Name or file of a species, or a saved orbit (.nc).")],
     *,
     speed: Annotated[
-        float | None, Parameter(help="Mean forward speed at the start [m/s]; 0 is hover. Not with a saved orbit.")
+        float | None, option("Mean forward speed at the start [m/s]; 0 is hover. Not with a saved orbit.")
     ] = None,
     to: Annotated[list[float], several("Speeds to reach, one after the other [m/s]: 16 6 ...")],
     beats: Annotated[
-        Whole | None,
-        Parameter(help="Number of beats to each speed. Default: for a mean acceleration of 1 m/s2, or more."),
+        Whole | None, option("Number of beats to each speed. Default: for a mean acceleration of 1 m/s2, or more.")
     ] = None,
-    delay: Annotated[Whole, Parameter(help="Beats between a measurement and the beat that feedback changes.")] = 0,
-    climb: Climb = 0.0,
-    model: ModelOptions = DEFAULT_MODEL,
-    starts: Starts = None,
+    delay: Annotated[Whole, option("Beats between a measurement and the beat that feedback changes.")] = 0,
+    climb: options.Climb = 0.0,
+    model: options.ModelOptions = options.DEFAULT_MODEL,
+    starts: options.Starts = None,
     seed: Seed = 0,
-    set_: Settings = None,
-    gust: Gust = None,
+    set_: options.Settings = None,
+    gust: options.Gust = None,
     json: Annotated[bool, flag("Print the numbers as JSON and nothing else.")] = False,
     plot: Annotated[Path | None, figure("Draw the flight")] = None,
 ) -> int:
@@ -64,13 +52,13 @@ def manoeuvre(
     check_manoeuvre(faults, to, beats, delay)
     faults.raise_if_any()
     check_outputs(plot)
-    wind = wind_of(gust, None, 0, 0.0)  # a gust does not depend on the airspeed
+    wind = options.wind_of(gust, None, 0, 0.0)  # a gust does not depend on the airspeed
     if species.endswith(".nc"):
-        if (speed, model, climb, starts, seed, set_) != (None, DEFAULT_MODEL, 0.0, None, 0, None):
+        if (speed, model, climb, starts, seed, set_) != (None, options.DEFAULT_MODEL, 0.0, None, 0, None):
             fix = "give only --to, --beats, --delay, --gust, --json and --plot with it"
             faults.add("SPECIES", species, "is a saved orbit, which has its speed, model and settings", fix)
             faults.raise_if_any()
-        orbit = saved_orbit(Path(species))
+        orbit = options.saved_orbit(Path(species))
     else:
         if speed is None:
             faults.add("--speed", speed, "is missing", "give the speed at the start in m/s, or a saved orbit")

@@ -6,10 +6,10 @@ import math
 from pathlib import Path
 from typing import Annotated, Any
 
-from cyclopts import Parameter
-
 from wingbeat._base import FaultList, Line
 from wingbeat.animal.species.species import Species
+from wingbeat.cli import filmed
+from wingbeat.cli import problem_options as options
 from wingbeat.cli.arguments import (
     Output,
     Seed,
@@ -19,32 +19,8 @@ from wingbeat.cli.arguments import (
     figure,
     flag,
     given_beside,
+    option,
     several,
-)
-from wingbeat.cli.filmed import (
-    DRAWS,
-    Kinematics,
-    Side,
-    check_side,
-    film_lines,
-    film_record,
-    filmed_beat,
-    spread_lines,
-    spread_record,
-)
-from wingbeat.cli.problem_options import (
-    DEFAULT_MODEL,
-    SPECIES,
-    SPEED,
-    Climb,
-    ModelOptions,
-    Payload,
-    Settings,
-    Stable,
-    WingsMayCross,
-    WithinPlausible,
-    limits_of,
-    unpacking,
 )
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import answer, print_json, print_report, progress_bar
@@ -62,19 +38,19 @@ _BESIDE_FROM = ("from_", "power", "json", "output", "plot", "sensitivities", "to
 
 
 def orbit(
-    species: Annotated[str | None, SPECIES] = None,
+    species: Annotated[str | None, options.SPECIES] = None,
     *,
-    speed: Annotated[float | None, SPEED] = None,
-    climb: Climb = 0.0,
-    model: ModelOptions = DEFAULT_MODEL,
+    speed: Annotated[float | None, options.SPEED] = None,
+    climb: options.Climb = 0.0,
+    model: options.ModelOptions = options.DEFAULT_MODEL,
     flap_amplitude_max: Annotated[
-        float | None, Parameter(help="Upper bound of the flap amplitude, half of peak to peak [deg].")
+        float | None, option("Upper bound of the flap amplitude, half of peak to peak [deg].")
     ] = None,
-    within_plausible: WithinPlausible = False,
+    within_plausible: options.WithinPlausible = False,
     minimise: Annotated[
         str | None,
-        Parameter(
-            help="Quantity to minimise: frequency, power, positive-power, peak-power, cost-of-transport, "
+        option(
+            "Quantity to minimise: frequency, power, positive-power, peak-power, cost-of-transport, "
             "peak-flap-torque, body-pitch-range, metabolic-power, ...; default that of the model, "
             "or positive-power if a film gives the frequency."
         ),
@@ -82,22 +58,22 @@ def orbit(
     subject_to: Annotated[
         list[str] | None, several("Limits: 'peak_power<=30' 'body_pitch_range<=10 deg' ...")
     ] = None,
-    stable: Stable = False,
+    stable: options.Stable = False,
     starts: Annotated[
         Whole | None,
-        Parameter(
-            help="Number of starts. Default: 6; 12 with limits or if a power is minimised; 24 with your own bounds "
+        option(
+            "Number of starts. Default: 6; 12 with limits or if a power is minimised; 24 with your own bounds "
             "or if a peak is minimised."
         ),
     ] = None,
     seed: Seed = 0,
-    wings_may_cross: WingsMayCross = False,
-    set_: Settings = None,
-    payload: Payload = 0.0,
-    kinematics: Kinematics = None,
-    side: Side = None,
+    wings_may_cross: options.WingsMayCross = False,
+    set_: options.Settings = None,
+    payload: options.Payload = 0.0,
+    kinematics: filmed.Kinematics = None,
+    side: filmed.Side = None,
     from_: Annotated[
-        Path | None, Parameter(name="--from", help="Solve the problem in this file again, from its inputs alone.")
+        Path | None, option("Solve the problem in this file again, from its inputs alone.", "--from")
     ] = None,
     power: Annotated[
         bool, flag("Print the parts of the power, the cost of negative work, and what a spring saves.")
@@ -126,7 +102,7 @@ def orbit(
     check_result(faults, output, plot=plot, tornado=tornado)
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
-    check_side(faults, side, kinematics)
+    filmed.check_side(faults, side, kinematics)
     if within_plausible and kinematics is not None:
         rule = "gives the wingbeat, so it cannot be combined with --within-plausible"
         faults.add("--kinematics", str(kinematics), rule, "leave out one of the two options")
@@ -142,13 +118,13 @@ def orbit(
     beat = None
     if from_ is not None:
         saved = load_orbit(from_)
-        with unpacking(from_):
+        with options.unpacking(from_):
             problem, starts, seed = saved.problem, saved.inputs["starts"], saved.inputs["seed"]
     else:
         assert species is not None
         assert speed is not None
         animal, whole = model.flown(species, set_, payload)
-        bounds, limits = _amplitude_bounds(animal, flap_amplitude_max), limits_of(subject_to, stable)
+        bounds, limits = _amplitude_bounds(animal, flap_amplitude_max), options.limits_of(subject_to, stable)
         if within_plausible:  # which takes the place of other bounds
             limits += [WingbeatLimit(name, "<=", most) for name, (_, most) in bounds.items()]
         asked: dict[str, Any] = {"climb": climb, "subject_to": limits}
@@ -160,7 +136,7 @@ def orbit(
         if kinematics is None:
             problem = whole.problem(animal, speed, **asked)
         else:
-            beat = filmed_beat(kinematics, side)
+            beat = filmed.filmed_beat(kinematics, side)
             problem = filmed_problem(beat, animal, speed, aero=whole.aero, **asked)
     fit = model.fit()
     with progress_bar(f"{problem.species.name} at {problem.speed:g} m/s") as progress:
@@ -181,12 +157,12 @@ def orbit(
         else:
             influence = None
         if beat is not None:
-            record["kinematics"], lines = film_record(beat), film_lines(beat)
+            record["kinematics"], lines = filmed.film_record(beat), filmed.film_lines(beat)
             if certified:
                 with progress_bar("error bars") as progress:
-                    spread = orbit_spread(found, beat.draws(found.problem.species.wingbeat, DRAWS), progress)
-                record["kinematics"] |= spread_record(spread)
-                lines += spread_lines(spread, found)
+                    spread = orbit_spread(found, beat.draws(found.problem.species.wingbeat, filmed.DRAWS), progress)
+                record["kinematics"] |= filmed.spread_record(spread)
+                lines += filmed.spread_lines(spread, found)
             for line in [] if json else lines:
                 given.show(lambda line=line: print(line))
         if json:

@@ -5,20 +5,18 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter
-
 from wingbeat._base import FaultList
-from wingbeat.cli.arguments import Seed, Whole, check_files, check_outputs, figure, flag, parse_range, several
-from wingbeat.cli.problem_options import (
-    DEFAULT_MODEL,
-    SPECIES,
-    SPEED,
-    Climb,
-    Limits,
-    Minimise,
-    ModelOptions,
-    Settings,
-    WithinPlausible,
+from wingbeat.cli import problem_options as options
+from wingbeat.cli.arguments import (
+    Seed,
+    Whole,
+    check_files,
+    check_outputs,
+    figure,
+    flag,
+    option,
+    parse_range,
+    several,
 )
 from wingbeat.cli.terminal import deliver, progress_bar
 from wingbeat.results.pareto import pareto_front
@@ -26,24 +24,24 @@ from wingbeat.words.curve_words import pareto_report
 
 
 def pareto(
-    species: Annotated[str, SPECIES],
+    species: Annotated[str, options.SPECIES],
     *,
-    speed: Annotated[float, SPEED],
+    speed: Annotated[float, options.SPEED],
     limits: Annotated[
         list[str], several("Limits, in SI units and radians: numbers, or start:stop:step, such as 0.9:1.3:0.05.")
     ],
     against: Annotated[
-        str, Parameter(help="Quantity that the limits apply to: spectral_radius, peak_power, ...")
+        str, option("Quantity that the limits apply to: spectral_radius, peak_power, ...")
     ] = "spectral_radius",
     at_least: Annotated[bool, flag("The limits are lower limits, not upper ones.")] = False,
-    climb: Climb = 0.0,
-    model: ModelOptions = DEFAULT_MODEL,
-    within_plausible: WithinPlausible = False,
-    minimise: Minimise = None,
-    subject_to: Limits = None,
-    starts: Annotated[Whole | None, Parameter(help="Number of starts for each limit.")] = None,
+    climb: options.Climb = 0.0,
+    model: options.ModelOptions = options.DEFAULT_MODEL,
+    within_plausible: options.WithinPlausible = False,
+    minimise: options.Minimise = None,
+    subject_to: options.Limits = None,
+    starts: Annotated[Whole | None, option("Number of starts for each limit.")] = None,
     seed: Seed = 0,
-    set_: Settings = None,
+    set_: options.Settings = None,
     json: Annotated[bool, flag("Print all points as JSON and nothing else.")] = False,
     plot: Annotated[Path | None, figure("Draw the front")] = None,
 ) -> int:

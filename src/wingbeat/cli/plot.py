@@ -6,11 +6,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from cyclopts import Parameter
-
 from wingbeat._base import KIND, FaultList
 from wingbeat.animal.vehicle import Air
-from wingbeat.cli.arguments import check_outputs, flag, written_to
+from wingbeat.cli.arguments import check_outputs, flag, option, written_to
 from wingbeat.plots import check_figure_name, power_page, save_figure, wingbeat_page
 from wingbeat.plots.published import published_for
 from wingbeat.records.inputs import vehicle_from
@@ -22,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def plot(
-    file: Annotated[Path, Parameter(help="A file written by `orbit -o`, `simulate -o` or `curve -o`.")],
+    file: Annotated[Path, option("A file written by `orbit -o`, `simulate -o` or `curve -o`.")],
     *,
     output: Annotated[Path, written_to("The page: .png, .pdf or .svg.")],
     power: Annotated[bool, flag("Draw the parts of an orbit's power.")] = False,

@@ -10,13 +10,12 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from cyclopts import Parameter
 from numpy.typing import NDArray
 
 from wingbeat._base import FaultList, InvalidInputError
 from wingbeat._base.style import BLUE, ORANGE, PAGE, drawing, legend_below, new_figure
 from wingbeat.aero import CoefficientModel, load_coefficients, thin_aerofoil_lift, thin_aerofoil_moment
-from wingbeat.cli.arguments import check_outputs, flag, parse_range, written_to
+from wingbeat.cli.arguments import check_outputs, flag, option, parse_range, written_to
 from wingbeat.cli.problem_options import say_notes
 from wingbeat.cli.terminal import answer
 from wingbeat.plots import check_figure_name
@@ -25,15 +24,15 @@ Columns = dict[str, list[float] | list[None]]
 
 
 def polar(
-    model: Annotated[str, Parameter(help="Name of a model, or path of a table (.csv) or of a fit (.toml).")],
+    model: Annotated[str, option("Name of a model, or path of a table (.csv) or of a fit (.toml).")],
     *,
-    alpha: Annotated[str, Parameter(help="Angles of attack [deg], start:stop:step, or one angle.")] = "-30:110:2",
-    about: Annotated[float, Parameter(help="Axis of C_M, in chords from the leading edge.")] = 0.5,
+    alpha: Annotated[str, option("Angles of attack [deg], start:stop:step, or one angle.")] = "-30:110:2",
+    about: Annotated[float, option("Axis of C_M, in chords from the leading edge.")] = 0.5,
     extension: Annotated[
-        str, Parameter(help="Extension to angles outside the fit: mirrored, signed-drag, signed, clipped-drag.")
+        str, option("Extension to angles outside the fit: mirrored, signed-drag, signed, clipped-drag.")
     ] = "mirrored",
     blend_width_deg: Annotated[
-        float, Parameter(help="Half width [deg] of the blends at 0, 90 and 180 degrees: above 0, at most 3.")
+        float, option("Half width [deg] of the blends at 0, 90 and 180 degrees: above 0, at most 3.")
     ] = 1.0,
     csv: Annotated[bool, flag("Print CSV.")] = False,
     json: Annotated[bool, flag("Print one JSON object of lists.")] = False,

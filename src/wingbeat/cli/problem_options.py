@@ -21,7 +21,7 @@ from wingbeat.aero.winds import LEVELS, CosineGust, DrydenTurbulence, Wind
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.reading import parse_setting
 from wingbeat.animal.species.species import Species
-from wingbeat.cli.arguments import Whole, flag, named_numbers, several
+from wingbeat.cli.arguments import Whole, flag, named_numbers, option, several
 from wingbeat.models import Model, model_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Constraint
@@ -31,23 +31,18 @@ from wingbeat.results.orbit import Orbit, load_orbit
 
 # --- the problem ---
 
-SPECIES = Parameter(help="Name of a species, or path of a species file.")
-SPEED = Parameter(help="Mean forward speed [m/s]; 0 is hover.")
-Climb = Annotated[float, Parameter(help="Mean climb rate [m/s].")]
+SPECIES = option("Name of a species, or path of a species file.")
+SPEED = option("Mean forward speed [m/s]; 0 is hover.")
+Climb = Annotated[float, option("Mean climb rate [m/s].")]
 Limits = Annotated[list[str] | None, several("Limits: 'peak_power<=30' 'frequency=6' ...")]
-Minimise = Annotated[str | None, Parameter(help="Quantity to minimise, as in `wingbeat orbit`.")]
-Starts = Annotated[Whole | None, Parameter(help="Number of starts, as in `wingbeat orbit`.")]
+Minimise = Annotated[str | None, option("Quantity to minimise, as in `wingbeat orbit`.")]
+Starts = Annotated[Whole | None, option("Number of starts, as in `wingbeat orbit`.")]
 Stable = Annotated[bool, flag("Find an orbit on which disturbances decay: short for 'spectral_radius<=0.995'.")]
 Settings = Annotated[
     list[str] | None,
-    Parameter(
-        name="--set",
-        consume_multiple=True,
-        negative=(),
-        help="Numbers to change, PATH=VALUE: wing.mass=0.02 ... `wingbeat species NAME` lists the paths.",
-    ),
+    several("Numbers to change, PATH=VALUE: wing.mass=0.02 ... `wingbeat species NAME` lists the paths.", "--set"),
 ]
-Payload = Annotated[float, Parameter(help="Load carried at the body's centre of mass [kg].")]
+Payload = Annotated[float, option("Load carried at the body's centre of mass [kg].")]
 WithinPlausible = Annotated[bool, flag("Keep parameters, powers and forces within the species' plausible ranges.")]
 WingsMayCross = Annotated[bool, flag("Let the wings pass through the plane of symmetry and through each other.")]
 
@@ -64,65 +59,57 @@ class ModelOptions:
 
     model: Annotated[
         str,
-        Parameter(
-            help="Model of the flight: paper (as in Su et al. 2023), or animal (coefficients, tail, body drag, "
+        option(
+            "Model of the flight: paper (as in Su et al. 2023), or animal (coefficients, tail, body drag, "
             "air-load terms and muscle of the animal's kind). Other options replace parts of the model; their "
             "stated defaults are those of paper."
         ),
     ] = "paper"
     aero: Annotated[
         str | None,
-        Parameter(
-            help="Coefficients: su-fan (default), feathered, ... (see `polar`), a table (.csv) or a fit (.toml)."
-        ),
+        option("Coefficients: su-fan (default), feathered, ... (see `polar`), a table (.csv) or a fit (.toml)."),
     ] = None
     extension: Annotated[
-        str | None,
-        Parameter(help=f"Extension to angles outside the fit: {', '.join(EXTENSIONS)}; default mirrored."),
+        str | None, option(f"Extension to angles outside the fit: {', '.join(EXTENSIONS)}; default mirrored.")
     ] = None
     blend_width_deg: Annotated[
-        float | None, Parameter(help="Half width [deg] of the blends at 0, 90 and 180 degrees; default 1.")
+        float | None, option("Half width [deg] of the blends at 0, 90 and 180 degrees; default 1.")
     ] = None
     force_point: Annotated[
         str | None,
-        Parameter(help=f"Where the force acts: {' or '.join(FORCE_POINTS)}; default {BladeElement.force_point}."),
+        option(f"Where the force acts: {' or '.join(FORCE_POINTS)}; default {BladeElement.force_point}."),
     ] = None
     airspeed: Annotated[
         str | None,
-        Parameter(
-            help="Airspeed that determines a strip's loads: planar (default: without the component along the span) "
+        option(
+            "Airspeed that determines a strip's loads: planar (default: without the component along the span) "
             "or full (with this component)."
         ),
     ] = None
-    strips: Annotated[
-        Whole | None, Parameter(help=f"Number of strips of one wing; default {BladeElement.strips}.")
-    ] = None
+    strips: Annotated[Whole | None, option(f"Number of strips of one wing; default {BladeElement.strips}.")] = None
     unsteady: Annotated[
-        str | None,
-        Parameter(help="Unsteady terms: none (default), or thin-aerofoil (rotation, added mass and couples)."),
+        str | None, option("Unsteady terms: none (default), or thin-aerofoil (rotation, added mass and couples).")
     ] = None
     inflow: Annotated[
         str | None,
-        Parameter(help="Induced flow: none (default), or momentum (for coefficients whose aspect ratio is known)."),
+        option("Induced flow: none (default), or momentum (for coefficients whose aspect ratio is known)."),
     ] = None
     induced_factor: Annotated[
         float | None,
-        Parameter(help=f"Ratio of induced power to that of an ideal disc; default {BladeElement.induced_factor}."),
+        option(f"Ratio of induced power to that of an ideal disc; default {BladeElement.induced_factor}."),
     ] = None
     hand: Annotated[
         str | None,
-        Parameter(
-            help="Coefficients of the hand; takes the same names as --aero. --aero then applies to the arm alone. "
+        option(
+            "Coefficients of the hand; takes the same names as --aero. --aero then applies to the arm alone. "
             "Default none: --aero applies to the whole wing."
         ),
     ] = None
     hand_from: Annotated[
-        float | None,
-        Parameter(help=f"Fraction of the span at which --hand begins; default {BladeElement.hand_from}."),
+        float | None, option(f"Fraction of the span at which --hand begins; default {BladeElement.hand_from}.")
     ] = None
     upstroke_factor: Annotated[
-        float | None,
-        Parameter(help="Factor from 0 to 1 on lift and drag where air meets the wing from above; default 1."),
+        float | None, option("Factor from 0 to 1 on lift and drag where air meets the wing from above; default 1.")
     ] = None
 
     def flown(self, name: str, settings: list[str] | None, payload: float = 0.0) -> tuple[Species, Model]:
@@ -237,9 +224,9 @@ Gust = Annotated[
     several("Gust that rises and falls once: u=1 w=3 start=0.2 duration=0.5 (forward and up [m/s], times [s])."),
 ]
 Turbulence = Annotated[
-    str | None, Parameter(help=f"Dryden turbulence 30 m above the ground: {', '.join(LEVELS)}. See --wind-seed.")
+    str | None, option(f"Dryden turbulence 30 m above the ground: {', '.join(LEVELS)}. See --wind-seed.")
 ]
-WindSeed = Annotated[Whole, Parameter(help="Seed of the turbulence.")]
+WindSeed = Annotated[Whole, option("Seed of the turbulence.")]
 
 _KEYS = tuple(field.name for field in fields(CosineGust))
 

@@ -6,10 +6,8 @@ import sys
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter
-
 from wingbeat._base import FaultList, FileError, InvalidInputError
-from wingbeat.cli.arguments import check_outputs, written_to
+from wingbeat.cli.arguments import check_outputs, option, several, written_to
 from wingbeat.experiment.load_cell_run import LoadCellRun, read_run
 from wingbeat.experiment.reduction import reduce_runs
 
@@ -17,21 +15,15 @@ MAX_NOTES = 10
 
 
 def reduce(
-    runs: Annotated[list[Path], Parameter(help="CSV files, one per run; each run is at one angle.", negative=())],
+    runs: Annotated[list[Path], several("CSV files, one per run; each run is at one angle.")],
     /,
     *,
     output: Annotated[Path, written_to("The table of coefficients: .csv.")],
     last: Annotated[
-        float,
-        Parameter(help="Length of the steady part at the end of each record [s]; only this part is averaged."),
+        float, option("Length of the steady part at the end of each record [s]; only this part is averaged.")
     ] = 20.0,
     rest: Annotated[
-        list[str] | None,
-        Parameter(
-            consume_multiple=True,
-            negative="",
-            help="When the fluid is at rest [s], such as 0:5 35:40; the zero is the mean there.",
-        ),
+        list[str] | None, several("When the fluid is at rest [s], such as 0:5 35:40; the zero is the mean there.")
     ] = None,
 ) -> None:
     """Turn load-cell records into coefficients with errors; repeated runs of one point are pooled.

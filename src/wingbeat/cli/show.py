@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
-from cyclopts import Parameter
 
 from wingbeat._base import KIND, STATE_NAMES, Report, grouped
-from wingbeat.cli.arguments import flag
+from wingbeat.cli.arguments import flag, option
 from wingbeat.cli.terminal import print_json, print_report
 from wingbeat.records.forms import parse_attributes
 from wingbeat.records.numbers import power_account
@@ -24,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def show(
-    file: Annotated[Path, Parameter(help="A file written by `orbit -o`, `simulate -o` or `curve -o`.")],
+    file: Annotated[Path, option("A file written by `orbit -o`, `simulate -o` or `curve -o`.")],
     *,
     power: Annotated[bool, flag("Print the parts of an orbit's power.")] = False,
     json: Annotated[bool, flag("Print JSON alone: SI units and radians.")] = False,

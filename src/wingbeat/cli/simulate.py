@@ -9,35 +9,13 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-from cyclopts import Parameter
 from rich.table import Table
 
 from wingbeat._base import FaultList
 from wingbeat.aero.winds import Wind
-from wingbeat.cli.arguments import Output, Whole, check_outputs, check_result, figure, flag, given_beside
-from wingbeat.cli.filmed import (
-    DRAWS,
-    Kinematics,
-    Side,
-    carried,
-    check_side,
-    film_lines,
-    film_record,
-    filmed_beat,
-    plus_minus,
-    print_carried,
-)
-from wingbeat.cli.problem_options import (
-    DEFAULT_MODEL,
-    SPECIES,
-    Gust,
-    ModelOptions,
-    Settings,
-    Turbulence,
-    WindSeed,
-    unpacking,
-    wind_of,
-)
+from wingbeat.cli import filmed
+from wingbeat.cli import problem_options as options
+from wingbeat.cli.arguments import Output, Whole, check_outputs, check_result, figure, flag, given_beside, option
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import answer, plain_console
 from wingbeat.experiment.film_fit import FilmedBeat
@@ -56,28 +34,27 @@ _BESIDE_FROM += ("gust", "turbulence", "wind_seed")
 
 
 def simulate(
-    species: Annotated[str | None, SPECIES] = None,
+    species: Annotated[str | None, options.SPECIES] = None,
     *,
-    beats: Annotated[Whole, Parameter(help="Number of wingbeats.")] = 5,
-    samples: Annotated[Whole, Parameter(help="Samples per wingbeat.")] = 128,
+    beats: Annotated[Whole, option("Number of wingbeats.")] = 5,
+    samples: Annotated[Whole, option("Samples per wingbeat.")] = 128,
     u: Annotated[
-        float | None, Parameter(help="Initial forward velocity [m/s]; default: 10, or the orbit's with --from.")
+        float | None, option("Initial forward velocity [m/s]; default: 10, or the orbit's with --from.")
     ] = None,
-    w: Annotated[float | None, Parameter(help="Initial upward velocity [m/s].")] = None,
-    body_pitch_deg: Annotated[float | None, Parameter(help="Initial body pitch, nose up [deg].")] = None,
-    pitch_rate: Annotated[float | None, Parameter(help="Initial pitch rate [rad/s].")] = None,
-    model: ModelOptions = DEFAULT_MODEL,
-    set_: Settings = None,
-    kinematics: Kinematics = None,
-    side: Side = None,
+    w: Annotated[float | None, option("Initial upward velocity [m/s].")] = None,
+    body_pitch_deg: Annotated[float | None, option("Initial body pitch, nose up [deg].")] = None,
+    pitch_rate: Annotated[float | None, option("Initial pitch rate [rad/s].")] = None,
+    model: options.ModelOptions = options.DEFAULT_MODEL,
+    set_: options.Settings = None,
+    kinematics: filmed.Kinematics = None,
+    side: filmed.Side = None,
     plot_kinematics: Annotated[Path | None, figure("Draw the film, the fitted spline and its 95 % band")] = None,
     from_: Annotated[
-        Path | None,
-        Parameter(name="--from", help="Take wingbeat, vehicle, air loads and initial state from this orbit."),
+        Path | None, option("Take wingbeat, vehicle, air loads and initial state from this orbit.", "--from")
     ] = None,
-    gust: Gust = None,
-    turbulence: Turbulence = None,
-    wind_seed: WindSeed = 0,
+    gust: options.Gust = None,
+    turbulence: options.Turbulence = None,
+    wind_seed: options.WindSeed = 0,
     json: Annotated[bool, flag("Print the beats as JSON and nothing else.")] = False,
     output: Output = None,
 ) -> int:
@@ -99,13 +76,13 @@ def simulate(
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
     check_result(faults, output, plot_kinematics=plot_kinematics)
-    check_side(faults, side, kinematics)
+    filmed.check_side(faults, side, kinematics)
     if plot_kinematics is not None and kinematics is None:
         faults.add("--plot-kinematics", str(plot_kinematics), "has no film to draw", "give --kinematics")
     check_samples(faults, beats, samples)
     faults.raise_if_any()
     check_outputs(output, plot_kinematics)
-    wind_of(gust, turbulence, wind_seed, airspeed=1.0)  # refuses what it cannot be, before a film is fitted
+    options.wind_of(gust, turbulence, wind_seed, airspeed=1.0)  # refuses what it cannot be, before a film is fitted
     given = {"u": u, "w": w, "pitch_rate": pitch_rate}
     given["body_pitch"] = None if body_pitch_deg is None else math.radians(body_pitch_deg)
     disturbed = {name: value for name, value in given.items() if value is not None}
@@ -113,7 +90,7 @@ def simulate(
     start = State(u=10.0)
     if from_ is not None:
         orbit = load_orbit(from_)
-        with unpacking(from_):
+        with options.unpacking(from_):
             flown_by, wingbeat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
             animal = orbit.problem.species
             reach = orbit.problem.bounds["flap"]
@@ -122,7 +99,7 @@ def simulate(
         assert species is not None
         animal, whole = model.flown(species, set_)
         if kinematics is not None:
-            beat = filmed_beat(kinematics, side)
+            beat = filmed.filmed_beat(kinematics, side)
             animal = filmed_species(beat, animal)
         wingbeat, reach = animal.wingbeat, animal.path_bounds["flap"]
         if beat is not None and beat.film.shows_body:
@@ -130,7 +107,7 @@ def simulate(
                 rule = "has no effect on a body that moves as filmed"
                 faults.add("--gust", gust or turbulence, rule, "leave it out")
                 faults.raise_if_any()
-            prescribed = carried(beat, animal, whole.aero, given, beats, samples)
+            prescribed = filmed.carried(beat, animal, whole.aero, given, beats, samples)
         else:
             start = start._replace(**disturbed)
             velocity = float(start.u), float(start.w)
@@ -138,11 +115,11 @@ def simulate(
     if prescribed is not None:
         flight, errors = prescribed
         record: dict[str, Any] = {"body": "prescribed", "summary": flight.summary, "standard_errors": errors}
-        report = functools.partial(print_carried, flight.summary, errors)
+        report = functools.partial(filmed.print_carried, flight.summary, errors)
         completed = True
     else:
         assert flown_by is not None
-        wind = wind_of(gust, turbulence, wind_seed, math.hypot(start.u, start.w))
+        wind = options.wind_of(gust, turbulence, wind_seed, math.hypot(start.u, start.w))
         flight = fly(flown_by, wingbeat, start, beats, samples, wind=wind, species=animal)
         rows, completed = beat_rows(flight, samples), flight.completed
         if beat is not None:
@@ -154,10 +131,10 @@ def simulate(
         *crossing(flight.model.vehicle, flight.model.strips, wingbeat, reach),
         *(beat.warnings if beat else ()),
     ]
-    record |= {"warnings": notes} | ({} if beat is None else {"kinematics": film_record(beat)})
+    record |= {"warnings": notes} | ({} if beat is None else {"kinematics": filmed.film_record(beat)})
     with answer() as told:
         told.tell(record, report, json)
-        for line in film_lines(beat) if beat and not json else []:
+        for line in filmed.film_lines(beat) if beat and not json else []:
             told.show(lambda line=line: print(line))
         for note in notes:
             print(f"warning: {note}", file=sys.stderr)
@@ -170,7 +147,7 @@ def _errors(flight: Flight, beat: FilmedBeat, beats: int, samples: int, wind: Wi
     """Return the standard error of each beat's mean power, from flights with random draws of the film."""
     power = np.array([row["mean_power"] for row in beat_rows(flight, samples)], dtype=float)
     start, squares = State(*flight.states[0]), []
-    for wingbeat in beat.draws(flight.wingbeat, DRAWS):
+    for wingbeat in beat.draws(flight.wingbeat, filmed.DRAWS):
         other = fly(flight.model, wingbeat, start, beats, samples, wind=wind)
         rows = beat_rows(other, samples)
         squares.append((np.array([row["mean_power"] for row in rows], dtype=float) - power) ** 2)
@@ -204,7 +181,7 @@ def _print(rows: list[dict[str, Any]], completed: bool) -> None:
         values = (row["mean_u"], row["mean_w"], pitch, row["pitch_rate"], row["mean_power"])
         shown = ["lost" if v is None else f"{v:.3f}" for v in values]
         if "mean_power_se" in row and row["mean_power"] is not None:
-            shown[-1] = plus_minus(row["mean_power"], row["mean_power_se"])
+            shown[-1] = filmed.plus_minus(row["mean_power"], row["mean_power_se"])
         table.add_row(str(row["beat"]), *shown)
     console = plain_console()  # as markup, [m/s] would vanish
     console.print(table)

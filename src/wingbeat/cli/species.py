@@ -8,10 +8,10 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from cyclopts import App, Parameter
+from cyclopts import App
 
 from wingbeat._base import FileError
-from wingbeat.cli.arguments import flag
+from wingbeat.cli.arguments import flag, option, several
 from wingbeat.cli.terminal import plain_console, print_json, print_report
 
 if TYPE_CHECKING:
@@ -26,20 +26,13 @@ _SPEED = 10.0  # m/s, of the warning below the list
 
 @species.default
 def show(
-    name: Annotated[str | None, Parameter(help="Name of a species, or path of a .toml file.")] = None,
+    name: Annotated[str | None, option("Name of a species, or path of a .toml file.")] = None,
     *,
     alternative: Annotated[
-        str | None,
-        Parameter(help="Use this alternative: a named set of numbers in the species file, such as body-drag."),
+        str | None, option("Use this alternative: a named set of numbers in the species file, such as body-drag.")
     ] = None,
     set_: Annotated[
-        list[str] | None,
-        Parameter(
-            name="--set",
-            consume_multiple=True,
-            negative="",
-            help="Numbers to change, PATH=VALUE: wing.mass=0.02 air.density=1.0 ...",
-        ),
+        list[str] | None, several("Numbers to change, PATH=VALUE: wing.mass=0.02 air.density=1.0 ...", "--set")
     ] = None,
     json: Annotated[bool, flag("Print JSON: SI units and radians.")] = False,
     schema: Annotated[bool, flag("Print the JSON schema of species files.")] = False,
@@ -74,15 +67,15 @@ def show(
 
 @species.command
 def new(
-    path: Annotated[Path, Parameter(help="File to write, for example my.toml.")],
+    path: Annotated[Path, option("File to write, for example my.toml.")],
     *,
     kind: Annotated[
         Literal["bird", "bat", "robot"] | None,
-        Parameter(help="Derive the species by scaling laws from --mass, --wing-span and --wing-area."),
+        option("Derive the species by scaling laws from --mass, --wing-span and --wing-area."),
     ] = None,
-    mass: Annotated[float | None, Parameter(help="Mass of the whole animal [kg].")] = None,
-    wing_span: Annotated[float | None, Parameter(help="Wing span, tip to tip [m].")] = None,
-    wing_area: Annotated[float | None, Parameter(help="Area of both wings and the body between them [m2].")] = None,
+    mass: Annotated[float | None, option("Mass of the whole animal [kg].")] = None,
+    wing_span: Annotated[float | None, option("Wing span, tip to tip [m].")] = None,
+    wing_area: Annotated[float | None, option("Area of both wings and the body between them [m2].")] = None,
     force: Annotated[bool, flag("Overwrite an existing file.")] = False,
 ) -> None:
     """Write a species file: a commented template, or a bird, bat or robot derived by scaling laws."""

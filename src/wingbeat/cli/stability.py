@@ -6,9 +6,8 @@ import sys
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter
-
 from wingbeat._base import FaultList, Line
+from wingbeat.cli import problem_options as options
 from wingbeat.cli.arguments import (
     Output,
     Seed,
@@ -18,19 +17,9 @@ from wingbeat.cli.arguments import (
     figure,
     flag,
     given_beside,
+    option,
     parse_range,
     several,
-)
-from wingbeat.cli.problem_options import (
-    DEFAULT_MODEL,
-    Climb,
-    Limits,
-    Minimise,
-    ModelOptions,
-    Settings,
-    Starts,
-    WithinPlausible,
-    saved_orbit,
 )
 from wingbeat.cli.terminal import deliver, print_report, progress_bar
 from wingbeat.orbits.options import Status
@@ -48,21 +37,19 @@ _OF_A_FILE = ("source", "inputs", "height", "jumps", "sensitivities", "mode", "o
 
 
 def stability(
-    source: Annotated[
-        str, Parameter(help="Name of a species, path of a species file, or a saved orbit (.nc).", name="SPECIES")
-    ],
+    source: Annotated[str, option("Name of a species, path of a species file, or a saved orbit (.nc).", "SPECIES")],
     *,
     speed: Annotated[
-        str | None, Parameter(help="Mean forward speed [m/s], or speeds as start:stop:step; 0 is hover.")
+        str | None, option("Mean forward speed [m/s], or speeds as start:stop:step; 0 is hover.")
     ] = None,
-    climb: Climb = 0.0,
-    model: ModelOptions = DEFAULT_MODEL,
-    within_plausible: WithinPlausible = False,
-    minimise: Minimise = None,
-    subject_to: Limits = None,
-    starts: Starts = None,
+    climb: options.Climb = 0.0,
+    model: options.ModelOptions = options.DEFAULT_MODEL,
+    within_plausible: options.WithinPlausible = False,
+    minimise: options.Minimise = None,
+    subject_to: options.Limits = None,
+    starts: options.Starts = None,
     seed: Seed = 0,
-    set_: Settings = None,
+    set_: options.Settings = None,
     inputs: Annotated[
         list[str] | None,
         several(
@@ -79,7 +66,7 @@ def stability(
     ] = False,
     mode: Annotated[
         Whole | None,
-        Parameter(help="Fly the orbit with this mode, 0 for the fastest growing; write the flight to --output."),
+        option("Fly the orbit with this mode, 0 for the fastest growing; write the flight to --output."),
     ] = None,
     output: Output = None,
     json: Annotated[bool, flag("Print the numbers as JSON and nothing else.")] = False,
@@ -113,7 +100,7 @@ def stability(
     faults.raise_if_any()
     check_outputs(plot, output)
     if saved:
-        orbits = [saved_orbit(Path(source))]
+        orbits = [options.saved_orbit(Path(source))]
     else:
         assert speed is not None
         asked = {"climb": climb, "minimise": minimise, "subject_to": subject_to}

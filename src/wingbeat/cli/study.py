@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import App, Parameter, Token
 
 from wingbeat._base import FaultList, suggest
-from wingbeat.cli.arguments import Whole, check_outputs, flag, written_to
+from wingbeat.cli.arguments import Whole, check_outputs, flag, option, written_to
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import FIRST_POINT, duration, exit_of, pace, say, say_stopping, study_bar
 
@@ -39,7 +39,7 @@ def _file(kind: Any, tokens: Sequence[Token]) -> Path:
     return Path(word)
 
 
-File = Annotated[Path, Parameter(help="The study file, .toml; its store is beside it.")]
+File = Annotated[Path, option("The study file, .toml; its store is beside it.")]
 Written = Annotated[Path | None, written_to("The file to write.")]
 
 
@@ -49,9 +49,9 @@ def run(
     file: Annotated[File, Parameter(converter=_file)],
     *,
     processes: Annotated[
-        Whole | None, Parameter(name=["--processes", "-j"], help="Worker processes; default: as many as cores.")
+        Whole | None, option("Worker processes; default: as many as cores.", "--processes", "-j")
     ] = None,
-    timeout: Annotated[float, Parameter(help="Time limit for each point [s].")] = 600.0,
+    timeout: Annotated[float, option("Time limit for each point [s].")] = 600.0,
     dask: Annotated[
         str | None,
         Parameter(help="A Dask cluster instead of processes: tcp://HOST:PORT, or local:N.", show_default=False),
@@ -112,8 +112,7 @@ def plot(
     *,
     output: Written = None,
     quantity: Annotated[
-        str | None,
-        Parameter(help="Column of the table to draw, such as mean_power; default: the minimised quantity."),
+        str | None, option("Column of the table to draw, such as mean_power; default: the minimised quantity.")
     ] = None,
 ) -> None:
     """Draw a result against the varied parameters: lines for one, maps for two, parallel axes for more of them."""

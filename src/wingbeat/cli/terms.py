@@ -7,44 +7,33 @@ import math
 from pathlib import Path
 from typing import Annotated, Any
 
-from cyclopts import Parameter
-
 from wingbeat._base import FaultList
-from wingbeat.cli.arguments import Seed, Whole, check_files, check_outputs, figure, flag, parse_range
-from wingbeat.cli.problem_options import (
-    DEFAULT_MODEL,
-    SPECIES,
-    SPEED,
-    Climb,
-    Limits,
-    ModelOptions,
-    Settings,
-    WithinPlausible,
-)
+from wingbeat.cli import problem_options as options
+from wingbeat.cli.arguments import Seed, Whole, check_files, check_outputs, figure, flag, option, parse_range
 from wingbeat.cli.terminal import deliver, plain_console, progress_bar
 from wingbeat.plots import terms_page
 from wingbeat.results.terms import found_any, trace_terms
 
 
 def terms(
-    species: Annotated[str, SPECIES],
+    species: Annotated[str, options.SPECIES],
     *,
-    speed: Annotated[float, SPEED],
-    climb: Climb = 0.0,
-    model: ModelOptions = DEFAULT_MODEL,
-    shares: Annotated[str, Parameter(help="Shares of the terms, start:stop:step: 0 is none, 1 is all of them.")] = (
+    speed: Annotated[float, options.SPEED],
+    climb: options.Climb = 0.0,
+    model: options.ModelOptions = options.DEFAULT_MODEL,
+    shares: Annotated[str, option("Shares of the terms, start:stop:step: 0 is none, 1 is all of them.")] = (
         "0:1:0.25"
     ),
-    within_plausible: WithinPlausible = False,
+    within_plausible: options.WithinPlausible = False,
     minimise: Annotated[
-        str | None, Parameter(help="Quantity to minimise: frequency, ...; default that of the model.")
+        str | None, option("Quantity to minimise: frequency, ...; default that of the model.")
     ] = None,
-    subject_to: Limits = None,
+    subject_to: options.Limits = None,
     starts: Annotated[
-        Whole, Parameter(help="Number of starts at the first and last share; other shares get a third as many.")
+        Whole, option("Number of starts at the first and last share; other shares get a third as many.")
     ] = 6,
     seed: Seed = 0,
-    set_: Settings = None,
+    set_: options.Settings = None,
     json: Annotated[bool, flag("Print the trace as JSON and nothing else.")] = False,
     plot: Annotated[Path | None, figure("Draw the trace")] = None,
 ) -> int:

@@ -5,22 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Annotated, Any
 
-from cyclopts import Parameter
 from rich.console import Console
 
 from wingbeat._base import FaultList, InvalidInputError, written
 from wingbeat._workers.tuning import core_count
-from wingbeat.cli.arguments import Whole, flag, several
-from wingbeat.cli.problem_options import (
-    DEFAULT_MODEL,
-    SPECIES,
-    SPEED,
-    Climb,
-    Minimise,
-    ModelOptions,
-    Settings,
-    WithinPlausible,
-)
+from wingbeat.cli import problem_options as options
+from wingbeat.cli.arguments import Whole, flag, option, several
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import print_json, progress_bar
 from wingbeat.orbits.options import Status
@@ -44,23 +34,23 @@ _DEFAULT = (*QUANTITIES, "spectral_radius")
 
 
 def uncertainty(
-    species: Annotated[str, SPECIES],
+    species: Annotated[str, options.SPECIES],
     *,
-    speed: Annotated[float, SPEED],
-    climb: Climb = 0.0,
-    model: ModelOptions = DEFAULT_MODEL,
-    minimise: Minimise = None,
+    speed: Annotated[float, options.SPEED],
+    climb: options.Climb = 0.0,
+    model: options.ModelOptions = options.DEFAULT_MODEL,
+    minimise: options.Minimise = None,
     quantities: Annotated[
         list[str] | None,
         several(f"Quantities whose uncertainty to compute, as in `wingbeat orbit`; default {' '.join(_DEFAULT)}."),
     ] = None,
-    within_plausible: WithinPlausible = False,
-    samples: Annotated[Whole, Parameter(help="Number of random samples to solve.")] = 2000,
+    within_plausible: options.WithinPlausible = False,
+    samples: Annotated[Whole, option("Number of random samples to solve.")] = 2000,
     share: Annotated[
-        float, Parameter(help="Fraction of every plausible range to sample, around the parameter's value.")
+        float, option("Fraction of every plausible range to sample, around the parameter's value.")
     ] = 1.0,
-    seed: Annotated[Whole, Parameter(help="Seed of the samples.")] = 0,
-    set_: Settings = None,
+    seed: Annotated[Whole, option("Seed of the samples.")] = 0,
+    set_: options.Settings = None,
     json: Annotated[bool, flag("Print the numbers as JSON and nothing else.")] = False,
 ) -> int:
     """Compute the uncertainty of an orbit's frequency, power and stability, and check its first-order estimate.

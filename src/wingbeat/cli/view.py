@@ -6,10 +6,8 @@ import sys
 from pathlib import Path
 from typing import Annotated
 
-from cyclopts import Parameter
-
 from wingbeat._base import FaultList, InvalidInputError
-from wingbeat.cli.arguments import Whole, check_outputs, flag, written_to
+from wingbeat.cli.arguments import Whole, check_outputs, flag, option, written_to
 from wingbeat.cli.problem_options import saved_orbit
 from wingbeat.cli.terminal import progress_bar
 from wingbeat.records.result_files import load_dataset
@@ -20,16 +18,14 @@ _SUFFIXES = (".html", ".gif")
 
 
 def view(
-    file: Annotated[Path, Parameter(help="A file written by `orbit -o` or `simulate -o`.")],
-    other: Annotated[Path | None, Parameter(help="A second file to compare with.")] = None,
+    file: Annotated[Path, option("A file written by `orbit -o` or `simulate -o`.")],
+    other: Annotated[Path | None, option("A second file to compare with.")] = None,
     *,
     output: Annotated[Path, written_to("The file to write: .html for a page, .gif for an animated picture.")],
     push: Annotated[
         bool, flag("Let the reader push the animal: add flights through gusts, without and with feedback.")
     ] = False,
-    delay: Annotated[
-        Whole | None, Parameter(help="With --push: beats by which feedback acts later; default 0.")
-    ] = None,
+    delay: Annotated[Whole | None, option("With --push: beats by which feedback acts later; default 0.")] = None,
 ) -> None:
     """Show a saved flight in motion: wings, air loads and time series at every phase of the beat.
 

@@ -313,10 +313,7 @@ def _check_numbers(form: StudyForm, faults: FaultList) -> None:
         listed = isinstance(values, list) and name != "free"
         if listed and len({repr(number(value)) for value in values}) < len(values):
             faults.add(name, shown(values), "names a value twice", "keep one of them")
-    both = (
-        *("speed", "climb", "payload", "extension", "blend_width_deg"),
-        *OF_ELEMENTS,
-    )
+    both = (*("speed", "climb", "payload", "extension", "blend_width_deg"), *OF_ELEMENTS)
     for name in both:
         if {name, f"aero.{name}"} & form.vary.keys() and name in form.model_fields_set:
             faults.add(name, shown(getattr(form, name)), "is also varied", "keep one of the two")

@@ -80,6 +80,15 @@ def test_one_fault_is_told_once_at_its_place(load: Any, old: str, new: str, wher
     assert "\n" not in lines[where]
 
 
+def test_a_muscle_without_its_stress_is_refused(load: Any) -> None:
+    """Such a file was taken, with a stress of 1 Pa and a curvature of 1."""
+    given = "mass = 0.04\nelevator_share = 0.1\nstrain_per_angle = 0.15\nmax_strain_rate = 20\n"
+    lines = faults_of(load, f"{MINIMAL}\n[vehicle.muscle]\n{given}")
+    assert lines.keys() == {"vehicle.muscle.isometric_stress", "vehicle.muscle.curvature"}
+    told = "nothing: must be given; stress of fully active fibres that keep their length [Pa]"
+    assert told in lines["vehicle.muscle.isometric_stress"]
+
+
 def test_a_fault_names_value_rule_and_fix(load: Any) -> None:
     lines = faults_of(load, MINIMAL.replace("flap_amplitude_deg = 40", "flap_amplitude_deg = -40"))
     assert list(lines.values()) == [

@@ -11,8 +11,8 @@ from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, INFLOWS, LIBRARY,
 from wingbeat.aero.blade_element import OF_ELEMENTS
 from wingbeat.animal.kinematics import ANGLES
 from wingbeat.animal.species.numbers import PARTS, TAIL_PATHS, Number
-from wingbeat.animal.species.part_laws import muscle_numbers, tail_numbers
 from wingbeat.animal.species.reading import species_names
+from wingbeat.animal.species.scaling import muscle_numbers, tail_numbers
 from wingbeat.animal.species.species import Species
 from wingbeat.models import model_of
 from wingbeat.orbits.problem.quantities import QUANTITIES

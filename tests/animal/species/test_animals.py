@@ -87,7 +87,7 @@ def test_every_law_has_unit_source_and_spread() -> None:
     for law in laws:
         assert law.source.strip()
         assert law.scatter.strip()
-        assert law.unit in ("m", "kg", "kg m2", "m2", "1", "Hz", "rad", "m/s")
+        assert law.unit in ("m", "kg", "kg m2", "m2", "1", "Hz", "rad", "m/s", "Pa", "1/s", "1/rad")
         assert 0 <= law.spread[0] <= 1 <= law.spread[1]
 
 

@@ -6,7 +6,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.species_texts import faults_of
-from wingbeat.animal.species import part_laws
+from wingbeat.animal.species import scaling
 from wingbeat.animal.species.reading import template
 from wingbeat.animal.species.writing import species_text
 from wingbeat.viewer.look import tail_corners
@@ -98,7 +98,7 @@ def test_a_tilt_without_a_tail_is_refused_or_warned_of():
 
 def test_laws_give_a_pigeon_a_pigeons_tail():
     """One dissected pigeon of 0.26 kg has a tail 0.1002 m long (Harvey et al. 2022); AVONET's mean is 0.1055 m."""
-    assert part_laws.TAIL_LENGTH(0.26) == pytest.approx(0.1, rel=0.05)
+    assert scaling.TAIL_LENGTH(0.26) == pytest.approx(0.1, rel=0.05)
     tail = PIGEON.with_tail().vehicle.tail
     wings = 2 * PIGEON.vehicle.wing.semi_span * PIGEON.vehicle.wing.mean_chord
     assert 0.05 < tail.area / wings < 0.15

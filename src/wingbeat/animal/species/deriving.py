@@ -1,66 +1,23 @@
-"""The unmeasured numbers of an animal, its bounds, alternatives and plausible ranges, from mass, span and area."""
+"""The unmeasured numbers of an animal, its bounds, alternatives and plausible ranges, from mass, span and area.
+
+What is the same for all animals, or for all of a kind, stands in `deriving.toml`.
+"""
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
 
-from wingbeat._base import plain_unit
+from wingbeat._base import FaultList
 from wingbeat.animal.species import scaling
-from wingbeat.animal.species.building import default_of
-from wingbeat.animal.species.numbers import PLAUSIBLE, Alternative, Bound, Law, Number, Numbers, Range, SpeciesText
-from wingbeat.animal.vehicle import Air
+from wingbeat.animal.species.numbers import PLAUSIBLE, Alternative, Bound, Number, Numbers, Range, SpeciesText
+from wingbeat.animal.species.reading import read_species_text
+from wingbeat.animal.species.scaling import Law
 
-_NO_LAW = "nothing is known: no law of robots was found"
-# Power of flight muscle in short maximal bursts [W/kg]; sustained flight cannot exceed it.
-_MUSCLE = 460.0
-_MUSCLE_SOURCE = (
-    "flight muscles give 360 to 460 W/kg in short maximal bursts, animals of 0.0002 to 5 kg "
-    "(A: Askew, Marsh and Ellington 2001, J Exp Biol 204:3601, abstract, doi 10.1242/jeb.204.21.3601)"
-)
-# Share of the whole mass that is flight muscle.
-_BIRD_MUSCLE = (
-    0.25,
-    "guess: 0.25 of a bird is flight muscle; 0.19 of a pigeon (Usherwood et al. 2005, doi 10.1242/jeb.01359)",
-)
-_BAT_MUSCLE = (
-    0.23,
-    "at most 0.23 of a bat is flight muscle, 0.09 to 0.23 of 29 Australian species "
-    "(A: Bullen and McKenzie 2004, Aust J Zool 52:605, abstract, doi 10.1071/ZO04036)",
-)
-_FORCE = Range(
-    None,
-    4.0,
-    "1",
-    "guess: no measurement found; a downstroke of half the beat that carries the whole weight alone has a peak of "
-    "pi weights if it is a half sine (D), and 4 leaves room for a shorter downstroke",
-)
-_BODY_PITCH = Range(
-    None,
-    math.radians(20.0),
-    "rad",
-    "guess: no measurement found; a body that turns by 20 degrees turns a sixth of its lift into thrust and drag "
-    "by turns",
-)
-# In cruise.
-_MEAN_BODY_PITCH = Range(
-    math.radians(-10.0),
-    math.radians(40.0),
-    "rad",
-    "guess: no measured range was found; the body angle of pigeons falls with speed (A: Tobalske and Dial 1996, "
-    "J Exp Biol 199:263, abstract), so that the body is nearly level in fast cruise and steeper in slow cruise; 10 "
-    "degrees nose down are left for the rest",
-)
-# Strouhal numbers of cruising animals.
-_STROUHAL = 0.2, 0.4
-_STROUHAL_SOURCE = (
-    "A: 42 species of birds, bats and insects in cruise (Taylor, Nudds and Thomas 2003, Nature 425:707, "
-    "doi 10.1038/nature02000, abstract)"
-)
-
-
+_FILE = Path(__file__).with_suffix(".toml")
+# The faults of the file are the numbers that it lacks, which laws give.
+_STOCK = read_species_text(_FILE.read_text(encoding="utf-8"), _FILE.name, "", FaultList())
 _SPEED = 7.0  # m/s, of a bat's stock wingbeat: in the middle of the speeds that the law's spread covers
 # Bounds of the frequency in a search. Two frequencies determine them: the stock one, and that of the cruising law
 # of birds, which depends on size, weight and air. The lower bound is the first factor times the lower frequency;
@@ -68,7 +25,6 @@ _SPEED = 7.0  # m/s, of a bat's stock wingbeat: in the middle of the speeds that
 # of derived animals and robots (1 g to 10 kg, at 0.5 to 1.6 times the speed at which the lift coefficient is 0.6),
 # the minimum frequency was 0.98 to 1.74 times the frequency of the cruising law.
 _WIDE = 1 / 8, 4.0
-_SU_FAN = "Su et al., arXiv 2302.09602"
 
 
 @dataclass(frozen=True)
@@ -81,8 +37,6 @@ class Kind:
     pitch_inertia: Law
     flap_inertia: Law | None
     aspect_ratios: tuple[tuple[float, float], str]
-    recovery: dict[str, float]
-    recovery_source: str
     muscle: tuple[float, str] | None  # share of the whole mass that is flight muscle, and its source
 
 
@@ -93,9 +47,10 @@ BIRD = Kind(
     scaling.BIRD_PITCH_INERTIA,
     scaling.BIRD_FLAP_INERTIA,
     scaling.BIRD_ASPECT_RATIO,
-    {"span_retraction": 0.3, "twist_ratio": 1.0, "fold_amplitude": 0.0},
-    f"guess: as the pigeon of {_SU_FAN}, who give no retraction",
-    _BIRD_MUSCLE,
+    (
+        0.25,
+        "guess: 0.25 of a bird is flight muscle; 0.19 of a pigeon (Usherwood et al. 2005, doi 10.1242/jeb.01359)",
+    ),
 )
 BAT = Kind(
     "bat",
@@ -104,9 +59,11 @@ BAT = Kind(
     scaling.BAT_PITCH_INERTIA,
     scaling.BAT_FLAP_INERTIA,
     scaling.BAT_ASPECT_RATIO,
-    {"span_retraction": 0.0, "twist_ratio": 1.6, "fold_amplitude": math.radians(10)},
-    f"guess: as the bat of {_SU_FAN}",
-    _BAT_MUSCLE,
+    (
+        0.23,
+        "at most 0.23 of a bat is flight muscle, 0.09 to 0.23 of 29 Australian species "
+        "(A: Bullen and McKenzie 2004, Aust J Zool 52:605, abstract, doi 10.1071/ZO04036)",
+    ),
 )
 ROBOT = Kind(
     "robot",
@@ -115,8 +72,6 @@ ROBOT = Kind(
     scaling.ROBOT_PITCH_INERTIA,
     None,
     scaling.ROBOT_ASPECT_RATIO,
-    {"span_retraction": 0.0, "twist_ratio": 1.0, "fold_amplitude": 0.0},
-    "guess: rigid wings",
     None,
 )
 
@@ -130,25 +85,27 @@ def plausible_of(kind: Kind, mass: float, chord: float, viscosity: float) -> dic
     0.4
     """
     if kind.muscle is None:
+        unknown = "nothing is known: no law of robots was found"
         return {
-            key.name: Range(None, None, key.unit, _NO_LAW) for key in PLAUSIBLE if key.name != "peak_activation"
+            key.name: Range(None, None, key.unit, unknown) for key in PLAUSIBLE if key.name != "peak_activation"
         }
     share, share_source = kind.muscle
     cruise = scaling.CRUISE_BY_MASS.number(mass)
     slowest, fastest = cruise.range or (0.0, math.inf)
     whose = "; birds, no law of bats was found" if kind is BAT else ""
     law = f"{scaling.CRUISE_BY_MASS.formula} = {cruise.value:.3g} m/s, {scaling.CRUISE_BY_MASS.source}{whose}"
-    steeper = f"{_MEAN_BODY_PITCH.source}; cruise is 0.6 to 1.6 times {law}: slower flight is steeper"
-    larger = f"{_STROUHAL_SOURCE}; cruise is 0.6 to 1.6 times {law}: slower flight has a larger one"
+    found = dict(_STOCK.plausible)
+    power = found["positive_power_per_mass"]
+    assert power.high is not None
+    found["positive_power_per_mass"] = power._replace(
+        high=power.high * share, source=f"{power.source}; {share_source}"
+    )
+    for name, beyond in (("mean_body_pitch", "is steeper"), ("strouhal", "has a larger one")):
+        source = f"{found[name].source}; cruise is 0.6 to 1.6 times {law}: slower flight {beyond}"
+        found[name] = found[name]._replace(source=source, speeds=(slowest, fastest))
     highest = f"derived: the fastest cruise, 1.6 times {law}, at a chord of {chord:.3g} m"
-    return {
-        "positive_power_per_mass": Range(None, _MUSCLE * share, "W/kg", f"{_MUSCLE_SOURCE}; {share_source}"),
-        "peak_force_over_weight": _FORCE,
-        "mean_body_pitch": _MEAN_BODY_PITCH._replace(source=steeper, speeds=(slowest, fastest)),
-        "body_pitch_range": _BODY_PITCH,
-        "strouhal": Range(*_STROUHAL, "1", larger, (slowest, fastest)),
-        "reynolds": Range(None, fastest * chord / viscosity, "1", highest),
-    }
+    found["reynolds"] = Range(None, fastest * chord / viscosity, "1", highest)
+    return found
 
 
 def derive(
@@ -158,21 +115,35 @@ def derive(
 
     The bounds of the wingbeat frequency are `frequencies` [Hz], or wide ones around the stock frequency.
     """
-    found = _vehicle(kind, content.numbers, mass, span, area)
-    limits = {"density": (0.8, 1.35), "viscosity": (1.2e-5, 2.0e-5), "gravity": (9.78, 9.84)}
-    for name, value in dataclasses.asdict(Air()).items():
-        found[f"air.{name}"] = Number(value, plain_unit(name), "guess: standard air at sea level", limits[name])
-    air = [single(content.numbers.get(path, found[path])) for path in ("air.density", "air.gravity")]
-    found |= _wingbeat(kind, mass, span, area, *air)
+    numbers = content.numbers
+    found = _STOCK.numbers | _STOCK.alternatives[kind.name].numbers | _vehicle(kind, numbers, mass, span, area)
+    air = [single(numbers.get(path, found[path])) for path in ("air.density", "air.gravity")]
+    if kind is BAT:
+        frequency, amplitude = bat_beat(mass, area)
+    elif kind is BIRD:
+        frequency = scaling.BIRD_FREQUENCY.number(mass, span, area, *air)
+        amplitude = scaling.BIRD_FLAP_AMPLITUDE.number(span)
+    else:
+        frequency = scaling.ROBOT_FREQUENCY.number(mass, span, area, *air)
+        amplitude = scaling.ROBOT_FLAP_AMPLITUDE.number()
+    found |= {"wingbeat.frequency": frequency, "wingbeat.flap_amplitude": amplitude}
     for path, number in found.items():
-        content.numbers.setdefault(path, number)
-    stock = content.numbers["wingbeat.frequency"]
-    usual = [single(stock)]
-    if "wingbeat.frequency" in found and stock is found["wingbeat.frequency"]:
+        numbers.setdefault(path, number)
+    usual = [single(numbers["wingbeat.frequency"])]
+    if numbers["wingbeat.frequency"] is frequency:
         usual.append(scaling.BIRD_FREQUENCY(mass, span, area, *air))
-    content.free, content.path = _bounds(usual, frequencies)
-    content.written = {name: (f"free.{name}", list(bound.bounds)) for name, bound in content.free.items()}
-    content.plausible = plausible_of(kind, mass, area / span, single(content.numbers["air.viscosity"]))
+    bound = (
+        Bound(frequencies, "given")
+        if frequencies
+        else Bound(
+            (_WIDE[0] * min(usual), _WIDE[1] * max(usual)),
+            "guess: an eighth to four times what the laws of the frequency give",
+            True,
+        )
+    )
+    content.free, content.path = {"frequency": bound} | _STOCK.free, dict(_STOCK.path)
+    content.written = _STOCK.written | {"frequency": ("free.frequency", list(bound.bounds))}
+    content.plausible = plausible_of(kind, mass, area / span, single(numbers["air.viscosity"]))
     drag, rigid = Numbers(), Numbers()
     drag["vehicle.body.drag_area"] = scaling.BODY_DRAG_AREA.number(mass)
     reason = "the drag of the body, which Su et al. leave out; the law of birds"
@@ -188,13 +159,13 @@ def _vehicle(kind: Kind, given: Numbers, mass: float, span: float, area: float) 
     if kind is BIRD:
         # A range only if no bird of this span has this mass: what somebody measured is exact.
         usual = scaling.BIRD_MASS.number(span)
-        low, high = _range(usual)
-        if not low <= mass <= high:
-            whole = Number(mass, "kg", f"given; range {usual.source}", (low, high))
+        if usual.range and not usual.range[0] <= mass <= usual.range[1]:
+            whole = Number(mass, "kg", f"given; range {usual.source}", usual.range)
     length = given.get("vehicle.wing.semi_span", kind.wing_length.number(span))
     wing_mass = given.get("vehicle.wing.mass", kind.wing_mass.number(mass))
     drag = scaling.BODY_DRAG_AREA.number(mass)
-    drag_source = f"{_SU_FAN}, have no body drag; top of the range {drag.source}"
+    assert drag.range is not None, "every law has a spread"
+    drag_source = f"Su et al., arXiv 2302.09602, have no body drag; top of the range {drag.source}"
     chord = scaling.MEAN_CHORD.number(span, area)
     (low, high), whose = kind.aspect_ratios
     if not low <= span * span / area <= high:
@@ -206,41 +177,15 @@ def _vehicle(kind: Kind, given: Numbers, mass: float, span: float, area: float) 
         exponent = scaling.mass_exponent(kind.flap_inertia, single(wing_mass), single(length))
     half_width = scaling.BODY_HALF_WIDTH.number(mass)
     beside = f"guess: level with the body's centre of mass; half the body's width to the side, {half_width.source}"
-    vertical = "guess: near vertical is the best in cruise (Parslew 2015, J R Soc Interface 12:20140953, on birds)"
     return {
         "vehicle.mass": whole,
         "vehicle.body.pitch_inertia": kind.pitch_inertia.number(mass),
-        "vehicle.body.drag_area": Number(0.0, plain_unit("drag_area"), drag_source, (0.0, _range(drag)[1])),
+        "vehicle.body.drag_area": Number(0.0, drag.unit, drag_source, (0.0, drag.range[1])),
         "vehicle.wing.semi_span": length,
         "vehicle.wing.chord": chord,
         "vehicle.wing.mass": wing_mass,
         "vehicle.wing.mass_exponent": exponent,
         "vehicle.wing.shoulder": Number((0.0, single(half_width), 0.0), "m", beside, (-0.02 * span, 0.08 * span)),
-        "vehicle.wing.stroke_plane_angle": _guess("vehicle.wing.stroke_plane_angle", None, 45, 110, vertical),
-    }
-
-
-def _wingbeat(kind: Kind, mass: float, span: float, area: float, density: Any, gravity: Any) -> dict[str, Number]:
-    if kind is BAT:
-        frequency, amplitude = bat_beat(mass, area)
-    elif kind is BIRD:
-        frequency = scaling.BIRD_FREQUENCY.number(mass, span, area, density, gravity)
-        amplitude = scaling.BIRD_FLAP_AMPLITUDE.number(span)
-    else:
-        frequency = scaling.ROBOT_FREQUENCY.number(mass, span, area, density, gravity)
-        amplitude = scaling.ROBOT_FLAP_AMPLITUDE.number()
-    ranges = {"span_retraction": (0.0, 0.5), "twist_ratio": (1.0, 2.0), "fold_amplitude": (0.0, math.radians(30))}
-    found = {
-        f"wingbeat.{name}": Number(value, plain_unit(name), kind.recovery_source, ranges[name])
-        for name, value in kind.recovery.items()
-    }
-    return found | {
-        "wingbeat.frequency": frequency,
-        "wingbeat.flap_mean": _guess("wingbeat.flap_mean", 0, -30, 30),
-        "wingbeat.flap_amplitude": amplitude,
-        "wingbeat.pitch_mean": _guess("wingbeat.pitch_mean", 8, -30, 40),
-        "wingbeat.pitch_amplitude": _guess("wingbeat.pitch_amplitude", 15, 0, 60),
-        "wingbeat.wrist": Number(0.5, "1", "guess: half the span; without a fold it has no effect", (0.3, 0.7)),
     }
 
 
@@ -249,41 +194,7 @@ def bat_beat(mass: float, area: float) -> tuple[Number, Number]:
     return scaling.BAT_FREQUENCY.number(mass, _SPEED), scaling.BAT_FLAP_AMPLITUDE.number(_SPEED, area)
 
 
-def _guess(path: str, degrees: float | None, low: float, high: float, source: str = "first guess") -> Number:
-    value = default_of(path) if degrees is None else math.radians(degrees)
-    return Number(value, "rad", source, (math.radians(low), math.radians(high)))
-
-
-def _bounds(usual: list[float], given: tuple[float, float] | None) -> tuple[dict[str, Bound], dict[str, Bound]]:
-    """Return the bounds of the free parameters and those along the path; `usual` holds typical frequencies [Hz]."""
-    wide = _WIDE[0] * min(usual), _WIDE[1] * max(usual)
-    guess = "guess: an eighth to four times what the laws of the frequency give"
-    frequency = Bound(wide, guess, True) if given is None else Bound(given, "given")
-
-    def angles(low: float, high: float, reason: str) -> Bound:
-        return Bound((math.radians(low), math.radians(high)), reason, True)
-
-    reach = "the shoulder's reach, a guess"
-    free = {
-        "frequency": frequency,
-        "flap_mean": angles(-30, 30, reach),
-        "flap_amplitude": angles(5, 70, "guess: wide around what animals show"),
-        "pitch_mean": angles(-30, 40, reach),
-        "pitch_amplitude": angles(0, 60, reach),
-    }
-    path = {
-        "body_pitch": angles(-60, 60, "steeper is a manoeuvre, not forward flight"),
-        "flap": angles(-90, 90, f"{reach}: upright above and below; no measurement found"),
-    }
-    return free, path
-
-
 def single(number: Number) -> float:
     """Return the value of a number that is not a list."""
     assert not isinstance(number.value, tuple), "of the numbers here the chord alone may be a list"
     return number.value
-
-
-def _range(number: Number) -> tuple[float, float]:
-    assert number.range is not None, "every law has a spread"
-    return number.range

@@ -36,8 +36,8 @@ from wingbeat.animal.species.numbers import (
     spoken,
     to_si,
 )
-from wingbeat.animal.species.part_laws import tail_numbers
 from wingbeat.animal.species.reading import packaged_text, read_species_text, species_names
+from wingbeat.animal.species.scaling import tail_numbers
 from wingbeat.animal.species.shape import shape_of
 from wingbeat.animal.species.species import Species
 
@@ -165,7 +165,7 @@ def bird(
     wing_span : tip to tip [m].
     wing_area : both wings and the body between them [m2].
     name, common_name, scientific_name : its names.
-    tail : whether it gets a tail, spread by 60 degrees, from the laws of `wingbeat.animal.species.part_laws`.
+    tail : whether it gets a tail, spread by 60 degrees, from the laws of `wingbeat.animal.species.scaling`.
     measured : any number of a species file, by its name; it replaces the one from the laws: ``wing_mass``,
         ``pitch_inertia``, ``semi_span``, ``chord``, ``frequency``, ``flap_amplitude_deg``, ``density``,
         ``tail_area`` and so on.

@@ -1,10 +1,10 @@
-"""The numbers of a species: which there are, each with unit, source and range, and the laws that give them."""
+"""The numbers of a species: which there are, each with unit, source and range, and how readers see them."""
 
 from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -296,72 +296,3 @@ def bound_cells(path: str, limits: tuple[float, float]) -> tuple[str, str, str]:
 # In the source of a number that a law gave outside its data, this text precedes the value of the input and the
 # range of the data.
 OUTSIDE = "outside its data: "
-
-
-HARVEY = "Harvey et al. 2022, Nature 603:648, doi 10.1038/s41586-022-04477-8, data of the R package AvInertia"
-
-
-@dataclass(frozen=True)
-class Data:
-    """The data a law was fitted to: the range of each input by its symbol, in SI units, and where it was read.
-
-    The ranges are empty for a law without data, or with data that we did not find; `where` then says why.
-    """
-
-    ranges: dict[str, tuple[float, float]]
-    where: str
-
-
-@dataclass(frozen=True)
-class Law:
-    """A number of an animal as a function of others, in SI units, with its source and how far animals scatter.
-
-    The `inputs` are symbol and unit of each value that it takes; `spread` is the lowest and highest ratio of
-    measured values to what the law gives, and `scatter` says where that comes from; `beyond` says how the law
-    continues outside its data, if not by its formula.
-
-    >>> from wingbeat.animal.species.scaling import BIRD_WING_MASS
-    >>> number = BIRD_WING_MASS.number(0.316)
-    >>> f"{number.value:.4f} {number.unit}"
-    '0.0199 kg'
-    """
-
-    unit: str
-    formula: str
-    inputs: tuple[str, ...]
-    function: Callable[..., float]
-    source: str
-    spread: tuple[float, float]
-    scatter: str
-    data: Data
-    beyond: str = ""
-
-    def __call__(self, *values: float) -> float:
-        """Return what the law gives."""
-        return self.function(*values)
-
-    def number(self, *values: float) -> Number:
-        """Return what the law gives, marked as derived, with its spread as the plausible range."""
-        value, (low, high) = self(*values), self.spread
-        where = ", ".join(_told(*pair) for pair in zip(self.inputs, values, strict=True))
-        formula = f"{self.formula} at {where}" if where else self.formula
-        source = f"derived: {formula} ({self.source}); spread {low:g} to {high:g} times: {self.scatter}"
-        return Number(value, self.unit, source + self.outside(*values), (low * value, high * value))
-
-    def outside(self, *values: float) -> str:
-        """Return which of these values are outside the law's data, as text to append to a source; empty if none."""
-        found = []
-        for pair, value in zip(self.inputs, values, strict=True):
-            symbol, unit = pair.split()
-            low, high = self.data.ranges.get(symbol, (-math.inf, math.inf))
-            if not low <= value <= high:
-                found.append(f"{_told(pair, value)}, data {low:.4g} to {high:.4g} {unit}")
-        if not found:
-            return ""
-        beyond = f"; there {self.beyond}" if self.beyond else ""
-        return f"; {OUTSIDE}{' and '.join(found)} ({self.data.where}){beyond}"
-
-
-def _told(symbol_and_unit: str, value: float) -> str:
-    symbol, unit = symbol_and_unit.split()
-    return f"{symbol} = {value:.4g} {unit}"

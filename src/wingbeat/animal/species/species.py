@@ -36,7 +36,7 @@ from wingbeat.animal.species.numbers import (
     to_si,
     words,
 )
-from wingbeat.animal.species.part_laws import muscle_numbers, tail_numbers
+from wingbeat.animal.species.scaling import muscle_numbers, tail_numbers
 from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.vehicle import Air, Vehicle
 
@@ -223,7 +223,7 @@ class Species(Reported):
     def with_tail(self) -> Species:
         """Return this species with the tail that laws of birds give for its mass, spread by 60 degrees.
 
-        The sources of its numbers say ``derived``; see `animal.species.part_laws`. The mass does not change.
+        The sources of its numbers say ``derived``; see `animal.species.scaling`. The mass does not change.
 
         Raises
         ------
@@ -238,7 +238,7 @@ class Species(Reported):
     def with_muscle(self) -> Species:
         """Return this species with the flight muscle that laws give for its mass.
 
-        The sources of its numbers say ``derived``; see `animal.species.part_laws`. The mass does not change.
+        The sources of its numbers say ``derived``; see `animal.species.scaling`. The mass does not change.
 
         Raises
         ------

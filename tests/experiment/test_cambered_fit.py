@@ -87,7 +87,7 @@ def test_drag_knows_what_its_lift_leaves_uncertain(fit):
         ends = []
         for way in (step, -step):
             moved = dataclasses.replace(fit.lift, parameters=fit.lift.parameters | {name: value + way})
-            again = fit_drag(FORMS["cambered"].drag, moved, fit.drag.values, None, "C_D")
+            again = fit_drag(FORMS["cambered"].drag, moved, fit.drag.values, None)
             ends.append(np.array(list(again.parameters.values())))
         found = (ends[0] - ends[1]) / (2 * step)
         spread = np.sqrt(np.diag(fit.drag.covariance)) / math.sqrt(joint[i, i])

@@ -8,6 +8,7 @@ from __future__ import annotations
 import csv
 from dataclasses import dataclass
 from io import StringIO
+from itertools import product
 from pathlib import Path
 
 import numpy as np
@@ -110,6 +111,8 @@ def synthetic_runs(campaign: Campaign, seed: int = 0) -> list[LoadCellRun]:
     >>> [run.name for run in synthetic_runs(small)]
     ['re30000_a10_1', 're30000_a10_2', 're30000_a20_1', 're30000_a20_2']
     """
+    from scipy.signal import lfilter
+
     random = np.random.default_rng(seed)
     count = round(campaign.duration * campaign.rate)
     time = np.arange(count) / campaign.rate
@@ -117,51 +120,31 @@ def synthetic_runs(campaign: Campaign, seed: int = 0) -> list[LoadCellRun]:
     cos, sin = np.cos(np.deg2rad(campaign.alpha_deg)), np.sin(np.deg2rad(campaign.alpha_deg))
     normal = lift * cos + drag * sin
     true = np.stack([normal, drag * cos - lift * sin, normal * (0.5 - centre)], axis=1)
-    points = [(place, repeat) for place in range(len(true)) for repeat in range(1, campaign.repeats + 1)]
-    plate = {key: getattr(campaign, key) for key in _SHARED}
+    plate = {key: getattr(campaign, key) for key in CONSTANT_UNITS | OPTIONAL_UNITS if key != "speed"}
+    memory = np.exp(-1.0 / (campaign.rate * campaign.memory))
+    level = campaign.turbulence * np.array([[1.0], [1.0], [0.25]])
+    transient = 1.0 + campaign.start * np.exp(-time / 1.5)
+    scale = np.array([[1.0], [1.0], [0.1]])
     runs = []
     for reynolds in campaign.reynolds:
         speed = reynolds * campaign.viscosity / campaign.chord
-        records = _records(campaign, true[[place for place, _ in points]], speed, time, random)
-        for (place, repeat), loads, tare in zip(points, *records, strict=True):
-            alpha = campaign.alpha_deg[place]
+        force = 0.5 * campaign.density * speed**2 * campaign.chord * campaign.span
+        full = np.array([[force], [force], [force * campaign.chord]])
+        for (alpha, coefficients), repeat in product(
+            zip(campaign.alpha_deg, true, strict=True), range(1, campaign.repeats + 1)
+        ):
+            kicks = random.normal(size=(3, count)) * np.sqrt(1.0 - memory**2)
+            # Start from the stationary distribution; otherwise the first second would be too quiet.
+            kicks[:, 0] /= np.sqrt(1.0 - memory**2)
+            flow = np.asarray(lfilter([1.0], [1.0, -memory], kicks))
+            zero = random.uniform(-campaign.drift, campaign.drift, (3, 2)) * scale
+            drifting = zero[:, :1] + (zero[:, 1:] - zero[:, :1]) * (time - time[0]) / (time[-1] - time[0])
+            loads = full * (coefficients[:, None] * transient + level * flow) + drifting
+            loads += campaign.cell_noise * scale * random.normal(size=(3, count))
             name = f"re{reynolds:.0f}_a{alpha:g}_{repeat}"
             series = dict(zip(CHANNELS, loads, strict=True))
-            runs.append(LoadCellRun(name, time, **series, alpha_deg=alpha, speed=speed, tare=tare, **plate))
+            runs.append(LoadCellRun(name, time, **series, alpha_deg=alpha, speed=speed, tare=zero, **plate))
     return runs
-
-
-_SHARED = ("density", "viscosity", "chord", "span", "thickness", "channel_width")
-
-
-def _records(
-    campaign: Campaign, coefficients: Array, speed: float, time: Array, random: np.random.Generator
-) -> tuple[Array, Array]:
-    """Return the channels, shape (runs, 3, n), and the zero readings before and after each run, (runs, 3, 2)."""
-    from scipy.signal import lfilter
-
-    count = len(time)
-    memory = np.exp(-1.0 / (campaign.rate * campaign.memory))
-    size = len(coefficients)
-    kicks, zero, noise = np.empty((size, 3, count)), np.empty((size, 3, 2)), np.empty((size, 3, count))
-    for i in range(size):  # run by run, as a record is made
-        kicks[i] = random.normal(size=(3, count))
-        zero[i] = random.uniform(-campaign.drift, campaign.drift, (3, 2))
-        noise[i] = random.normal(size=(3, count))
-    kicks *= np.sqrt(1.0 - memory**2)
-    # Start from the stationary distribution; otherwise the first second would be too quiet.
-    kicks[..., 0] /= np.sqrt(1.0 - memory**2)
-    flow = np.asarray(lfilter([1.0], [1.0, -memory], kicks))
-    level = campaign.turbulence * np.array([[1.0], [1.0], [0.25]])
-    force = 0.5 * campaign.density * speed**2 * campaign.chord * campaign.span
-    full = np.array([[force], [force], [force * campaign.chord]])
-    transient = 1.0 + campaign.start * np.exp(-time / 1.5)
-    scale = np.array([[1.0], [1.0], [0.1]])
-    zero *= scale
-    share = time - time[0]
-    drifting = zero[..., :1] + (zero[..., 1:] - zero[..., :1]) * share / (time[-1] - time[0])
-    loads = full * (coefficients[..., None] * transient + level * flow) + drifting
-    return loads + campaign.cell_noise * scale * noise, zero
 
 
 def save_runs(runs: list[LoadCellRun], folder: str | Path) -> list[Path]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,13 +52,12 @@ class CoefficientTable:
             if name not in self.mean:
                 faults.add("mean", ", ".join(self.mean), f"must hold {name}", "measure it")
         for name, column in self.columns().items():
-            kind = name[-3:]
             if np.shape(column) != np.shape(self.alpha_deg):
                 faults.add(name, f"shape {np.shape(column)}", f"must be {np.shape(self.alpha_deg)}, as alpha_deg")
             elif name not in _MAY_BE_EMPTY and not np.isfinite(column).all():
                 row = int(np.argmin(np.isfinite(column)))
                 faults.add(f"{name}[{row}]", float(column[row]), "must be finite", "drop the row")
-            elif kind in ("_sd", "_se") and (column < 0).any():
+            elif name.endswith(("_sd", "_se")) and (column < 0).any():
                 row = int(np.argmax(column < 0))
                 faults.add(f"{name}[{row}]", float(column[row]), "must be >= 0", "an error has no sign")
         faults.raise_if_any()
@@ -104,30 +105,24 @@ class CoefficientTable:
                     held = " and ".join(f"{low:.0f} to {high:.0f}" for low, high in reynolds_groups(self.reynolds))
                     faults.add("reynolds range", asked, f"holds no row: the table has Re {held}", "widen it")
         faults.raise_if_any()
-
-        def kept(group: Columns) -> Columns:
-            return {name: column[keep] for name, column in group.items()}
-
-        stream = None if self.reynolds is None else self.reynolds[keep]
-        runs = None if self.runs is None else self.runs[keep]
-        mean, sd, se = kept(self.mean), kept(self.sd), kept(self.se)
-        return CoefficientTable(self.alpha_deg[keep], mean, sd, se, stream, runs, self.notes)
+        return self._changed(lambda _, column: column[keep])
 
     def with_mirror_image(self) -> CoefficientTable:
         """Return the table with each row above 0 degrees again at the opposite angle, as on a symmetric wing.
 
         Lift and moment change their sign there; drag, centre of pressure and errors do not.
         """
-        above = self.alpha_deg > 0
+        above, odd = self.alpha_deg > 0, ("alpha_deg", "C_L", "C_M")
+        return self._changed(lambda name, c: np.concatenate([c, -c[above] if name in odd else c[above]]))
 
-        def doubled(group: Columns, odd: tuple[str, ...] = ()) -> Columns:
-            return {n: np.concatenate([c, (-1.0 if n in odd else 1.0) * c[above]]) for n, c in group.items()}
-
-        stream = None if self.reynolds is None else np.concatenate([self.reynolds, self.reynolds[above]])
-        runs = None if self.runs is None else np.concatenate([self.runs, self.runs[above]])
-        mean, sd, se = doubled(self.mean, ("C_L", "C_M")), doubled(self.sd), doubled(self.se)
-        alpha = np.concatenate([self.alpha_deg, -self.alpha_deg[above]])
-        return CoefficientTable(alpha, mean, sd, se, stream, runs, self.notes)
+    def _changed(self, change: Callable[[str, NDArray[Any]], NDArray[Any]]) -> CoefficientTable:
+        """Return the table with each column replaced by what `change` makes of its name and itself."""
+        mean, sd, se = (
+            {name: change(name + kind, column) for name, column in group.items()}
+            for kind, group in (("", self.mean), ("_sd", self.sd), ("_se", self.se))
+        )
+        reynolds, runs = (None if column is None else change("", column) for column in (self.reynolds, self.runs))
+        return CoefficientTable(change("alpha_deg", self.alpha_deg), mean, sd, se, reynolds, runs, self.notes)
 
     def save(self, path: str | Path) -> None:
         """Write the table as CSV, with notes as # lines above it; cells of undefined quantities are empty.

@@ -32,10 +32,7 @@ def _value_and_slopes(numbers: Any, alpha_deg: Any, kind: Any, curve: str) -> An
 
 
 def value_and_slopes(terms: Any, alpha_deg: Array, curve: str = "at") -> tuple[Array, Any]:
-    """Return values and derivatives of a formula of `wingbeat.aero` at angles [deg], shape (n,).
-
-    The derivatives with respect to the terms are a record like `terms`, with arrays of shape (n,) instead of
-    numbers. All forms with the same terms share one compiled function; `curve` names its method.
+    """Return a formula of `wingbeat.aero` at angles [deg], and its derivatives in a record like `terms`.
 
     >>> value, slopes = value_and_slopes(FormulaTerms(0.1, 2.0, 2.0, 0.0), np.array([45.0]))
     >>> round(float(value[0]), 12), round(float(slopes.amplitude[0]), 12)
@@ -166,14 +163,18 @@ class CurveForm:
 class BoxForm(CurveForm):
     """A formula of `wingbeat.aero`, possibly with fixed terms, with exact slopes and its own starts for a fit."""
 
+    function: Callable[..., Any] = field(init=False)
     kind: Kind = FormulaTerms
     fixed: dict[str, float] = field(default_factory=dict)
     grids: dict[str, Array] = field(default_factory=dict)
     curve: str = "at"
 
-    def terms(self, parameters: dict[str, float]) -> dict[str, float]:
-        """Return all terms of the formula, including fixed ones."""
-        return self.fixed | parameters
+    def __post_init__(self) -> None:
+        def function(alpha_deg: Array, **parameters: float) -> Array:
+            return value_and_slopes(any_terms(self.kind, self.fixed | parameters), alpha_deg, self.curve)[0]
+
+        object.__setattr__(self, "function", function)
+        super().__post_init__()
 
     def slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> Array:
         """Return the derivatives with respect to the parameters, shape (n, parameters)."""
@@ -181,43 +182,31 @@ class BoxForm(CurveForm):
 
     def value_and_slopes(self, alpha_deg: Array, parameters: dict[str, float]) -> tuple[Array, Array]:
         """Return `value` and `slopes`, shapes (n,) and (n, parameters), from one evaluation."""
-        value, slopes = value_and_slopes(any_terms(self.kind, self.terms(parameters)), alpha_deg, self.curve)
+        terms = any_terms(self.kind, self.fixed | parameters)
+        value, slopes = value_and_slopes(terms, alpha_deg, self.curve)
         return value, np.column_stack([getattr(slopes, name) for name in self.names])
 
     def starts(self, alpha_deg: Array, values: Array, weight: Array) -> list[dict[str, float]]:
         """Return three starts: the best grid nodes of the non-linear terms, with linear terms by least squares."""
         found: list[tuple[float, dict[str, float]]] = []
+        linear = [name for name in self.names if name not in self.grids and name != "phase_deg"]
         for node in product(*self.grids.values()):
             held = {name: float(at) for name, at in zip(self.grids, node, strict=True)}
-            basis, of = self._linear_basis(alpha_deg, held)
+            blank = dict.fromkeys(self.names, 0.0) | self.fixed | held
+            _, slopes = value_and_slopes(any_terms(self.kind, blank), alpha_deg, self.curve)
+            columns = {name: getattr(slopes, name) for name in linear}
+            # A phase that is free makes the sine linear in two factors, those of a sine and of a cosine.
+            if "phase_deg" in self.names:
+                turned = any_terms(self.kind, blank | {"phase_deg": 90.0})
+                columns["cosine"] = value_and_slopes(turned, alpha_deg)[1].amplitude
+            basis = np.column_stack(list(columns.values()))
             factors = np.linalg.lstsq(basis * weight[:, None], values * weight)[0]
             left = (values - basis @ factors) * weight
-            found.append((float(left @ left), of(np.asarray(factors, dtype=np.float64))))
-        found.sort(key=lambda pair: pair[0])
-        return [start for _, start in found[:3]]
-
-    def _linear_basis(self, a: Array, held: dict[str, float]) -> tuple[Array, Callable[[Array], dict[str, float]]]:
-        """Return the functions in which the formula is linear, and a map from their factors to parameters."""
-        blank = dict.fromkeys(self.names, 0.0) | self.fixed | held
-        names = [name for name in self.names if name not in self.grids and name != "phase_deg"]
-        _, slopes = value_and_slopes(any_terms(self.kind, blank), a, self.curve)
-        # A phase that is free makes the sine linear in two factors, those of a sine and of a cosine.
-        columns = {name: getattr(slopes, name) for name in names}
-        if "phase_deg" in self.names:
-            turned = any_terms(self.kind, blank | {"phase_deg": 90.0})
-            columns["cosine"] = value_and_slopes(turned, a)[1].amplitude
-
-        def parameters(factors: Array) -> dict[str, float]:
             value = dict(zip(columns, factors.tolist(), strict=True)) | held
             if "cosine" in value:
-                sine, cosine = value["amplitude"], value.pop("cosine")
+                sine, cosine = value["amplitude"], value["cosine"]
                 value["amplitude"] = math.hypot(sine, cosine)
                 value["phase_deg"] = math.degrees(math.atan2(cosine, sine))
-            return {name: value[name] for name in self.names}
-
-        return np.column_stack(list(columns.values())), parameters
-
-
-def formula_of(kind: Kind, fixed: dict[str, float], curve: str = "at") -> Callable[..., Array]:
-    """Return a formula of `wingbeat.aero` as a function of angles [deg] and of the terms that are not fixed."""
-    return lambda a, **parameters: value_and_slopes(any_terms(kind, fixed | parameters), a, curve)[0]
+            found.append((float(left @ left), {name: value[name] for name in self.names}))
+        found.sort(key=lambda pair: pair[0])
+        return [start for _, start in found[:3]]

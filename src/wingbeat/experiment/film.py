@@ -21,15 +21,13 @@ from wingbeat.animal.kinematics import (
     sweep_angle,
     tip_twist,
 )
-from wingbeat.experiment.periodic import MIN_BEATS, SURE, Clip, clip_rate, scatter_at
+from wingbeat.experiment.periodic import MIN_BEATS, SURE, Array, Clip, clip_rate, scatter_at
 
 # What can be filmed, and its unit.
-FILMED = {
-    **{"flap_deg": "deg", "pitch_deg": "deg", "span_fraction": ""},
-    **{"sweep_deg": "deg", "tip_pitch_deg": "deg", "stroke_plane_deg": "deg", "area_fraction": ""},
-}
+FILMED = {"flap_deg": "deg", "pitch_deg": "deg", "span_fraction": "", "sweep_deg": "deg"}
+FILMED |= {"tip_pitch_deg": "deg", "stroke_plane_deg": "deg", "area_fraction": ""}
 # The body, for a film that gives times.
-BODY = dict.fromkeys(("body_x_m", "body_z_m"), "m") | dict.fromkeys(("body_pitch_deg",), "deg")
+BODY = {"body_x_m": "m", "body_z_m": "m", "body_pitch_deg": "deg"}
 COLUMNS = FILMED | BODY
 # What a fraction of 1 stands for.
 WHOLE = {"span_fraction": "semi-span", "area_fraction": "full area"}
@@ -158,14 +156,12 @@ class Film:
         """Compare the beats of the frames with those of the phases; phases within one beat say nothing about it."""
         order = np.argsort(self.phase, kind="stable")
         clock = self.phase[order]
-        span = float(clock[-1] - clock[0])
         clip = clip_rate(clock, {name: self.columns[name][order] for name in FILMED if name in self.columns})
-        if clip is None or not clip.clear or span < MIN_BEATS:
+        if clip is None or not clip.clear or clock[-1] - clock[0] < MIN_BEATS:
             return
         object.__setattr__(self, "clip", clip)
-        off = abs(clip.rate - 1.0)
         loose = max(_PHASE_ERROR, SURE * clip.rate_se, 0.5 * abs(clip.change))
-        if off <= loose or even_only(clip.rate, self.columns):
+        if abs(clip.rate - 1.0) <= loose or even_only(clip.rate, self.columns):
             return
         unit = [name for name, turn in _PHASE_UNITS.items() if abs(clip.rate * turn - 1.0) < 0.15]
         if not unit and np.array_equal(clock, np.round(clock)):
@@ -190,10 +186,8 @@ class Film:
             column[there], moved = unwrapped(faults, where, phase, column[there])
             if moved:
                 self.columns[name] = column
-                how = (
-                    f"{moved} of {len(phase)} frames were moved by whole turns, because the angle jumps by 360 deg"
-                )
-                notes.append(f"{where}: {how}")
+                why = "were moved by whole turns, because the angle jumps by 360 deg"
+                notes.append(f"{where}: {moved} of {len(phase)} frames {why}")
         largest = float(np.abs(values).max())
         if FILMED.get(name) == "deg" and name not in WRAPPED and largest > 180:
             faults.add(where, largest, "must lie between -180 and 180 degrees", "wrap the angle")
@@ -260,17 +254,16 @@ class Film:
         write_atomically(path, "\n".join(lines) + "\n")
 
 
-def check_flap(faults: FaultList, where: str, clock: NDArray[np.float64], flap: NDArray[np.float64]) -> None:
+def check_flap(faults: FaultList, where: str, clock: Array, flap: Array) -> None:
     """Note a flap angle in radians, and one that does not go up and down."""
     largest = float(np.abs(flap).max(initial=0.0))
     if 0 < largest < _LARGEST_RADIANS:
         rule = "is the largest flap angle: these seem to be radians, not degrees"
         faults.add(where, largest, rule, "multiply them by 57.29578")
     elif way := _one_way(flap[np.argsort(clock, kind="stable")]):
-        rule = (
-            f"{way} from frame to frame and never turns back: it seems to be a phase, a time or an unwrapped angle"
-        )
-        faults.add(where, f"{len(flap)} frames", rule, "give the flap angle, up positive")
+        rule = f"{way} from frame to frame and never turns back"
+        looks = "it seems to be a phase, a time or an unwrapped angle"
+        faults.add(where, f"{len(flap)} frames", f"{rule}: {looks}", "give the flap angle, up positive")
 
 
 def even_only(rate: float, columns: Mapping[str, Any]) -> bool:
@@ -278,7 +271,7 @@ def even_only(rate: float, columns: Mapping[str, Any]) -> bool:
     return "flap_deg" not in columns and abs(rate - 2.0) < 2 * _PHASE_ERROR
 
 
-def _one_way(values: NDArray[np.float64]) -> str:
+def _one_way(values: Array) -> str:
     """Return "rises" or "falls" if a series does so all the time, but for jumps back; "" if it turns."""
     jumps = np.flatnonzero(np.abs(np.diff(values)) > 0.5 * max(float(np.ptp(values)), 1e-9)) + 1
     parts = [part for part in np.split(values, jumps) if len(part) > 5 and np.ptp(part) > 0]
@@ -288,10 +281,6 @@ def _one_way(values: NDArray[np.float64]) -> str:
     ways = [np.corrcoef(np.arange(len(rank)), rank)[0, 1] for rank in ranks]
     way = float(np.average(ways, weights=[len(part) for part in parts]))
     return "" if abs(way) < _ONE_WAY else "rises" if way > 0 else "falls"
-
-
-_TURN = 360.0
-Array = NDArray[np.float64]
 
 
 def unwrapped(faults: FaultList, where: str, phase: Array, angle: Array) -> tuple[Array, int]:
@@ -306,29 +295,13 @@ def unwrapped(faults: FaultList, where: str, phase: Array, angle: Array) -> tupl
     """
     order = np.argsort(phase % 1.0, kind="stable")
     smooth = np.empty_like(angle)
-    smooth[order] = np.unwrap(angle[order], period=_TURN)
-    smooth -= _TURN * np.round(smooth.mean() / _TURN)
+    smooth[order] = np.unwrap(angle[order], period=360.0)
+    smooth -= 360.0 * np.round(smooth.mean() / 360.0)
     first, last = smooth[order[0]], smooth[order[-1]]
-    if abs(first - last) > 0.5 * _TURN:
+    if abs(first - last) > 180.0:
         rule = f"turns from {first:.4g} to {last:.4g} degrees in one beat and does not come back"
         faults.add(where, f"{len(angle)} frames", rule, "film more frames, or drop those where the tracker slipped")
     return smooth, int(np.count_nonzero(np.abs(smooth - angle) > 1.0))
-
-
-def _true(name: str, wingbeat: Wingbeat, phase: NDArray[np.float64], stroke_plane: float) -> Any:
-    """Return what a perfect film of a wingbeat shows, in radians or as a fraction."""
-    if name == "flap_deg":
-        return flap_angle(wingbeat, phase)
-    if name == "sweep_deg":
-        sweep = sweep_angle(wingbeat, phase)
-        return np.zeros_like(phase) if sweep is None else sweep
-    if name == "stroke_plane_deg":
-        return np.full_like(phase, stroke_plane + wingbeat.stroke_plane_tilt)
-    if name in ("pitch_deg", "tip_pitch_deg"):
-        root, twist = np.asarray(pitch_angle(wingbeat, phase)), tip_twist(wingbeat, phase)
-        return root if name == "pitch_deg" else wingbeat.twist_ratio * root + (0.0 if twist is None else twist)
-    chord = chord_ratio(wingbeat, phase) if name == "area_fraction" else None
-    return np.asarray(span_ratio(wingbeat, phase)) * (1.0 if chord is None else np.asarray(chord))
 
 
 def synthetic_film(
@@ -355,10 +328,20 @@ def synthetic_film(
     random = np.random.default_rng(seed)
     phase = np.arange(frames) / frames
     at = phase + (start if "flap_deg" in columns else 0.0)
+    sweep, twist, chord = (law(wingbeat, at) for law in (sweep_angle, tip_twist, chord_ratio))
+    root, span = np.asarray(pitch_angle(wingbeat, at)), np.asarray(span_ratio(wingbeat, at))
+    true = {
+        "flap_deg": flap_angle(wingbeat, at),
+        "pitch_deg": root,
+        "span_fraction": span,
+        "sweep_deg": 0.0 if sweep is None else sweep,
+        "tip_pitch_deg": wingbeat.twist_ratio * root + (0.0 if twist is None else twist),
+        "stroke_plane_deg": stroke_plane + wingbeat.stroke_plane_tilt,
+        "area_fraction": span * (1.0 if chord is None else np.asarray(chord)),
+    }
     seen = {}
     for name in columns:
-        true = np.asarray(_true(name, wingbeat, at, stroke_plane))
         angle = FILMED[name] == "deg"
         noise = random.normal(scale=noise_deg if angle else 0.01 * noise_deg, size=frames)
-        seen[name] = (np.degrees(true) if angle else true) + noise
+        seen[name] = (np.degrees(np.asarray(true[name])) if angle else true[name]) + noise
     return Film("film of a known wingbeat", phase, seen, float(wingbeat.frequency), synthetic=True)

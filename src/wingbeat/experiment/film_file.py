@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base import FaultList, written
+from wingbeat._base import Fault, FaultList, InvalidInputError, written
 from wingbeat._base.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
 from wingbeat.experiment.film import BODY, COLUMNS, FILMED, WRAPPED, Film, check_flap, even_only
 from wingbeat.experiment.periodic import MIN_BEATS, SURE, Clip, clip_rate
@@ -50,15 +50,6 @@ class _Given(NamedTuple):
     value: float
     text: str
     where: str
-
-
-class _Clock(NamedTuple):
-    """Times or phases of the frames, and the frequency that turns the former into the latter."""
-
-    phase: Array
-    frequency: float | None
-    frequency_se: float
-    fitted: bool
 
 
 def read_film(path: str | Path, side: str = "both") -> Film:
@@ -119,11 +110,10 @@ def read_film(path: str | Path, side: str = "both") -> Film:
         where, at = f"{sheet.file}, column flap_deg", seen["", clocks[0]]
         check_flap(faults, where, at[there], columns["flap_deg"][there])
     faults.raise_if_any()
-    clock = _clock(faults, sheet, given, clocks[0], seen["", clocks[0]], columns)
-    faults.raise_if_any()
+    phase, rate, rate_se, fitted = _clock(sheet, given, clocks[0], seen["", clocks[0]], columns)
     synthetic = any(same_name(key) == "synthetic" for key in sheet.constants)
     stated = given["frequency"].value if "frequency" in given else None
-    return Film(sheet.file, clock.phase, columns, *clock[1:3], synthetic, clock.fitted, stated, notes, warnings)
+    return Film(sheet.file, phase, columns, rate, rate_se, synthetic, fitted, stated, notes, warnings)
 
 
 def _columns(faults: FaultList, sheet: Sheet) -> list[tuple[str, str]]:
@@ -179,10 +169,8 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, _Given]:
         except ValueError:
             faults.add(where, text, "must be one number", "in Hz")
             continue
-        if name == "frequency_se":
-            faults.number(where, value, at_least=0, unit="Hz")
-        else:
-            faults.number(where, value, above=0, unit="Hz")
+        above, at_least = (-math.inf, 0.0) if name == "frequency_se" else (0.0, -math.inf)
+        faults.number(where, value, above=above, at_least=at_least, unit="Hz")
         if name in found:
             faults.add(where, text, f"is given twice, as {found[name].text} too", "keep one")
         found[name] = _Given(value, text, where)
@@ -190,85 +178,64 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, _Given]:
 
 
 def _clock(
-    faults: FaultList,
-    sheet: Sheet,
-    given: Mapping[str, _Given],
-    kind: str,
-    clock: Array,
-    columns: Mapping[str, Array],
-) -> _Clock:
-    """Return phases and frequency; note times that do not rise, and a frequency that the frames contradict."""
-    header, error = given.get("frequency"), given.get("frequency_se")
+    sheet: Sheet, given: Mapping[str, _Given], kind: str, clock: Array, columns: Mapping[str, Array]
+) -> tuple[Array, float | None, float, bool]:
+    """Return phases, frequency, its error and whether it is fitted; refuse times that contradict the header."""
+    header, error, rate = (given.get(name) for name in ("frequency", "frequency_se", "frame_rate"))
     frequency, frequency_se = header.value if header else None, error.value if error else 0.0
     if kind == "phase":
-        return _Clock(clock, frequency, frequency_se, False)
+        return clock, frequency, frequency_se, False
     steps = np.diff(clock)
     if not (steps > 0).all():
         k = int(np.argmin(steps > 0)) + 1
+        where = f"{sheet.file} row {sheet.rows[k][0]}, column {kind}"
         rule = f"must be above the {kind} before it, {clock[k - 1]:g}"
         fix = "sort the rows, drop repeated ones; put several clips together by phase, not by time"
-        faults.add(f"{sheet.file} row {sheet.rows[k][0]}, column {kind}", float(clock[k]), rule, fix)
-        return _Clock(clock, frequency, frequency_se, False)
+        raise InvalidInputError([Fault(where, float(clock[k]), rule, fix)])
     step, counts = float(np.median(steps)) if len(steps) else 1.0, bool(np.array_equal(clock, np.round(clock)))
     if step < _SHORTEST_STEP:
         rule = f"is the usual step between two frames, shorter than any camera's, {_SHORTEST_STEP:g} s"
-        faults.add(f"{sheet.file}, column {kind}", step, rule, "give the times in seconds")
-        return _Clock(clock, frequency, frequency_se, False)
-    rate = given.get("frame_rate")
+        raise InvalidInputError([Fault(f"{sheet.file}, column {kind}", step, rule, "give the times in seconds")])
     if rate is not None and (kind == "frame" or counts):
         clock, counts = clock / rate.value, False
     elif rate is not None and abs(step * rate.value - 1.0) > 0.02:
         rule = f"does not fit the times, which step by {step:.4g} s: {1 / step:.4g} frames a second"
-        faults.add(rate.where, rate.value, rule, "correct the line or the times")
-        return _Clock(clock, frequency, frequency_se, False)
-    clip = None
-    if len(clock) >= _FEWEST_PAIRS:
-        clip = clip_rate(clock, {name: columns[name] for name in FILMED if name in columns})
+        raise InvalidInputError([Fault(rate.where, rate.value, rule, "correct the line or the times")])
+    filmed = {name: columns[name] for name in FILMED if name in columns}
+    clip = clip_rate(clock, filmed) if len(clock) >= _FEWEST_PAIRS else None
     if clip is not None and not clip.clear:
         clip = None
-    if header is None:
-        frequency = _own(faults, sheet, clip, counts)
-    elif clip is not None:
-        _compare(faults, header, error, clip, float(clock[-1] - clock[0]), counts, columns)
+    if header is not None and clip is not None:
+        _compare(header, frequency_se, clip, float(clock[-1] - clock[0]), counts, columns)
+    elif header is None and (clip is None or clip.beats < MIN_BEATS):
+        short = "the frames show no beat" if clip is None else f"a clip of {clip.beats:.2g} beats does not show it"
+        rule = f"is missing: it converts times to phases, and {short}"
+        fix = "add the line '# frequency [Hz] = ...' above the table, or give phases"
+        raise InvalidInputError([Fault(f"{sheet.file}, frequency", "", rule, fix)])
+    elif header is None and clip is not None:
+        frequency = clip.rate
+        if counts or frequency < _SLOWEST:
+            looks = "be milliseconds: write seconds"
+            if counts:
+                looks = "count frames: add the line '# frame rate [Hz] = ..'"
+            rule = f"is that of the clip, {1 / frequency:.4g} s a beat: the times seem to {looks}"
+            raise InvalidInputError([Fault(f"{sheet.file}, frequency", frequency, rule)])
     own = clip is not None and clip.beats >= MIN_BEATS and not even_only(clip.rate / (frequency or 1.0), columns)
     if clip is not None and own and (error is None or clip.rate_se < error.value):
-        return _Clock(clip.rate * clock, clip.rate, clip.rate_se, True)
-    return _Clock(clock * (frequency or 0.0), frequency, frequency_se, False)
-
-
-def _own(faults: FaultList, sheet: Sheet, clip: Clip | None, counts: bool) -> float | None:
-    """Return the frequency of the clip itself, for a file that states none."""
-    if clip is None or clip.beats < MIN_BEATS:
-        short = "the frames show no beat" if clip is None else f"a clip of {clip.beats:.2g} beats does not show it"
-        fix = "add the line '# frequency [Hz] = ...' above the table, or give phases"
-        faults.add(f"{sheet.file}, frequency", "", f"is missing: it converts times to phases, and {short}", fix)
-    elif counts or clip.rate < _SLOWEST:
-        looks = "be milliseconds: write seconds"
-        if counts:
-            looks = "count frames: add the line '# frame rate [Hz] = ..'"
-        rule = f"is that of the clip, {1 / clip.rate:.4g} s a beat: the times seem to {looks}"
-        faults.add(f"{sheet.file}, frequency", clip.rate, rule)
-    else:
-        return clip.rate
-    return None
+        return clip.rate * clock, clip.rate, clip.rate_se, True
+    return clock * (frequency or 0.0), frequency, frequency_se, False
 
 
 def _compare(
-    faults: FaultList,
-    header: _Given,
-    error: _Given | None,
-    clip: Clip,
-    span: float,
-    counts: bool,
-    columns: Mapping[str, Array],
+    header: _Given, error: float, clip: Clip, span: float, counts: bool, columns: Mapping[str, Array]
 ) -> None:
-    """Note a header's frequency that the frames contradict, with what may have gone wrong."""
+    """Refuse a header's frequency that the frames contradict, with what may have gone wrong."""
     ratio = header.value / clip.rate
     if max(clip.beats, header.value * span) < MIN_BEATS or even_only(1 / ratio, columns) or not ratio < np.inf:
         return
     last_digit = 0.5 * 10.0 ** int(Decimal(header.text).as_tuple().exponent)
     loose = max(_ROUNDED, min(last_digit / clip.rate, _COARSE)) * clip.rate
-    loose = max(loose, SURE * clip.rate_se, 0.5 * abs(clip.change), SURE * (error.value if error else 0.0))
+    loose = max(loose, SURE * clip.rate_se, 0.5 * abs(clip.change), SURE * error)
     if abs(header.value - clip.rate) <= loose:
         return
     own = written(clip.rate, clip.rate_se, "Hz")
@@ -284,7 +251,7 @@ def _compare(
         fix = "a beat is a downstroke and an upstroke: correct the line, or the times if the frame rate is another"
     else:
         fix = "correct the line or the times"
-    faults.add(header.where, header.value, rule, fix)
+    raise InvalidInputError([Fault(header.where, header.value, rule, fix)])
 
 
 def _joined(

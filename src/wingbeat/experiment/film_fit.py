@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base import HIGHEST_ORDER, FaultList, InvalidInputError
+from wingbeat._base import HIGHEST_ORDER, Fault, FaultList, InvalidInputError
 from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat, span_ratio
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.experiment.film import FILMED, WHOLE, Film
@@ -37,16 +37,6 @@ _ONCE = 0.4
 _CHANCE = 13.28
 
 
-def _swinging(law: str, mean: float, waves: list[float], sign: float) -> dict[str, Any]:
-    """Return mean, amplitude, phase and harmonics of a law ``mean + sign amplitude sin(2 pi phase + lead)``."""
-    return {
-        f"{law}_mean": mean,
-        f"{law}_amplitude": math.hypot(*waves[:2]),
-        f"{law}_phase": math.atan2(sign * waves[0], sign * waves[1]),
-        f"{law}_harmonics": tuple(waves[2:]),
-    }
-
-
 def _drawn_in(law: str, mean: float, waves: list[float]) -> dict[str, Any]:
     """Return retraction, which has a mean and a sine, and harmonics, for the rest, of span or chord."""
     retraction = max(2.0 * (1.0 - mean), 0.0)
@@ -54,20 +44,21 @@ def _drawn_in(law: str, mean: float, waves: list[float]) -> dict[str, Any]:
     return {f"{law}_retraction": retraction, f"{law}_harmonics": harmonics}
 
 
+# Sixteen samples in the highest harmonic's period: higher harmonics are not aliased into lower ones.
+_PHASES = np.arange(16 * HIGHEST_ORDER) / (16 * HIGHEST_ORDER)
+_COLUMNS = fourier_columns(_PHASES)
+
+
 def _chord_of(area: Array, span: Array) -> Array:
     """Return the Fourier coefficients of area divided by span, from those of area and of span."""
-    # Sixteen samples in the highest harmonic's period: higher harmonics are not aliased into lower ones.
-    columns = fourier_columns(np.arange(16 * HIGHEST_ORDER) / (16 * HIGHEST_ORDER))
-    ratio = (columns @ area) / (columns @ span)
-    return np.asarray(np.linalg.lstsq(columns, ratio, rcond=None)[0], dtype=np.float64)
+    ratio = (_COLUMNS @ area) / (_COLUMNS @ span)
+    return np.asarray(np.linalg.lstsq(_COLUMNS, ratio, rcond=None)[0], dtype=np.float64)
 
 
 def _span_of(wingbeat: Wingbeat) -> Array:
     """Return the Fourier coefficients of a span law with equally long down- and upstroke, as for a film."""
-    wingbeat = dataclasses.replace(wingbeat, downstroke_fraction=0.5)
-    phase = np.arange(16 * HIGHEST_ORDER) / (16 * HIGHEST_ORDER)
-    found = np.linalg.lstsq(fourier_columns(phase), np.asarray(span_ratio(wingbeat, phase)), rcond=None)[0]
-    return np.asarray(found, dtype=np.float64)
+    span = np.asarray(span_ratio(dataclasses.replace(wingbeat, downstroke_fraction=0.5), _PHASES))
+    return np.asarray(np.linalg.lstsq(_COLUMNS, span, rcond=None)[0], dtype=np.float64)
 
 
 def _top_of(laws: Mapping[str, Array]) -> float:
@@ -89,10 +80,12 @@ def _numbers(laws: Mapping[str, Array], species_span: Array | None = None) -> di
     for name, (mean, *waves) in ((name, moved.tolist()) for name, moved in series.items()):
         if name == "flap_deg":
             fields |= {"flap_mean": mean, "flap_amplitude": waves[0], "flap_harmonics": tuple(waves[2:])}
-        elif name == "pitch_deg":
-            fields |= _swinging("pitch", mean, waves, sign=-1.0)
-        elif name == "sweep_deg":
-            fields |= _swinging("sweep", mean, waves, sign=1.0)
+        elif name in ("pitch_deg", "sweep_deg"):
+            # These laws are mean + sign amplitude sin(2 pi phase + lead).
+            law, sign = name.removesuffix("_deg"), -1.0 if name == "pitch_deg" else 1.0
+            lead = math.atan2(sign * waves[0], sign * waves[1])
+            fields |= {f"{law}_mean": mean, f"{law}_amplitude": math.hypot(*waves[:2]), f"{law}_phase": lead}
+            fields[f"{law}_harmonics"] = tuple(waves[2:])
         elif name == "span_fraction":
             fields |= _drawn_in("span", mean, waves)
     if "tip_pitch_deg" in series:
@@ -107,10 +100,8 @@ def _numbers(laws: Mapping[str, Array], species_span: Array | None = None) -> di
 
 
 # The beginnings of the names of those wingbeat parameters that each column determines.
-_SETTLED = {
-    **{"flap_deg": "flap_", "pitch_deg": "pitch_", "span_fraction": "span_", "sweep_deg": "sweep_"},
-    **{"tip_pitch_deg": "twist_", "stroke_plane_deg": "stroke_plane_tilt", "area_fraction": "chord_"},
-}
+_SETTLED = {"flap_deg": "flap_", "pitch_deg": "pitch_", "span_fraction": "span_", "sweep_deg": "sweep_"}
+_SETTLED |= {"tip_pitch_deg": "twist_", "stroke_plane_deg": "stroke_plane_tilt", "area_fraction": "chord_"}
 
 
 def _amplitude(law: FilmedLaw) -> float:
@@ -165,12 +156,10 @@ class FilmedBeat:
             area, span = self.laws["area_fraction"], self.laws.get("span_fraction")
             mean = _chord_of(area.coefficients, _span_of(wingbeat) if span is None else span.coefficients)[0]
             error = math.hypot(*(math.sqrt(law.covariance[0, 0]) for law in (area, span) if law is not None))
-            faults = FaultList()
             if not 0.5 < mean <= 1.0 + _NOISE * error:
                 rule = "the mean ratio of area fraction to span fraction must be above 0.5 and at most 1"
                 fix = "divide the areas by that of the fully spread wing of the species file"
-                faults.add(f"{self.film.name}, area_fraction", float(mean), rule, fix)
-            faults.raise_if_any()
+                raise InvalidInputError([Fault(f"{self.film.name}, area_fraction", float(mean), rule, fix)])
         if "stroke_plane_deg" in self.laws:
             angle = math.radians(self.laws["stroke_plane_deg"].coefficients[0]) - vehicle.wing.stroke_plane_angle
             fields["stroke_plane_tilt"] = math.remainder(angle, 2 * math.pi)
@@ -236,8 +225,8 @@ class FilmedBeat:
         seed : the same seed gives the same wingbeats.
         """
         random, found, span = np.random.default_rng(seed), [], _span_of(wingbeat)
+        normal = random.multivariate_normal
         for _ in range(count):
-            normal = random.multivariate_normal
             drawn = {name: normal(law.coefficients, law.covariance) for name, law in self.laws.items()}
             fields = _numbers(drawn, span)
             if "stroke_plane_deg" in drawn:
@@ -276,19 +265,18 @@ def fit_film(film: Film) -> FilmedBeat:
         phase, values = film.seen(name)
         laws[name] = fit_law(phase, values)
     if "flap_deg" in laws:
-        flap = laws["flap_deg"].coefficients
-        if math.hypot(flap[1], flap[2]) < 1.0:
+        where, once = f"{film.name}, flap_deg", math.hypot(*laws["flap_deg"].coefficients[1:3])
+        size, rest = _amplitude(laws["flap_deg"]), laws["flap_deg"].residual_sd
+        fix = "these frames are not of one wingbeat: are phases, times and frequency right?"
+        if once < 1.0:
             fix = "is the phase right, and the column in degrees?"
-            faults.add(f"{film.name}, flap_deg", f"{math.hypot(flap[1], flap[2]):.2g} deg", "hardly swings", fix)
-        else:
-            size, rest = _amplitude(laws["flap_deg"]), laws["flap_deg"].residual_sd
-            fix = "these frames are not of one wingbeat: are phases, times and frequency right?"
-            if rest > size:
-                rule = f"is the scatter about the fitted wingbeat, more than its amplitude, {size:.2g} deg"
-                faults.add(f"{film.name}, flap_deg", f"{rest:.2g} deg", rule, fix)
-            elif (once := math.hypot(flap[1], flap[2])) < _ONCE * size:
-                rule = f"is the part of the flap that repeats once a beat, of an amplitude of {size:.2g} deg"
-                faults.add(f"{film.name}, flap_deg", f"{once:.2g} deg", rule, fix)
+            faults.add(where, f"{once:.2g} deg", "hardly swings", fix)
+        elif rest > size:
+            rule = f"is the scatter about the fitted wingbeat, more than its amplitude, {size:.2g} deg"
+            faults.add(where, f"{rest:.2g} deg", rule, fix)
+        elif once < _ONCE * size:
+            rule = f"is the part of the flap that repeats once a beat, of an amplitude of {size:.2g} deg"
+            faults.add(where, f"{once:.2g} deg", rule, fix)
     if "span_fraction" in laws:
         mean, error = laws["span_fraction"].coefficients[0], math.sqrt(laws["span_fraction"].covariance[0, 0])
         if not 0.5 < mean <= 1.0 + _NOISE * error:

@@ -131,9 +131,8 @@ def group_difference(alpha_deg: Array, residuals: Array, inside: NDArray[np.bool
     extra = _hats(a, max(min(_OWN, few // 3, angles // 2), 1))
     full = np.column_stack([common, extra * own[:, None]])
     factors, _, rank, _ = np.linalg.lstsq(full, y)
-    _, _, rank_common, _ = np.linalg.lstsq(common, y)
-    left = float(((y - full @ factors) ** 2).sum())
-    alone = float(((y - common @ np.linalg.lstsq(common, y)[0]) ** 2).sum())
+    alike, _, rank_common, _ = np.linalg.lstsq(common, y)
+    left, alone = float(((y - full @ factors) ** 2).sum()), float(((y - common @ alike) ** 2).sum())
     free, more = len(y) - int(rank), int(rank) - int(rank_common)
     if free < 3 or more < 1:
         return None
@@ -215,9 +214,9 @@ def _wrong_rows(curve: CurveFit, least: float) -> list[str]:
         return []
     value, wanted = float(curve.values[row]), float(curve.values[row] - misses[row])
     ratio = wanted / value if value else math.inf
-    slipped = any(0.7 < ratio / factor < 1.4 for factor in (10.0, 0.1))
     guess = "a wrong sign?" if -1.3 < ratio < -0.7 else "is it a mistake?"
-    guess = "a slipped decimal point?" if slipped else guess
+    if any(0.7 < ratio / factor < 1.4 for factor in (10.0, 0.1)):
+        guess = "a slipped decimal point?"
     return [
         f"{curve.label}: row {row + 1} of the table ({curve.alpha_deg[row]:g} deg) is {value:.4g}, but the curve "
         f"through the other rows gives {wanted:.3g} with a scatter of {spread:.2g}: {guess}"
@@ -269,7 +268,7 @@ def _impossible(label: str, angles: Array, values: Array) -> list[str]:
 # the first number, and one of 20 below the second (400 tables for each number). The second counts if the gap is
 # also `_GAP` times the scatter between neighbours elsewhere.
 _RATIOS = {8: (0.001, 0.014), 10: (0.010, 0.034), 12: (0.030, 0.057), 16: (0.060, 0.10), 20: (0.080, 0.13)}
-_RATIOS |= {28: (0.115, 0.18)}
+_RATIOS[28] = (0.115, 0.18)
 _GAP = 6.0
 # Fewest rows of each branch, and least share of rows whose nearest angle is on the other branch: one half if
 # branches alternate, and nearly none where the curve jumps or bends at a stall, as repeats of an angle are alike.
@@ -315,12 +314,8 @@ def two_branches(alpha_deg: Array, residuals: Array, least: float) -> Branches |
     """Return two branches among rows in any order, or None if one curve with scatter explains them as well.
 
     In windows over the angle, two lines are put through the residuals, each row to the nearer line. Of scatter
-    alone they leave a third of what one parabola leaves; of two branches, almost nothing.
-
-    Parameters
-    ----------
-    alpha_deg, residuals : angles [deg] and residuals of one curve, shape (n,).
-    least : least gap that counts.
+    alone they leave a third of what one parabola leaves; of two branches, almost nothing. A gap below `least` does
+    not count.
 
     >>> a = np.repeat(np.arange(12.0), 2)
     >>> noise = 0.01 * np.sin(9.0 * np.arange(24) ** 2)

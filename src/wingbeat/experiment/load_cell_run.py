@@ -113,7 +113,7 @@ def _check_series(faults: FaultList, run: LoadCellRun) -> None:
         elif not np.isfinite(column).all():
             first = int(np.argmin(np.isfinite(column)))
             faults.add(f"{run.name}, {name}[{first}]", float(column[first]), "must be finite", "drop the sample")
-    if len(faults.faults):
+    if faults.faults:
         return
     steps = np.diff(run.time)
     if steps.min() <= 0:
@@ -189,9 +189,8 @@ def _columns(faults: FaultList, sheet: Sheet) -> dict[str, int]:
         name, unit = split_unit(cell)
         where = f"{sheet.file} row {sheet.header_row}, column {k + 1}"
         if name in ("alpha", "angle", "alpha_rad"):
-            rule = "does not say that it is in degrees"
             fix = "name it alpha_deg and write degrees; radians times 57.29578 are degrees"
-            faults.add(where, cell, rule, fix)
+            faults.add(where, cell, "does not say that it is in degrees", fix)
             place["alpha_deg"] = k
         elif name in place:
             faults.add(where, cell, "appears twice", "keep one")
@@ -216,22 +215,18 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
         where = f"{sheet.file} row {row}, {name}"
         check_unit(faults, where, unit, units[name])
         wanted = 2 if name in TARE_UNITS else 1
-        cells = [cell.strip() for cell in text.split(",")]
-        # One try for all cells: "0.5 m/s" and "fast" cause the same fault.
-        values: tuple[float, ...]
-        try:
-            values = tuple(float(cell) for cell in cells)
+        try:  # one try for all cells: "0.5 m/s" and "fast" cause the same fault
+            values = tuple(map(float, text.split(",")))
         except ValueError:
             values = ()
         if values and not np.isfinite(values).all():
             faults.add(where, text, "must be finite", f"give the reading in {units[name]}, or leave the line out")
-            continue
-        if len(values) != wanted:
+        elif len(values) != wanted:
             rule = "must be two numbers, before and after the run" if wanted == 2 else "must be one number"
             fix = f"give only numbers, in {units[name]}; the unit goes in brackets before the ="
             faults.add(where, text, rule, fix)
-            continue
-        found[name] = values
+        else:
+            found[name] = values
     for name, unit in CONSTANT_UNITS.items():
         if not any(_SPELLINGS.get(same_name(key)) == name for key in sheet.constants):
             faults.add(f"{sheet.file}, {name}", "", "is missing", f"add the line '# {name} [{unit}] = ...'")
@@ -388,8 +383,8 @@ def check_coefficients(faults: FaultList, run: LoadCellRun, means: RunMeans) -> 
     turn = math.radians(means.alpha_deg)
     tangential = drag * math.cos(turn) - lift * math.sin(turn)
     if sine > _INCLINED and whole + _SURE * error < _SLIGHT * sine:
-        usual = f"{10 * _SLIGHT * sine:.2g}"
-        rule = f"is the whole force coefficient, less than a tenth of a plate's there, about {usual}"
+        rule = "is the whole force coefficient, less than a tenth of a plate's there, about "
+        rule += f"{10 * _SLIGHT * sine:.2g}"
         faults.add(where, whole, rule, off)
     elif sine > _STEEP and abs(tangential) - friction - _SURE * error > abs(means.normal):
         rule = f"is the tangential force coefficient, more than that of the normal force, {means.normal:.2g}"

@@ -91,11 +91,9 @@ def clip_rate(clock: Array, columns: Mapping[str, Array]) -> Clip | None:
         columns = {"flap_deg": columns["flap_deg"]}
     seen = []
     for values in columns.values():
-        there = np.isfinite(values)
-        if there.sum() >= 2 * _ORDERS + 6 and np.std(values[there]) > 1e-9 * max(
-            np.abs(values[there]).max(), 1e-30
-        ):
-            seen.append((clock[there], (values[there] - values[there].mean()) / np.std(values[there])))
+        at, values = clock[np.isfinite(values)], values[np.isfinite(values)]
+        if len(at) >= 2 * _ORDERS + 6 and np.std(values) > 1e-9 * max(np.abs(values).max(), 1e-30):
+            seen.append((at, (values - values.mean()) / np.std(values)))
     if not seen:
         return None
     middle, span = 0.5 * (clock[0] + clock[-1]), float(clock[-1] - clock[0]) * len(clock) / (len(clock) - 1)
@@ -228,16 +226,11 @@ def fit_law(phase: Array, values: Array) -> FilmedLaw:
 
 
 def fit_travel(phase: Array, values: Array) -> tuple[float, FilmedLaw]:
-    """Fit uniform travel plus a periodic smoothing spline; return the travel in a beat, and the spline.
-
-    The phase counts on from beat to beat.
-    """
-    from_start = (phase - phase.mean())[:, None]
-    found = _smoothed(np.hstack([from_start, fourier_columns(phase)]), values)
+    """Fit uniform travel plus such a spline; return the travel in a beat, and the spline. The phase counts on."""
+    found = _smoothed(np.hstack([(phase - phase.mean())[:, None], fourier_columns(phase)]), values)
     travel, waves = found.coefficients[0], found.coefficients[1:].copy()
     waves[0] -= travel * phase.mean()
-    law = found._replace(coefficients=waves, covariance=found.covariance[1:, 1:])
-    return float(travel), law
+    return float(travel), found._replace(coefficients=waves, covariance=found.covariance[1:, 1:])
 
 
 def _smoothed(columns: Array, values: Array) -> FilmedLaw:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base import FaultList
+from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat.aero.polar_sheet import check_radians
 from wingbeat.experiment.coefficient_table import QUANTITIES, CoefficientTable
 from wingbeat.experiment.load_cell_run import (
@@ -79,7 +79,13 @@ def reduce_run(run: LoadCellRun, last: float = LAST_SECONDS, rest: Intervals = (
 def _reduced(runs: Sequence[LoadCellRun], last: float, rest: Intervals) -> list[RunMeans]:
     """Return the coefficients of each run; runs are reduced together, because each NumPy call is slow."""
     faults = FaultList()
-    spans = _spans(faults, rest)
+    spans = sorted((float(start), float(end)) for start, end in rest)
+    for start, end in spans:
+        if not (math.isfinite(start) and math.isfinite(end) and start < end):
+            faults.add("rest", f"{start:g}:{end:g}", "must be a start and a later end", "such as 0:5, in seconds")
+    for (_, end), (start, _) in itertools.pairwise(spans):
+        if start <= end:
+            faults.add("rest", f"{start:g}", f"overlaps the interval that ends at {end:g} s", "join the two")
     faults.raise_if_any()
     steady = [_steady(faults, run, last, spans) for run in runs]
     faults.raise_if_any()
@@ -112,34 +118,26 @@ class _Steady(NamedTuple):
     notes: list[str]
 
 
-def _spans(faults: FaultList, rest: Intervals) -> list[tuple[float, float]]:
-    """Return the intervals of rest in the order of time; note those that end before they start, or overlap."""
-    spans = sorted((float(start), float(end)) for start, end in rest)
-    for start, end in spans:
-        if not (math.isfinite(start) and math.isfinite(end) and start < end):
-            faults.add("rest", f"{start:g}:{end:g}", "must be a start and a later end", "such as 0:5, in seconds")
-    for (_, end), (start, _) in itertools.pairwise(spans):
-        if start <= end:
-            faults.add("rest", f"{start:g}", f"overlaps the interval that ends at {end:g} s", "join the two")
-    return spans
-
-
 def _steady(faults: FaultList, run: LoadCellRun, last: float, spans: list[tuple[float, float]]) -> _Steady:
     """Return the window of a run without the zero; note a window at rest, and rest that is none."""
     raw = np.stack([getattr(run, name) for name in CHANNELS])
     force = 0.5 * run.density * run.speed**2 * run.chord * run.span
     unit = np.array([force, force, force * run.chord])
-    keep, zero_se = _window(run, last, spans), np.zeros(3)
+    moving = np.ones(run.time.size, dtype=bool)
+    for start, end in spans:
+        moving &= (run.time < start) | (run.time > end)
+    keep, zero_se = _window(run, last, spans, moving), np.zeros(3)
     tare = np.asarray(run.tare)
     if spans:
         if np.isfinite(tare).any():
             rule = "is stated, and the record has zero readings too"
             faults.add(f"{run.name}, rest", "", rule, "leave out one of the two")
-        found, middle = stated_rest(faults, run, spans, raw), float(run.time[keep].mean())
+        zeros, errors = stated_rest(faults, run, spans, raw, raw[:2, moving].mean(axis=1))
+        middle = float(run.time[keep].mean())
         centres = np.array([0.5 * (start + end) for start, end in spans])
         shares = np.array([np.interp(middle, centres, one) for one in np.eye(len(spans))])
-        zero_se = np.sqrt(shares**2 @ found.zero_se**2) / unit
-        zero = np.stack([np.interp(run.time, centres, readings) for readings in found.zero.T])
+        zero_se = np.sqrt(shares**2 @ errors**2) / unit
+        zero = np.stack([np.interp(run.time, centres, readings) for readings in zeros.T])
     else:
         share = (run.time - run.time[0]) / (run.time[-1] - run.time[0])
         before, after = np.nan_to_num(tare.T)[..., None]
@@ -186,16 +184,14 @@ def _means(runs: list[LoadCellRun], steady: list[_Steady], zeroed: bool) -> list
     return means
 
 
-def _window(run: LoadCellRun, last: float, spans: list[tuple[float, float]]) -> NDArray[np.bool_]:
+def _window(
+    run: LoadCellRun, last: float, spans: list[tuple[float, float]], moving: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
     """Return which samples are in the window: the last seconds of the part before, between or after the rest."""
-    moving = np.ones(run.time.size, dtype=bool)
-    for start, end in spans:
-        moving &= (run.time < start) | (run.time > end)
-    faults = FaultList()
     if not moving.any():
-        rule = "covers the whole record"
-        faults.add(f"{run.name}, rest", f"{spans[0][0]:g}:{spans[-1][1]:g}", rule, "state only the rest")
-        faults.raise_if_any()
+        where, value = f"{run.name}, rest", f"{spans[0][0]:g}:{spans[-1][1]:g}"
+        raise InvalidInputError([Fault(where, value, "covers the whole record", "state only the rest")])
+    faults = FaultList()
     until = float(run.time[moving][-1])
     since = max((end for _, end in spans if end < until), default=float(run.time[0]))
     step = run.duration / len(run.time)
@@ -232,12 +228,10 @@ def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS, rest: I
     ------
     InvalidInputError : no runs, a sweep of angles in radians, and inputs that `reduce_run` refuses.
     """
-    faults = FaultList()
     if not runs:
-        faults.add("runs", "none", "there is nothing to reduce", "name at least one run")
-    faults.raise_if_any()
+        raise InvalidInputError([Fault("runs", "none", "there is nothing to reduce", "name at least one run")])
     means = _reduced(runs, last, rest)
-    alpha = np.array([one.alpha_deg for one in means])
+    alpha, faults = np.array([one.alpha_deg for one in means]), FaultList()
     check_radians(faults, "alpha_deg of the runs", alpha)
     faults.raise_if_any()
     stream = _clusters(np.log([one.reynolds for one in means]), math.log(SAME_REYNOLDS))
@@ -261,13 +255,6 @@ def _clusters(values: NDArray[np.float64], gap: float) -> NDArray[np.intp]:
     return clusters
 
 
-class Variance(NamedTuple):
-    """Variance of each point's mean: the part from its samples, and the added part from scatter between repeats."""
-
-    within: NDArray[np.float64]
-    between: NDArray[np.float64]
-
-
 def _pooled(
     means: list[RunMeans], stream: NDArray[np.intp], point: NDArray[np.intp], notes: tuple[str, ...]
 ) -> CoefficientTable:
@@ -276,33 +263,33 @@ def _pooled(
     def average(values: NDArray[np.float64]) -> NDArray[np.float64]:
         return np.bincount(point, values) / count
 
-    def variance(values: NDArray[np.float64], errors: NDArray[np.float64]) -> Variance:
-        between = np.zeros(len(count))
+    value, sd, se, c_n, c_n_se, alpha, reynolds = (
+        np.array([getattr(one, name) for one in means])
+        for name in ("mean", "sd", "se", "normal", "normal_se", "alpha_deg", "reynolds")
+    )
+    mean = {name: average(value[:, i]) for i, name in enumerate(QUANTITIES)}
+    spread = {name: np.sqrt(average(sd[:, i] ** 2)) for i, name in enumerate(QUANTITIES)}
+    # The variance of each point's mean: the part from its samples, and that from scatter between repeats.
+    within, between = {}, {}
+    runs = {name: (value[:, i], se[:, i]) for i, name in enumerate(QUANTITIES[:3])} | {"C_N": (c_n, c_n_se)}
+    for name, (values, errors) in runs.items():
+        within[name], between[name] = np.bincount(point, errors**2) / count**2, np.zeros(len(count))
         for k in range(stream.max() + 1):
             here = stream == k
             groups, repeat = np.unique(point[here], return_inverse=True)
-            between[groups] = added_variance(values[here], errors[here], repeat)
-        return Variance(np.bincount(point, errors**2) / count**2, between / count)
-
-    value, sd, se = (np.array([getattr(one, name) for one in means]) for name in ("mean", "sd", "se"))
-    mean = {name: average(value[:, i]) for i, name in enumerate(QUANTITIES)}
-    spread = {name: np.sqrt(average(sd[:, i] ** 2)) for i, name in enumerate(QUANTITIES)}
-    parts = {name: variance(value[:, i], se[:, i]) for i, name in enumerate(QUANTITIES[:3])}
-    normal = average(np.array([one.normal for one in means]))
-    of_normal = variance(np.array([one.normal for one in means]), np.array([one.normal_se for one in means]))
-    error = {name: np.sqrt(part.within + part.between) for name, part in parts.items()}
+            between[name][groups] = added_variance(values[here], errors[here], repeat)
+        between[name] /= count
+    error = {name: np.sqrt(within[name] + between[name]) for name in QUANTITIES[:3]}
+    normal = average(c_n)
     with np.errstate(divide="ignore", invalid="ignore"):
         lever = mean["C_M"] / normal
         # The variance between repeats enters through force and moment; it changes the ratio most where the force is
         # small.
-        between = (parts["C_M"].between + lever**2 * of_normal.between) / normal**2
+        of_lever = (between["C_M"] + lever**2 * between["C_N"]) / normal**2
         # Runs without a centre make the error NaN, so the cell stays empty.
-        error["x_cp"] = np.sqrt(np.bincount(point, se[:, 3] ** 2) / count**2 + between)
-    floor = np.maximum(CENTRE_FLOOR, CENTRE_SIGNAL * np.sqrt(of_normal.within + of_normal.between))
+        error["x_cp"] = np.sqrt(np.bincount(point, se[:, 3] ** 2) / count**2 + of_lever)
+    floor = np.maximum(CENTRE_FLOOR, CENTRE_SIGNAL * np.sqrt(within["C_N"] + between["C_N"]))
     known = (np.abs(normal) > floor) & np.isfinite(error["x_cp"])
     for column, values in ((mean, 0.5 - lever), (spread, spread["x_cp"]), (error, error["x_cp"])):
         column["x_cp"] = np.where(known, values, np.nan)
-    alpha, reynolds = (
-        average(np.array([getattr(one, name) for one in means])) for name in ("alpha_deg", "reynolds")
-    )
-    return CoefficientTable(alpha, mean, spread, error, reynolds, count, notes)
+    return CoefficientTable(average(alpha), mean, spread, error, average(reynolds), count, notes)

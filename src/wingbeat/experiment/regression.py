@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import functools
 import math
 import warnings
 from dataclasses import dataclass
@@ -11,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from wingbeat._base import FaultList
+from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat.experiment.curve_forms import CurveForm
 
 Array = NDArray[np.float64]
@@ -132,11 +133,9 @@ class CurveFit:
         from scipy.stats import f
 
         _check_confidence(confidence)
-        faults = FaultList()
         if set(parameters) != set(self.parameters):
-            names = ", ".join(self.parameters)
-            faults.add("parameters", ", ".join(parameters), "are not those of the fit", f"give {names}")
-        faults.raise_if_any()
+            fix = f"give {', '.join(self.parameters)}"
+            raise InvalidInputError([Fault("parameters", ", ".join(parameters), "are not those of the fit", fix)])
         count = len(self.parameters)
         room = 1.0 + count / self.freedom * float(f.ppf(confidence, count, self.freedom))
         return self._misfit(parameters) <= self.chi_squared * room
@@ -234,10 +233,8 @@ def fit_curve(
     if "phase_deg" in parameters and "amplitude" in parameters:
         # The same sine with a positive amplitude and a phase within half a turn.
         if parameters["amplitude"] < 0:
-            parameters["amplitude"], parameters["phase_deg"] = (
-                -parameters["amplitude"],
-                parameters["phase_deg"] + 180.0,
-            )
+            parameters["amplitude"] *= -1.0
+            parameters["phase_deg"] += 180.0
         parameters["phase_deg"] = (parameters["phase_deg"] + 180.0) % 360.0 - 180.0
     slopes = form.slopes(a, parameters) / errors[:, None]
     sizes = np.linalg.norm(slopes, axis=0)
@@ -286,28 +283,20 @@ def _least_squares(a: Array, y: Array, errors: Array, form: CurveForm, label: st
     bounds = [form.lowest.get(n, -math.inf) for n in names], [form.highest.get(n, math.inf) for n in names]
 
     # SciPy asks for slopes where it has just asked for the value; one evaluation gives both.
-    kept: dict[bytes, Array] = {}
+    @functools.lru_cache(maxsize=1)
+    def misfit(x: bytes) -> tuple[Array, Array]:
+        value, slopes = form.value_and_slopes(a, dict(zip(names, np.frombuffer(x).tolist(), strict=True)))
+        return (value - y) / errors, slopes / errors[:, None]
 
-    def residuals(x: Array) -> Array:
-        value, slopes = form.value_and_slopes(a, dict(zip(names, x.tolist(), strict=True)))
-        kept.clear()
-        kept[x.tobytes()] = slopes
-        return (value - y) / errors
-
-    def slopes(x: Array) -> Array:
-        if x.tobytes() not in kept:
-            residuals(x)
-        return kept[x.tobytes()] / errors[:, None]
-
+    options: Any = {"jac": lambda x: misfit(x.tobytes())[1], "bounds": bounds, "x_scale": "jac", "max_nfev": 400}
+    options |= {"ftol": 1e-12, "xtol": 1e-12, "gtol": 1e-12}
     best: Any = None
     for start in form.starts(a, y, 1.0 / errors):
         x = np.clip([start[name] for name in names], *bounds)
-        if not (np.isfinite(residuals(x)).all() and np.isfinite(slopes(x)).all()):
-            faults = FaultList()
-            faults.add(label, form.formula, "gives no finite numbers at its starting values", "change these")
-            faults.raise_if_any()
-        tight = {"ftol": 1e-12, "xtol": 1e-12, "gtol": 1e-12, "max_nfev": 400}
-        found = least_squares(residuals, x, jac=slopes, bounds=bounds, x_scale="jac", **tight)  # type: ignore[arg-type]
+        if not all(np.isfinite(part).all() for part in misfit(x.tobytes())):
+            rule = "gives no finite numbers at its starting values"
+            raise InvalidInputError([Fault(label, form.formula, rule, "change these")])
+        found = least_squares(lambda x: misfit(x.tobytes())[0], x, **options)
         if best is None or found.cost < best.cost:
             best = found
     return best
@@ -321,8 +310,11 @@ def distrust(fit: CurveFit) -> tuple[str, ...]:
         ends = fit.form.lowest.get(name, -math.inf), fit.form.highest.get(name, math.inf)
         if any(math.isclose(value, end, abs_tol=1e-9) for end in ends):
             notes.append(f"{fit.label}: {name} reached its limit in the fit, {value:g}; choose another form")
-    limits = fit.interval()
-    loose = [name for name, value in determined.items() if limits[name][1] - value > _room(fit, name)]
+    # The largest meaningful half width of an interval is in general the parameter's own size. Two may be 0: the
+    # angle of zero lift, which shifts the line, and a constant, known well if it is small beside the curve.
+    limits, least = fit.interval(), {"zero_lift_deg": 5.0, "constant": float(np.ptp(fit.values))}
+    room = {n: 45.0 if n == "phase_deg" else max(abs(v), least.get(n, 1e-12)) for n, v in determined.items()}
+    loose = [name for name, value in determined.items() if limits[name][1] - value > room[name]]
     if loose:
         text = f"{fit.label}: too uncertain to be meaningful: {', '.join(loose)}"
         notes.append(f"{text}; the data do not determine this form; use the curve only where it was measured")
@@ -332,15 +324,3 @@ def distrust(fit: CurveFit) -> tuple[str, ...]:
             "parameters; measure over more angles, or choose a form with fewer parameters"
         )
     return tuple(notes)
-
-
-def _room(fit: CurveFit, name: str) -> float:
-    """Return the largest meaningful half width of a parameter's interval, in general the parameter's own size."""
-    value = abs(fit.parameters[name])
-    if name == "phase_deg":
-        return 45.0
-    if name == "zero_lift_deg":  # which may be 0, and shifts the line of lift
-        return max(value, 5.0)
-    if name == "constant":  # which may be 0, and is then known well if it is small beside the curve
-        return max(value, float(np.ptp(fit.values)))
-    return max(value, 1e-12)

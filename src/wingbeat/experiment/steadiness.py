@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,12 +53,7 @@ def added_variance(values: NDArray[np.float64], errors: NDArray[np.float64], gro
     With ``w = 1/se^2``, their sum ``W`` in a group and ``Q = sum w (x - mean)^2``, the result is the moment
     estimator ``tau^2 = (Q - df) / sum(W - sum(w^2)/W)`` if ``Q > df + 2 sqrt(2 df)``, which is two standard
     deviations of chi^2 above its mean. Otherwise it is 0, because estimated errors make Q slightly too large:
-    DerSimonian and Laird 1986, doi 10.1016/0197-2456(86)90046-2.
-
-    Parameters
-    ----------
-    values, errors : one mean and its standard error for each run, shape (runs,).
-    groups : number of each run's group, from 0; the runs of a group are repeats of one point; shape (runs,).
+    DerSimonian and Laird 1986, doi 10.1016/0197-2456(86)90046-2. The runs of a group are repeats of one point.
 
     >>> added_variance(np.array([1.0, 3.0]), np.array([1e-6, 1e-6]), np.array([0, 0]))  # doctest: +ELLIPSIS
     1.999...
@@ -74,8 +68,7 @@ def added_variance(values: NDArray[np.float64], errors: NDArray[np.float64], gro
     excess = float((weight * (values - mean[groups]) ** 2).sum()) - freedom
     if excess <= 2.0 * np.sqrt(2.0 * freedom):
         return 0.0
-    room = float((total - np.bincount(groups, weight**2) / total).sum())
-    return excess / room
+    return excess / float((total - np.bincount(groups, weight**2) / total).sum())
 
 
 Array = NDArray[np.float64]
@@ -96,14 +89,6 @@ _CLIPPED, _CLIPPED_SHARE, _CLIPPED_RATIO = 10, 0.01, 3
 _REPEATED = 0.5
 # The force in an interval of rest may change by this share of that in the stream, for its zero drifts.
 _MOVING = 0.1
-
-
-class Rest(NamedTuple):
-    """Intervals of rest [s], with the channels' readings in them and standard errors, shape (intervals, 3)."""
-
-    spans: list[tuple[float, float]]
-    zero: Array
-    zero_se: Array
 
 
 def rest_spans(time: Array, force: Array) -> list[tuple[float, float]]:
@@ -142,12 +127,14 @@ def refuse_rest(faults: FaultList, run: LoadCellRun, force: Array, keep: NDArray
         window = run.time[keep]
         rule = f"from {window[0]:.4g} to {window[-1]:.4g} s is at rest: the force is {inside:.2g} N there, and "
         rule += f"{usual:.2g} N in the stream"
-        faults.add(f"{run.name}, window", f"{window[-1] - window[0]:.4g} s", rule, _state_rest(run, force))
+        fix = _state_rest(run, force, "cut the record at its end")
+        faults.add(f"{run.name}, window", f"{window[-1] - window[0]:.4g} s", rule, fix)
 
 
-def _state_rest(run: LoadCellRun, force: Array) -> str:
+def _state_rest(run: LoadCellRun, force: Array, otherwise: str) -> str:
+    """Return the advice to state the rest at the ends of a record, or other advice if there is none."""
     spans = " ".join(f"{start:.4g}:{end:.4g}" for start, end in rest_spans(run.time, force))
-    return f"state the rest, which also measures the zero: --rest {spans}" if spans else "cut the record at its end"
+    return f"state the rest, which also measures the zero: --rest {spans}" if spans else otherwise
 
 
 def unsteady(runs: list[LoadCellRun], windows: list[Array], series: Array, zeroed: bool) -> list[list[str]]:
@@ -190,8 +177,7 @@ def unsteady(runs: list[LoadCellRun], windows: list[Array], series: Array, zeroe
             at = time[min((best[i, worst] + 1) * size, time.size - 1)]
             low, high = (part.mean() for part in np.split(blocks[i, worst], [best[i, worst] + 1]))
             force = np.stack([run.normal_force, run.tangential_force])
-            spans = rest_spans(run.time, force)
-            fix = _state_rest(run, force) if spans else "average one side of the step only: cut the record there"
+            fix = _state_rest(run, force, "average one side of the step only: cut the record there")
             found.append(
                 f"{run.name}: the record steps within the window, at about {at:.3g} s: {QUANTITIES[worst]} from "
                 f"{low:.3g} to {high:.3g}; {fix}"
@@ -242,8 +228,8 @@ def signal_notes(run: LoadCellRun, keep: NDArray[np.bool_], raw: Array) -> list[
             at = int(np.count_nonzero(values == edge))
             next_to = int(np.count_nonzero(values == inner))
             if at >= max(_CLIPPED, _CLIPPED_SHARE * count) and at > _CLIPPED_RATIO * next_to:
-                exactly = f"is exactly {edge:g} in {at} samples: is the load cell overloaded?"
-                notes.append(f"{run.name}: {name} {exactly}")
+                where = f"{run.name}: {name} is exactly {edge:g}"
+                notes.append(f"{where} in {at} samples: is the load cell overloaded?")
         off = np.abs(values - np.median(values))
         far = np.flatnonzero(off > _SPIKE * float(np.median(off)))
         if 0 < far.size <= _RARE * count and np.median(off) > 0:
@@ -259,13 +245,14 @@ def signal_notes(run: LoadCellRun, keep: NDArray[np.bool_], raw: Array) -> list[
     return notes
 
 
-def stated_rest(faults: FaultList, run: LoadCellRun, spans: list[tuple[float, float]], raw: Array) -> Rest:
-    """Return the channels' readings in stated intervals of rest [s]; note intervals that are not at rest."""
-    zero, errors = np.zeros((len(spans), 3)), np.zeros((len(spans), 3))
-    moving = np.ones(run.time.size, dtype=bool)
-    for start, end in spans:
-        moving &= (run.time < start) | (run.time > end)
-    flow = raw[:2, moving].mean(axis=1)
+def stated_rest(
+    faults: FaultList, run: LoadCellRun, spans: list[tuple[float, float]], raw: Array, flow: Array
+) -> tuple[Array, Array]:
+    """Return the channels' readings in intervals of rest [s] and their standard errors, shape (intervals, 3).
+
+    An interval that is not at rest beside the mean force in the stream, `flow`, is noted.
+    """
+    zero, errors = np.zeros((2, len(spans), 3))
     for k, (start, end) in enumerate(spans):
         inside = (run.time >= start) & (run.time <= end)
         where = f"{run.name}, rest {start:g}:{end:g}"
@@ -282,7 +269,7 @@ def stated_rest(faults: FaultList, run: LoadCellRun, spans: list[tuple[float, fl
         if change > _MOVING * float(np.hypot(*(flow - zero[k, :2]))) and change > 5 * noise:
             rule = "is not at rest: the force changes within the interval"
             faults.add(where, f"{change:.2g} N", rule, "state only the time in which the fluid is still")
-    return Rest(spans, zero, errors)
+    return zero, errors
 
 
 def zero_notes(runs: Sequence[LoadCellRun]) -> list[str]:

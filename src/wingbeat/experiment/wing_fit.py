@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base import FaultList, InvalidInputError, __version__, write_atomically
+from wingbeat._base import Fault, FaultList, InvalidInputError, __version__, write_atomically
 from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.aero.model_file import KIND, Fitted, FittedCurve, FittedModel, FittedWing, read_model
@@ -93,10 +93,8 @@ class WingFit:
         InvalidInputError : no centre of pressure was fitted.
         """
         if self.centre is None:
-            faults = FaultList()
-            rule = "this model has no centre of pressure"
-            faults.add("x_cp", self.name, rule, "fit a table with the column x_cp, by a form that uses it")
-            raise InvalidInputError(faults.faults)
+            fix = "fit a table with the column x_cp, by a form that uses it"
+            raise InvalidInputError([Fault("x_cp", self.name, "this model has no centre of pressure", fix)])
         a = np.deg2rad(alpha_deg)
         normal = self.lift.predict(alpha_deg) * np.cos(a) + self.drag.predict(alpha_deg) * np.sin(a)
         return normal * (0.5 - self.centre.predict(alpha_deg))
@@ -116,11 +114,10 @@ class WingFit:
         faults.raise_if_any()
         drag = _fitted(self.drag)
         if isinstance(self.drag, DragFit):
-            (low, high), beyond = self.alpha_range_deg, _JOIN_DEG
-            joins = (min(-_PLATE_FROM_DEG, low - beyond), low), (high, max(_PLATE_FROM_DEG, high + beyond))
-            wing = FittedCurve(drag.terms, self.drag.joint_names, self.drag.joint)
-            ranges = *joins, self.reynolds_range
-            return FittedWing(self.name, self.citation, *ranges, wing, self.aspect_ratio, self.notes)
+            low, high = self.alpha_range_deg
+            joins = (min(-_PLATE_FROM_DEG, low - _JOIN_DEG), low), (high, max(_PLATE_FROM_DEG, high + _JOIN_DEG))
+            wing = self.reynolds_range, FittedCurve(drag.terms, self.drag.joint_names, self.drag.joint)
+            return FittedWing(self.name, self.citation, *joins, *wing, self.aspect_ratio, self.notes)
         centre = None if self.centre is None else _fitted(self.centre)
         ranges = self.alpha_range_deg, self.reynolds_range
         curves = _fitted(self.lift), drag, centre
@@ -223,14 +220,12 @@ def fit_wing(
     one_side = isinstance(chosen.lift, LiftForm) and table.alpha_deg.min() >= 0
     if one_side and zero_lift(table.alpha_deg, table.mean["C_L"]) is not None:
         table, copies = table.with_mirror_image(), 2
-        notes.append(
-            "one side was measured, and its lift at 0 degrees is 0: the other is taken as its mirror image"
-        )
+        notes += ["one side was measured, and its lift at 0 degrees is 0: the other is taken as its mirror image"]
     lift = _fit(table, "C_L", chosen.lift)
     # A mirror image adds no information, so the variance stays that of the rows that were measured.
     lift = dataclasses.replace(lift, covariance=copies * lift.covariance)
     if isinstance(chosen.drag, DragForm):
-        drag = fit_drag(chosen.drag, lift, table.mean["C_D"], _sigma(table, "C_D"), "C_D", copies)
+        drag = fit_drag(chosen.drag, lift, table.mean["C_D"], _sigma(table, "C_D"), copies)
         notes += stall_notes(lift)
     else:
         drag = _fit(table, "C_D", chosen.drag)
@@ -260,8 +255,8 @@ def fit_wing(
         warnings += judge(dataclasses.replace(curve, **rows), measured.reynolds)
     notes += [note for note in doubts if note not in warnings] + warnings
     failed = [text for curve in fitted for text in failures(curve)]
-    said = tuple(notes), aspect_ratio, tuple(warnings)
-    found = WingFit(name, chosen.name, citation, lift, drag, centre, table, *said)
+    curves = lift, drag, centre
+    found = WingFit(name, chosen.name, citation, *curves, table, tuple(notes), aspect_ratio, tuple(warnings))
     if not failed and all(isinstance(curve.form, BoxForm) for curve in found.curves.values()):
         failed += model_failures(found.coefficients(), found.alpha_range_deg)
     return dataclasses.replace(found, failures=tuple(failed))
@@ -284,7 +279,7 @@ def _sigma(
 
 def _fitted(curve: CurveFit) -> FittedCurve:
     assert isinstance(curve.form, BoxForm)  # refused before
-    terms = curve.form.kind(**curve.form.terms(curve.parameters))
+    terms = curve.form.kind(**curve.form.fixed | curve.parameters)
     return FittedCurve(terms, curve.form.names, curve.covariance)
 
 
@@ -299,26 +294,17 @@ _CAMBERED = """\
 
 def model_text(model: Fitted, form: str, curves: dict[str, CurveFit]) -> str:
     """Return the content of the model file of a fit with its curves by coefficient."""
-    lines = [
-        _HEAD,
-        *([_CAMBERED] if isinstance(model, FittedWing) else []),
-        f"kind = {_quoted(KIND)}",
-        f"name = {_quoted(model.name)}",
-        f"citation = {_quoted(model.citation)}",
-        f"form = {_quoted(form)}",
-        f"made_by = {_quoted(f'wingbeat {__version__}')}",
-    ]
+    texts = {"kind": KIND, "name": model.name, "citation": model.citation, "form": form}
+    texts["made_by"] = f"wingbeat {__version__}"
     if isinstance(model, FittedWing):
         ranges = {"low_join_deg": model.low_join_deg, "high_join_deg": model.high_join_deg}
-        sections = {"wing": (model.wing, curves)}
+        sections = [("wing", model.wing, curves)]
     else:
         ranges = {"alpha_range_deg": model.alpha_range_deg}
-        parts = {"lift": model.lift, "drag": model.drag, "centre": model.centre}
-        sections = {
-            key: (part, {label: curve})
-            for (key, part), (label, curve) in zip(parts.items(), curves.items(), strict=False)
-            if part is not None
-        }
+        pairs = zip(model.curves.items(), curves.items(), strict=True)
+        sections = [(key.removesuffix("_terms"), part, dict([curve])) for (key, part), curve in pairs]
+    lines = [_HEAD, *([_CAMBERED] if isinstance(model, FittedWing) else [])]
+    lines += [f"{key} = {_quoted(text)}" for key, text in texts.items()]
     lines += [f"{key} = {_row(ends)}" for key, ends in ranges.items()]
     if model.reynolds_range is not None:
         lines.append(f"reynolds_range = {_row(model.reynolds_range)}")
@@ -326,28 +312,24 @@ def model_text(model: Fitted, form: str, curves: dict[str, CurveFit]) -> str:
         lines.append(f"aspect_ratio = {float(model.aspect_ratio)!r}")
     if model.notes:
         lines += ["notes = [", *(f"  {_quoted(note)}," for note in model.notes), "]"]
-    for key, (part, own) in sections.items():
-        lines += ["", *_section(key, part, own)]
+    for key, part, own in sections:
+        limits = {name: ends for curve in own.values() for name, ends in curve.interval().items()}
+        formulas = "\n# ".join(f"{label} = {curve.form.formula}" for label, curve in own.items())
+        lines += ["", f"[{key}] # {formulas}"]
+        for name, value in vars(part.terms).items():
+            if value is not None:
+                low, high = limits.get(name, (value, value))
+                about = f" # 95 % interval {low:.5g} to {high:.5g}" if name in limits else " # held fixed"
+                lines.append(f"{name} = {float(value)!r}{about}")
+        free = ", ".join(_quoted(name) for name in part.free)
+        lines += ["", f"[{key}.fit]", f"free = [{free}]", "covariance = ["]
+        lines += [f"  {_row(row)}," for row in part.covariance]
+        lines += ["]", f"points = {len(next(iter(own.values())).values)}"]
+        for name in ("r_squared", "aicc"):
+            values = [getattr(curve, name) for curve in own.values()]
+            if all(math.isfinite(value) for value in values):
+                lines.append(f"{name} = {_row(values) if len(values) > 1 else repr(float(values[0]))}")
     return "\n".join(lines) + "\n"
-
-
-def _section(key: str, part: FittedCurve, curves: dict[str, CurveFit]) -> list[str]:
-    limits = {name: ends for curve in curves.values() for name, ends in curve.interval().items()}
-    formulas = [f"{label} = {curve.form.formula}" for label, curve in curves.items()]
-    lines = [f"[{key}] # {formulas[0]}", *(f"# {formula}" for formula in formulas[1:])]
-    for name, value in vars(part.terms).items():
-        if value is not None:
-            low, high = limits.get(name, (value, value))
-            about = f" # 95 % interval {low:.5g} to {high:.5g}" if name in limits else " # held fixed"
-            lines.append(f"{name} = {float(value)!r}{about}")
-    lines += ["", f"[{key}.fit]", f"free = [{', '.join(_quoted(name) for name in part.free)}]", "covariance = ["]
-    lines += [f"  {_row(row)}," for row in part.covariance]
-    lines += ["]", f"points = {len(next(iter(curves.values())).values)}"]
-    for name in ("r_squared", "aicc"):
-        values = [getattr(curve, name) for curve in curves.values()]
-        if all(math.isfinite(value) for value in values):
-            lines.append(f"{name} = {_row(values) if len(values) > 1 else repr(float(values[0]))}")
-    return lines
 
 
 def _row(values: object) -> str:
@@ -395,12 +377,11 @@ def draw(
         faults.whole(name, value, lowest, highest)
     faults.raise_if_any()
     model = source.model() if isinstance(source, WingFit) else read_model(source)
-    curves = model.curves
-    if not any(curve.free for curve in curves.values()):
+    if not any(curve.free for curve in model.curves.values()):
         faults.add(model.name, "no covariance", "has nothing to draw from", "fit it with `wingbeat fit`")
     faults.raise_if_any()
     random = np.random.default_rng(seed)
-    drawn = {name: _terms(name, curve, count, random) for name, curve in curves.items()}
+    drawn = {name: _terms(name, curve, count, random) for name, curve in model.curves.items()}
     return [
         model.coefficients(extension, blend_width_deg, **{name: terms[i] for name, terms in drawn.items()})
         for i in range(count)
@@ -425,7 +406,6 @@ def _terms(label: str, curve: FittedCurve, count: int, random: np.random.Generat
                 found.append(dataclasses.replace(curve.terms, **drawn))
         if len(found) >= count:
             return found[:count]
-    faults = FaultList()
     rule = "few random draws from it give a valid formula: the data do not determine this form"
-    faults.add(f"{label}, covariance", "too wide", rule, "choose a form with fewer parameters")
-    raise InvalidInputError(faults.faults)
+    fix = "choose a form with fewer parameters"
+    raise InvalidInputError([Fault(f"{label}, covariance", "too wide", rule, fix)])

@@ -16,9 +16,9 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat._base import FaultList
-from wingbeat.aero.formula_models import CamberedTerms, CentreTerms, FormulaTerms
+from wingbeat.aero.formula_models import CamberedTerms, CentreTerms
 from wingbeat.aero.library import WING_ESTIMATES
-from wingbeat.experiment.curve_forms import Array, BoxForm, CurveForm, any_terms, formula_of, value_and_slopes
+from wingbeat.experiment.curve_forms import Array, BoxForm, CurveForm, any_terms, value_and_slopes
 from wingbeat.experiment.regression import CurveFit, distrust, fit_curve
 
 # Angles beyond which lift falls off, as that of a plate does; the form has constant lift beyond its stalls.
@@ -32,14 +32,8 @@ _SLOPES = (2.0, 3.5, 5.0, 6.5)
 _GAP_DEG = 0.1
 _BENDS = {name: WING_ESTIMATES["feathered"][name].value for name in ("lift_rounding", "onset_rounding_deg")}
 _LIFT = {"zero_lift_deg": -3.0, "lift_slope": 4.0, "lift_lowest": -0.5, "lift_highest": 1.4}
-_DRAG = {
-    "drag_least": 0.03,
-    "drag_induced": 0.05,
-    "low_onset_deg": -5.0,
-    "low_rise": 0.5,
-    "high_onset_deg": 15.0,
-    "high_rise": 1.0,
-}
+_DRAG = {"drag_least": 0.03, "drag_induced": 0.05, "low_onset_deg": -5.0, "low_rise": 0.5}
+_DRAG |= {"high_onset_deg": 15.0, "high_rise": 1.0}
 
 
 @dataclass(frozen=True)
@@ -101,21 +95,16 @@ class DragForm(BoxForm):
         zero = terms["zero_lift_deg"]
         middle = math.degrees(0.5 * (terms["lift_lowest"] + terms["lift_highest"]) / terms["lift_slope"])
         low, high = float(lift.alpha_deg.min()) - zero, float(lift.alpha_deg.max()) - zero
-        # Below the middle of the line of lift, flow separates from the lower side; above the middle, from the upper
-        # side.
+        # Below the middle of the line of lift, flow separates from the lower side; above it, from the upper side.
         middle = float(np.clip(middle, low + 1.0, high - 1.0))
-        below, above = middle - 0.5 * _GAP_DEG, middle + 0.5 * _GAP_DEG
-        fixed = self.fixed | terms
+        gap = 0.5 * _GAP_DEG
+        onsets = {"low_onset_deg": (low, middle - gap), "high_onset_deg": (middle + gap, high)}
         return dataclasses.replace(
             self,
-            function=formula_of(self.kind, fixed, self.curve),
-            lowest=self.lowest | {"low_onset_deg": low, "high_onset_deg": above},
-            highest=self.highest | {"low_onset_deg": below, "high_onset_deg": high},
-            fixed=fixed,
-            grids={
-                "low_onset_deg": np.linspace(low, below, _NODES),
-                "high_onset_deg": np.linspace(above, high, _NODES),
-            },
+            lowest=self.lowest | {name: ends[0] for name, ends in onsets.items()},
+            highest=self.highest | {name: ends[1] for name, ends in onsets.items()},
+            fixed=self.fixed | terms,
+            grids={name: np.linspace(*ends, _NODES) for name, ends in onsets.items()},
         )
 
 
@@ -138,19 +127,21 @@ class DragFit(CurveFit):
 def _slopes(fit: CurveFit, alpha_deg: Array, names: tuple[str, ...]) -> Array:
     """Return the derivatives of a fitted drag with respect to terms of lift and drag, shape (n, names)."""
     assert isinstance(fit.form, DragForm)
-    terms = any_terms(fit.form.kind, fit.form.terms(fit.parameters))
+    terms = any_terms(fit.form.kind, fit.form.fixed | fit.parameters)
     slopes = value_and_slopes(terms, alpha_deg, fit.form.curve)[1]
     return np.column_stack([getattr(slopes, name) for name in names])
 
 
-def with_lift(drag: CurveFit, lift: CurveFit) -> DragFit:
-    """Return a fit of drag, made at fixed lift, with a covariance that includes the uncertainty of lift.
+def fit_drag(form: DragForm, lift: CurveFit, values: Array, sigma: Array | None, copies: int = 1) -> DragFit:
+    """Fit the drag of a cambered wing at its fitted lift, with a covariance that includes the uncertainty of lift.
 
     If the terms of lift change by ``d``, those of drag follow by ``G d``, ``G = -(J^T W J)^-1 J^T W L``, where J
     and L are the derivatives of drag with respect to its own terms and to those of lift. So if the errors of lift
     and drag are independent, the covariance of all terms is ``[[V_l, V_l G^T], [G V_l, V_d + G V_l G^T]]``: Murphy
-    and Topel 1985, J. Bus. Econ. Stat. 3:370.
+    and Topel 1985, J. Bus. Econ. Stat. 3:370. Each measurement is `copies` times among the values: 2 if half of
+    them are a mirror image.
     """
+    drag = fit_curve(lift.alpha_deg, values, form.beside(lift), sigma, "C_D")
     own, other = tuple(drag.parameters), tuple(lift.parameters)
     weighted = _slopes(drag, drag.alpha_deg, (*own, *other)) / drag.sigma[:, None]
     sizes = np.maximum(np.linalg.norm(weighted, axis=0), 1e-300)
@@ -158,27 +149,15 @@ def with_lift(drag: CurveFit, lift: CurveFit) -> DragFit:
     follow = -np.linalg.lstsq(scaled[:, : len(own)], scaled[:, len(own) :])[0]
     follow *= sizes[len(own) :] / sizes[: len(own), None]
     cross = follow @ lift.covariance
-    marginal = drag.covariance + cross @ follow.T
+    marginal = copies * drag.covariance + cross @ follow.T
     joint = np.block([[lift.covariance, cross.T], [cross, marginal]])
     found = DragFit(**vars(drag) | {"covariance": marginal}, joint_names=(*other, *own), joint=joint)
     return dataclasses.replace(found, notes=distrust(found))
 
 
-def fit_drag(
-    form: DragForm, lift: CurveFit, values: Array, sigma: Array | None, label: str, copies: int = 1
-) -> DragFit:
-    """Fit the drag of a cambered wing, given its fitted lift.
-
-    Each measurement is `copies` times among the values: 2 if half of them are a mirror image.
-    """
-    alone = fit_curve(lift.alpha_deg, values, form.beside(lift), sigma, label)
-    return with_lift(dataclasses.replace(alone, covariance=copies * alone.covariance), lift)
-
-
 _LIFT_HELD = {"lift_rounding": _BENDS["lift_rounding"]} | dict.fromkeys(_DRAG, 0.0) | {"onset_rounding_deg": 1.0}
 CAMBERED_LIFT = LiftForm(
     "lowest + ramp(slope (a - zero_lift) - lowest) - ramp(slope (a - zero_lift) - highest)",
-    formula_of(CamberedTerms, _LIFT_HELD, "lift_at"),
     _LIFT,
     lowest={"zero_lift_deg": -40.0, "lift_slope": 0.5, "lift_lowest": -3.0, "lift_highest": 0.02},
     highest={"zero_lift_deg": 40.0, "lift_slope": 12.0, "lift_lowest": -0.02, "lift_highest": 4.0},
@@ -188,7 +167,6 @@ CAMBERED_LIFT = LiftForm(
 )
 CAMBERED_DRAG = DragForm(
     "least + induced C_L^2 + low_rise ramp(low_onset - a) + high_rise ramp(a - high_onset)",
-    formula_of(CamberedTerms, _BENDS | _LIFT, "drag_at"),
     _DRAG,
     lowest={"drag_least": 1e-4, "drag_induced": 0.0, "low_rise": 0.0, "high_rise": 0.0},
     highest={"drag_least": 1.0, "drag_induced": 1.0, "low_rise": 10.0, "high_rise": 10.0},
@@ -196,18 +174,14 @@ CAMBERED_DRAG = DragForm(
     fixed=_BENDS | _LIFT,
     curve="drag_at",
 )
-# Grids of the terms in which a formula is not linear; the others follow from linear least squares at each node.
+# A grid of a term in which formulas are not linear; the others follow from linear least squares at each node.
 _RATES = np.concatenate([np.geomspace(0.3, 3.0, 12), [3.6, 4.5]])
-_WAVE_DECAYS = np.geomspace(0.02, 2.0, 10)
-_EXPONENTS = np.linspace(0.2, 2.0, 10)
-_CENTRE_DECAYS = np.geomspace(0.02, 0.6, 10)
 
 
 def _wave_form(formula: str, free: list[str], fixed: dict[str, float], **grids: Array) -> BoxForm:
     decays = "decay_rate" in free
     return BoxForm(
         formula,
-        formula_of(FormulaTerms, fixed),
         dict.fromkeys(free, 1.0),
         lowest={"decay_rate": 0.0} if decays else {},
         highest={"decay_rate": 20.0} if decays else {},
@@ -221,13 +195,12 @@ _SINE = ["constant", "amplitude", "rate", "phase_deg"]
 _SINE_FORM = _wave_form("constant + amplitude sin(rate a + phase)", _SINE, {}, rate=_RATES)
 _CENTRE = BoxForm(
     "constant + power_amplitude a^exponent + decay_amplitude a exp(-decay_rate a)",
-    formula_of(CentreTerms, {}),
     dict.fromkeys(["constant", "power_amplitude", "exponent", "decay_amplitude", "decay_rate"], 1.0),
     lowest={"exponent": 1e-3, "decay_rate": 0.0},
     highest={"exponent": 5.0, "decay_rate": 5.0},
     only_positive=True,
     kind=CentreTerms,
-    grids={"exponent": _EXPONENTS, "decay_rate": _CENTRE_DECAYS},
+    grids={"exponent": np.linspace(0.2, 2.0, 10), "decay_rate": np.geomspace(0.02, 0.6, 10)},
 )
 
 
@@ -255,7 +228,7 @@ FORMS: dict[str, WingForm] = {
             ["decay_amplitude", "decay_rate", "amplitude", "rate", "phase_deg"],
             {"constant": 0.0},
             rate=_RATES,
-            decay_rate=_WAVE_DECAYS,
+            decay_rate=np.geomspace(0.02, 2.0, 10),
         ),
         _SINE_FORM,
         _CENTRE,

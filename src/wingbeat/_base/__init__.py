@@ -31,6 +31,7 @@ from wingbeat._base.nomenclature import (
     KIND,
     NOMENCLATURE,
     PRECISION,
+    RTOL,
     RUN,
     SERIES,
     SERIES_WHERE_ON,

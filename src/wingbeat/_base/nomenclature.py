@@ -286,8 +286,8 @@ def for_people(unit: str) -> tuple[float, str]:
 
 # --- numbers with errors: digits follow the error ---
 
-# Certified orbits agree to this share of a number, so a smaller spread is rounding.
-PRECISION = 1e-6
+# Relative tolerance of adaptive flights. Certified orbits agree to `PRECISION`, so a smaller spread is rounding.
+RTOL, PRECISION = 1e-10, 1e-6
 # Numbers outside this range of powers of ten are written with an exponent.
 _LOWEST, _HIGHEST = -4, 6
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base import Fault, FaultList, InvalidInputError
+from wingbeat._base import RTOL, Fault, FaultList, InvalidInputError
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.aero.winds import Wind
@@ -32,7 +32,6 @@ if TYPE_CHECKING:
         StateVector,
     )
 
-RTOL = 1e-10
 # Absolute tolerance divided by the relative one; states are in SI units and of order one.
 _ATOL = 1e-2
 # The integrator steps onto every fourth of the times asked for (_BETWEEN) and may take _IN_A_BEAT further steps in

@@ -5,10 +5,11 @@ from __future__ import annotations
 import dataclasses
 import enum
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from wingbeat.orbits.search_options import CertificateOptions, LeastSquaresOptions, SearchOptions, check_options
+from wingbeat.orbits.search_options import CertificateOptions, LeastSquaresOptions, Options, SearchOptions
 
 
 class Status(enum.Enum):
@@ -27,7 +28,7 @@ class Status(enum.Enum):
 
 
 @dataclass(frozen=True)
-class ContinuationOptions:
+class ContinuationOptions(Options):
     """Options of the continuation of orbits along speed, along the share of a term, and from problem to problem.
 
     Parameters
@@ -83,12 +84,9 @@ class ContinuationOptions:
     rounding: float = 1e-12
     refined_to: float = 0.1
 
-    def __post_init__(self) -> None:
-        check_options(self)
-
 
 @dataclass(frozen=True)
-class SensitivityOptions:
+class SensitivityOptions(Options):
     """Options of the derivatives of an optimum.
 
     Parameters
@@ -110,12 +108,9 @@ class SensitivityOptions:
     step_tolerance: float = 1e-9
     room: float = 1.0
 
-    def __post_init__(self) -> None:
-        check_options(self)
-
 
 @dataclass(frozen=True)
-class DiagnosisOptions:
+class DiagnosisOptions(Options):
     """Options of the diagnosis of a problem without an orbit: which balance fails, and which changes help.
 
     Parameters
@@ -180,12 +175,9 @@ class DiagnosisOptions:
     term_starts: int = 4
     term_trace: float = 1e-9
 
-    def __post_init__(self) -> None:
-        check_options(self)
-
 
 @dataclass(frozen=True)
-class ChangeOptions:
+class ChangeOptions(Options):
     """Options of the single changes that are tried if no orbit exists.
 
     Parameters
@@ -221,12 +213,9 @@ class ChangeOptions:
     chords: float = 2.0
     low_speed: float = 2.0
 
-    def __post_init__(self) -> None:
-        check_options(self)
-
 
 @dataclass(frozen=True, repr=False)
-class SolverOptions:
+class SolverOptions(Options):
     """Every tuning number of the solvers, each with its default. Printed, it shows those that are not the default.
 
     Parameters
@@ -256,9 +245,6 @@ class SolverOptions:
     changes: ChangeOptions = field(default_factory=ChangeOptions)
     sensitivity: SensitivityOptions = field(default_factory=SensitivityOptions)
 
-    def __post_init__(self) -> None:
-        check_options(self)
-
     def __repr__(self) -> str:  # not every number: this is the default that `help` shows of each solver
         return _shown(self, SolverOptions())
 
@@ -267,25 +253,28 @@ class SolverOptions:
         return _differences(self, DEFAULTS)
 
 
-def _shown(options: Any, usual: Any) -> str:
-    """Return options as Python writes them, without those that are the default."""
-    shown = []
+def _changes(options: Any, usual: Any) -> Iterator[tuple[str, Any, Any]]:
+    """Yield name, value and default of the options that are not the default."""
     for each in dataclasses.fields(options):
         value, default = getattr(options, each.name), getattr(usual, each.name)
         if value != default:
-            nested = dataclasses.is_dataclass(value)
-            shown.append(f"{each.name}={_shown(value, default) if nested else repr(value)}")
+            yield each.name, value, default
+
+
+def _shown(options: Any, usual: Any) -> str:
+    """Return options as Python writes them, without those that are the default."""
+    shown = [
+        f"{name}={_shown(value, default) if dataclasses.is_dataclass(value) else repr(value)}"
+        for name, value, default in _changes(options, usual)
+    ]
     return f"{type(options).__name__}({', '.join(shown)})"
 
 
 def _differences(options: Any, usual: Any) -> dict[str, Any]:
-    found = {}
-    for each in dataclasses.fields(options):
-        value, default = getattr(options, each.name), getattr(usual, each.name)
-        if value != default:
-            nested = dataclasses.is_dataclass(value)
-            found[each.name] = _differences(value, default) if nested else value
-    return found
+    return {
+        name: _differences(value, default) if dataclasses.is_dataclass(value) else value
+        for name, value, default in _changes(options, usual)
+    }
 
 
 DEFAULTS = SolverOptions()

@@ -5,47 +5,45 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from wingbeat._base import FaultList
-from wingbeat.mechanics.flights import RTOL
+from wingbeat._base import RTOL, FaultList
 
 _MOST = 1_000_000
 
 
-def check_options(options: Any) -> None:
-    """Refuse options that are not positive and finite, or not whole where their default is whole.
+@dataclass(frozen=True)
+class Options:
+    """Options, each refused unless it is of the class of its default, and a number positive and finite.
 
-    Options that are neither numbers nor tuples of numbers must be of the class of their default.
+    A number is whole where its default is. A tuple of numbers holds at least one; they may be zero.
     """
-    faults = FaultList()
-    for each in dataclasses.fields(options):
-        where, value = f"{type(options).__name__}.{each.name}", getattr(options, each.name)
-        default = each.default if each.default_factory is dataclasses.MISSING else each.default_factory()
-        if isinstance(default, tuple) and isinstance(default[0], int | float):
-            if not isinstance(value, tuple) or not value:
-                faults.add(where, value, "must be a tuple of numbers", f"the default is {default}")
-                continue
-            for i, part in enumerate(value):
-                _check_number(faults, f"{where}[{i}]", part, default[0], may_be_zero=True)
-        elif isinstance(default, int | float):
-            _check_number(faults, where, value, default)
-        elif not isinstance(value, type(default)):
-            faults.add(where, value, f"must be a {type(default).__name__}")
-    faults.raise_if_any()
 
-
-def _check_number(faults: FaultList, where: str, value: Any, like: float, may_be_zero: bool = False) -> None:
-    if isinstance(like, int):
-        faults.whole(where, value, 0 if may_be_zero else 1, _MOST)
-    elif may_be_zero:
-        faults.number(where, value, at_least=0.0)
-    else:
-        faults.number(where, value, above=0.0)
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        for each in dataclasses.fields(self):
+            where, value = f"{type(self).__name__}.{each.name}", getattr(self, each.name)
+            default = each.default if each.default_factory is dataclasses.MISSING else each.default_factory()
+            if isinstance(default, tuple) and isinstance(default[0], int | float):
+                if not isinstance(value, tuple) or not value:
+                    faults.add(where, value, "must be a tuple of numbers", f"the default is {default}")
+                    continue
+                for i, part in enumerate(value):
+                    if isinstance(default[0], int):
+                        faults.whole(f"{where}[{i}]", part, 0, _MOST)
+                    else:
+                        faults.number(f"{where}[{i}]", part, at_least=0.0)
+            elif isinstance(default, int):
+                faults.whole(where, value, 1, _MOST)
+            elif isinstance(default, float):
+                faults.number(where, value, above=0.0)
+            elif not isinstance(value, type(default)):
+                faults.add(where, value, f"must be a {type(default).__name__}")
+        faults.raise_if_any()
 
 
 @dataclass(frozen=True)
-class LeastSquaresOptions:
+class LeastSquaresOptions(Options):
     """Options of the Levenberg-Marquardt method within bounds, with Nielsen's rule for the damping.
 
     Parameters
@@ -79,9 +77,6 @@ class LeastSquaresOptions:
     accepted: float = 1e-3
     trusted: float = 0.25
     bound_changes: int = 4
-
-    def __post_init__(self) -> None:
-        check_options(self)
 
 
 # Multiple of the stock frequency. With multiples from 2 to 4, one start found an orbit for every pigeon and nearly
@@ -131,7 +126,7 @@ START_FAMILIES = (
 
 
 @dataclass(frozen=True)
-class SearchOptions:
+class SearchOptions(Options):
     """Options of the solver's starts, before anything is certified.
 
     In the optimiser's scale, 0.15 is 2 degrees of flap amplitude or body pitch, 0.9 Hz, or 0.15 m/s.
@@ -221,12 +216,9 @@ class SearchOptions:
     tightening_iterations: int = 15
     largest_residual: float = 1e3
 
-    def __post_init__(self) -> None:
-        check_options(self)
-
 
 @dataclass(frozen=True)
-class NewtonOptions:
+class NewtonOptions(Options):
     """Options of Newton's method on the optimality conditions.
 
     Parameters
@@ -260,12 +252,9 @@ class NewtonOptions:
     curvature_share: float = 0.1
     diverged: float = 5.0
 
-    def __post_init__(self) -> None:
-        check_options(self)
-
 
 @dataclass(frozen=True)
-class CertificateOptions:
+class CertificateOptions(Options):
     """Options of the correction of an optimum to a closed orbit, and of the flight that certifies it.
 
     Parameters
@@ -313,6 +302,3 @@ class CertificateOptions:
     iterations: int = 40
     tolerance: float = 1e-14
     newton: NewtonOptions = field(default_factory=NewtonOptions)
-
-    def __post_init__(self) -> None:
-        check_options(self)

@@ -10,11 +10,11 @@ import numpy as np
 
 from wingbeat._base import SHARES
 from wingbeat.animal.kinematics import ANGLES
-from wingbeat.orbits.search_options import check_options
+from wingbeat.orbits.search_options import Options
 
 
 @dataclass(frozen=True)
-class LinearOptions:
+class LinearOptions(Options):
     """Options of the linearisation of a flight.
 
     Parameters
@@ -39,15 +39,12 @@ class LinearOptions:
     most_blocks: int = 192
     closure: float = 1e-3
 
-    def __post_init__(self) -> None:
-        check_options(self)
-
 
 LINEAR = LinearOptions()
 
 
 @dataclass(frozen=True)
-class FeedbackOptions:
+class FeedbackOptions(Options):
     """Options of feedback from beat to beat.
 
     A deviation of the state by its scale costs as much as a change of an input by its unit.
@@ -83,9 +80,6 @@ class FeedbackOptions:
     least_effect: float = 1e-6
     linear: LinearOptions = LINEAR
 
-    def __post_init__(self) -> None:
-        check_options(self)
-
     def scale(self, state: str) -> float:
         """Return the scale of a state [m, rad, m/s, rad/s].
 
@@ -111,7 +105,7 @@ FEEDBACK = FeedbackOptions()
 
 
 @dataclass(frozen=True)
-class ManoeuvreOptions:
+class ManoeuvreOptions(Options):
     """Options of manoeuvres from one speed to another.
 
     Parameters
@@ -160,15 +154,12 @@ class ManoeuvreOptions:
     reach: float = 6.0
     feedback: FeedbackOptions = FEEDBACK
 
-    def __post_init__(self) -> None:
-        check_options(self)
-
 
 MANOEUVRE = ManoeuvreOptions()
 
 
 @dataclass(frozen=True)
-class ManyOptions:
+class ManyOptions(Options):
     """Options of many flights at once.
 
     Parameters
@@ -190,9 +181,6 @@ class ManyOptions:
     lanes: int = 256
     tilt: float = math.radians(60.0)
     loss: float = 5.0
-
-    def __post_init__(self) -> None:
-        check_options(self)
 
     def keeps(self, largest_pitch: float | np.ndarray, lowest: float | np.ndarray) -> Any:
         """Return whether flights are not lost; False for numbers that are not finite.

@@ -12,9 +12,8 @@ import wingbeat as wb
 from tests.helpers.hasty import make_hasty
 from wingbeat._base import FileError, InvalidInputError, find, label_of, text_of
 from wingbeat.cli import main
-from wingbeat.orbits.branches import Branches, BranchLink, carry, find_optima, trace
+from wingbeat.orbits.branches import SPEED, Branches, BranchLink, carry, families, find_optima, marks_of, trace
 from wingbeat.orbits.options import DEFAULTS, Status
-from wingbeat.orbits.transitions import families, marks_of
 from wingbeat.words.curve_words import curve_report
 
 SPEEDS = [5.0, 6.0, 7.0]
@@ -124,7 +123,8 @@ def test_continuing_goes_in_steps_and_comes_back():
 
 
 def test_the_answer_does_not_hang_on_the_threads():
-    one, two = (trace(problem_at("pigeon"), [8.0, 9.0], 2, 0, threads=n) for n in (1, 2))
+    problems = [problem_at("pigeon").at_speed(speed) for speed in (8.0, 9.0)]
+    one, two = (trace(SPEED, problems, 2, 0, threads=n) for n in (1, 2))
     assert one.links == two.links
     assert [[o.objective for o in row] for row in one.optima] == [[o.objective for o in row] for row in two.optima]
 

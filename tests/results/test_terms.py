@@ -6,7 +6,7 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.cli import main
-from wingbeat.orbits.branches import SHARE, carry, with_share
+from wingbeat.orbits.branches import SHARE, carry
 from wingbeat.plots import terms_page
 
 
@@ -63,7 +63,7 @@ def test_the_figure_tears_lines_where_the_branch_changes(trace):
 
 def test_share_scales_both_terms():
     both = pigeon(unsteady="thin-aerofoil", inflow="momentum", induced_factor=1.4)
-    half = with_share(both, 0.5).model
+    half = SHARE.moved(both, 0.5).model
     assert half.unsteady == 0.5
     assert half.induced_factor == pytest.approx(0.7)
     assert abs(half.induced_flow[1]) < abs(both.model.induced_flow[1])

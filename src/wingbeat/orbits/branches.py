@@ -1,9 +1,10 @@
-"""The number that changes along a branch of orbits: speed, or the share of terms of the air loads."""
+"""Branches of orbits along speed or along the share of terms of the air loads, and what marks the best orbits."""
 
 from __future__ import annotations
 
 import bisect
 import dataclasses
+import itertools
 import math
 import time
 from collections.abc import Callable, Sequence
@@ -17,27 +18,18 @@ from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
 from wingbeat.orbits.nlp.transcription import Candidate, Transcription, as_candidate, refine
 from wingbeat.orbits.options import DEFAULTS, ContinuationOptions, SolverOptions, Status
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.solution import Solution, certified_optimum, optimal
+from wingbeat.orbits.solution import Solution, certified_optimum, optimal, place_of
 from wingbeat.orbits.solve import Progress, Settings, find_orbit, first_searches
 
 
 class Along(NamedTuple):
-    """A number of a problem along which orbits are continued.
-
-    Functions give the number `of` a problem, a problem `moved` to another value of it, and, from the options of the
-    continuation, its first and smallest `steps`.
-    """
+    """A number of a problem along which orbits are continued, and its first and smallest `steps` by the options."""
 
     name: str
     unit: str
     of: Callable[[OrbitProblem], float]
     moved: Callable[[OrbitProblem, float], OrbitProblem]
     steps: Callable[[ContinuationOptions], tuple[float, float]]
-
-
-def with_share(problem: OrbitProblem, share: float) -> OrbitProblem:
-    """Return a problem with another share of the terms of its air loads, from 0 for none to 1 for all of each."""
-    return dataclasses.replace(problem, aero=dataclasses.replace(problem.aero, share=share))
 
 
 SPEED = Along(
@@ -47,14 +39,14 @@ SPEED = Along(
     lambda problem, speed: dataclasses.replace(problem, speed=speed),
     lambda options: (options.first_speed_step, options.least_speed_step),
 )
+# From 0 for none of the terms to 1 for all of each.
 SHARE = Along(
     "share",
     "",
     lambda problem: problem.aero.share,
-    with_share,
+    lambda problem, share: dataclasses.replace(problem, aero=dataclasses.replace(problem.aero, share=share)),
     lambda options: (options.first_share_step, options.least_share_step),
 )
-
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -89,27 +81,6 @@ Refine = Callable[[Branches], Sequence[OrbitProblem]]
 
 
 def trace(
-    problem: OrbitProblem,
-    speeds: Sequence[float],
-    starts: int,
-    seed: int,
-    progress: Progress | None = None,
-    threads: int | None = None,
-    options: SolverOptions = DEFAULTS,
-    refine: Refine | None = None,
-) -> Branches:
-    """Solve at every speed and continue each optimum to the neighbouring speeds until no new optimum appears.
-
-    The problem's own speed has no effect; the speeds increase [m/s]. The first and the last get `starts` starts,
-    those between fewer; a speed without a certified orbit then gets twice as many as the first. The results do not
-    depend on the number of `threads`. Again and again, `refine` chooses speeds to add from the branches so far;
-    continuation from the neighbours solves there, without starts of its own.
-    """
-    problems = [problem.at_speed(float(speed)) for speed in speeds]
-    return trace_along(SPEED, problems, starts, seed, progress, threads, options, refine)
-
-
-def trace_along(
     along: Along,
     problems: list[OrbitProblem],
     starts: int,
@@ -119,7 +90,12 @@ def trace_along(
     options: SolverOptions = DEFAULTS,
     refine: Refine | None = None,
 ) -> Branches:
-    """Solve problems in the order of one number as `trace` does, and continue each optimum to the neighbours."""
+    """Solve problems in the order of one number, and continue each optimum to the neighbours until none is new.
+
+    The first and the last problem get `starts` starts, those between fewer; one without a certified orbit then gets
+    twice as many as the first. The results do not depend on the number of `threads`. Again and again, `refine`
+    chooses problems to add from the branches so far; continuation from the neighbours solves these.
+    """
     with ThreadPoolExecutor(threads or core_count()) as pool:
         try:
             return _BranchTracer(along, problems, pool, progress, options).branches(starts, seed, refine)
@@ -169,8 +145,7 @@ class _BranchTracer:
         """Continue all optima; where that finds nothing, search once more, and keep what failed, by its number."""
         self._grow()
         lost = [i for i, met in enumerate(self._met) if not met and self._along.of(self._problems[i]) not in failed]
-        twice = 2 * starts
-        settings = Settings(twice, seed, twice, options=self._options)
+        settings = Settings(2 * starts, seed, 2 * starts, options=self._options)
         again = self._each(lambda i: find_orbit(self._problems[i], settings, threads=1), lost)
         for place, solution in zip(lost, again, strict=True):
             self._searches[place] += solution.starts
@@ -208,7 +183,7 @@ class _BranchTracer:
     def _add(self, place: int, optimum: Solution) -> int:
         """Add an optimum to those of its speed unless it is known; return its index."""
         for index, other in enumerate(self._met[place]):
-            if np.abs(optimum.place - other.place).max() <= self._options.search.same_optimum:
+            if optimum.same_as(other):
                 if optimum.objective < other.objective:
                     self._met[place][index] = optimum
                 return index
@@ -222,7 +197,12 @@ class _BranchTracer:
 
     def _round(self, tasks: list[tuple[int, int, int]]) -> bool:
         self._tried |= set(tasks)
-        landings = self._each(lambda task: self._continued(*task), tasks)
+
+        def continued(task: tuple[int, int, int]) -> Landing:
+            place, index, way = task
+            return carry(self._met[place][index], self._problems[place + way], self._along)
+
+        landings = self._each(continued, tasks)
         for (place, index, way), (optimum, steps) in zip(tasks, landings, strict=True):
             there = place + way
             self._searches[there] += 1
@@ -234,18 +214,17 @@ class _BranchTracer:
                 self._links.setdefault((min(place, there), *ends), steps)
         return bool(tasks)
 
-    def _continued(self, place: int, index: int, way: int) -> Landing:
-        return carry(self._met[place][index], self._problems[place + way], self._along)
+    def _ranked(self, place: int) -> list[int]:
+        """Return the indices of the optima of one problem, the best first."""
+        return sorted(range(len(self._met[place])), key=lambda index: self._met[place][index].objective)
 
     def _due(self, way: int) -> list[tuple[int, int, int]]:
         """Return the tasks of the optima that have no link to the next speed in one direction yet."""
         linked = {(i, low) if way > 0 else (i + 1, high) for i, low, high in self._links}
         return [
             (place, index, way)
-            for place, met in enumerate(self._met)
-            for index in sorted(range(len(met)), key=lambda k: met[k].objective)[
-                : self._options.continuation.followed
-            ]
+            for place in range(len(self._met))
+            for index in self._ranked(place)[: self._options.continuation.followed]
             if 0 <= place + way < len(self._met)
             and (place, index) not in linked
             and (place, index, way) not in self._tried
@@ -257,7 +236,7 @@ class _BranchTracer:
         for place in range(len(self._met) - 1):
             if not self._met[place] or not self._met[place + 1]:
                 continue
-            low, high = (min(range(len(m)), key=lambda k: m[k].objective) for m in self._met[place : place + 2])
+            low, high = self._ranked(place)[0], self._ranked(place + 1)[0]
             if (place, low, high) not in self._links:
                 tasks += [(place, low, 1), (place + 1, high, -1)]
         return [task for task in tasks if task not in self._tried]
@@ -266,7 +245,7 @@ class _BranchTracer:
         """Return the branches, with the optima of each speed in order and the number of starts at that speed."""
         optima, ranks = [], []
         for place, met in enumerate(self._met):
-            order = sorted(range(len(met)), key=lambda k: met[k].objective)
+            order = self._ranked(place)
             ranks.append({index: rank for rank, index in enumerate(order)})
             count = {"starts": self._searches[place], "distinct_optima": len(met)}
             here = [met[k] for k in order] or [failed[self._along.of(self._problems[place])]]
@@ -299,10 +278,9 @@ def find_optima(
 
 
 def carry(optimum: Solution, problem: OrbitProblem, along: Along = SPEED) -> Landing:
-    """Continue an optimum to another problem, in steps so short that each moves the orbit by at most `max_step`.
+    """Continue an optimum along one number to another problem, in steps that move the orbit by at most `max_step`.
 
-    The problems differ in one number. If the branch ends on the way, the landing has 0 steps and the orbit to which
-    a local search from the branch's end leads, if any.
+    If the branch ends on the way, a local search from its end leads to the landing, which then has 0 steps.
     """
     options = optimum.options.continuation
     first_step, least_step = along.steps(options)
@@ -317,8 +295,8 @@ def carry(optimum: Solution, problem: OrbitProblem, along: Along = SPEED) -> Lan
         step = last - value if ends else step
         there = problem if ends else along.moved(problem, value + step)
         programme = Transcription(there, optimum.options)
-        candidate, hessian = _next_to(programme, unknowns_at(here + rate * step, there), hessian)
-        found = here if candidate is None else place_of(candidate)
+        candidate, hessian = _next_to(programme, _unknowns_at(here + rate * step, there), hessian)
+        found = here if candidate is None else place_of(there, programme.physical(candidate.scaled))
         if candidate is None or np.abs(found - here).max() > options.max_step:
             step, rate = 0.5 * step, 0.0 * rate
             continue
@@ -328,7 +306,7 @@ def carry(optimum: Solution, problem: OrbitProblem, along: Along = SPEED) -> Lan
         rate, here, value = (found - here) / step, found, value + step
         fitting = options.aimed_step * options.max_step / max(np.abs(rate).max(), 1e-9)
         step = math.copysign(min(fitting, options.step_growth * abs(step), abs(last - value)), step)
-    candidate = refine(Transcription(problem, optimum.options), unknowns_at(here, problem))
+    candidate = refine(Transcription(problem, optimum.options), _unknowns_at(here, problem))
     return Landing(certified_optimum(candidate, 0.0) if candidate.is_optimum else None, 0)
 
 
@@ -347,16 +325,97 @@ def _next_to(
     return (candidate, None) if candidate.is_optimum else (None, None)
 
 
-def unknowns_at(place: np.ndarray, problem: OrbitProblem) -> np.ndarray:
+def _unknowns_at(place: np.ndarray, problem: OrbitProblem) -> np.ndarray:
     """Return the unknowns of a problem from a `Solution.place`."""
     unknowns = place * problem.unknowns().scale
     unknowns[1:3] += problem.speed, problem.climb
     return unknowns
 
 
-def place_of(candidate: Candidate) -> np.ndarray:
-    """Return the place of an uncertified candidate, as `Solution.place`."""
-    problem = candidate.programme.problem
-    unknowns = candidate.programme.physical(candidate.scaled).copy()
-    unknowns[1:3] -= problem.speed, problem.climb
-    return unknowns / problem.unknowns().scale
+# --- Marks along the best orbits. ---
+
+# Words for bounds that cease to be active, and for those that become active: for one name, and for several.
+_LEFT = "leaves its bound", "leave their bounds"
+_REACHED = "reaches its bound", "reach their bounds"
+
+
+class Mark(NamedTuple):
+    """A change of the best orbit between two neighbouring problems; `what` describes it."""
+
+    kind: str
+    lower: float
+    upper: float
+    what: str
+
+
+def marks_of(branches: Branches) -> list[Mark]:
+    """Return the changes of the best orbit from problem to problem.
+
+    ``gap``: one of the two problems has no certified orbit. ``branch``: no continuation leads from the best orbit
+    of one problem to that of the next, so the unknowns jump. ``bounds``: different bounds are active.
+    """
+    marks, along = [], branches.along
+    joined = {link.interval for link in branches.links if link.lower == link.upper == 0}
+    for interval, (below, above) in enumerate(itertools.pairwise(optima[0] for optima in branches.optima)):
+        ends = along.of(below.problem), along.of(above.problem)
+        if not certified(below) or not certified(above):
+            marks.append(Mark("gap", *ends, f"no certified orbit at one of these {along.name}s"))
+            continue
+        if interval not in joined:
+            marks.append(Mark("branch", *ends, _how_it_changes(branches, interval)))
+        gone = [name for name in below.active_bounds if name not in above.active_bounds]
+        come = [name for name in above.active_bounds if name not in below.active_bounds]
+        parts = [
+            f"{', '.join(names)} {words[len(names) > 1]}"
+            for names, words in ((gone, _LEFT), (come, _REACHED))
+            if names
+        ]
+        if parts:
+            marks.append(Mark("bounds", *ends, "; ".join(parts)))
+    return marks
+
+
+def families(branches: Branches) -> list[list[int]]:
+    """Return the family number of each optimum of each problem; families are in order of their best ranks.
+
+    If two families lead to the same optimum, the one with fewer steps continues.
+    """
+    labels = [[-1] * len(optima) for optima in branches.optima]
+    count = 0
+    for place, optima in enumerate(branches.optima):
+        ways = [join for join in branches.links if join.interval == place - 1]
+        taken: set[int] = set()
+        for join in sorted(ways, key=lambda j: j.steps):
+            if labels[place][join.upper] < 0 and join.lower not in taken:
+                labels[place][join.upper] = labels[place - 1][join.lower]
+                taken.add(join.lower)
+        for index in range(len(optima)):
+            if labels[place][index] < 0:
+                labels[place][index] = count
+                count += 1
+    first = dict.fromkeys(label for rank in range(count) for row in labels for label in row[rank : rank + 1])
+    order = {label: number for number, label in enumerate(first)}
+    return [[order[label] for label in row] for row in labels]
+
+
+def certified(solution: Solution) -> bool:
+    """Whether a solution is a certified orbit."""
+    return solution.status is Status.CONVERGED
+
+
+def _how_it_changes(branches: Branches, interval: int) -> str:
+    """Return in words whether two families cross, and where, or whether one of them ends."""
+    ways = {j.lower: j.upper for j in branches.links if j.interval == interval}
+    back = {upper: lower for lower, upper in ways.items()}
+    below, above = branches.optima[interval : interval + 2]
+    if 0 in ways and 0 in back:
+        before = below[back[0]].objective - below[0].objective
+        after = above[ways[0]].objective - above[0].objective
+        low, high = (branches.along.of(one[0].problem) for one in (below, above))
+        share = before / (before + after) if before + after > 0 else 0.5
+        return f"another family becomes better near {low + share * (high - low):.2f} {branches.along.unit}".rstrip()
+    if 0 in ways:
+        return "a better family begins"
+    if 0 in back:
+        return "the family ends and another continues"
+    return "the family ends and another begins"

@@ -60,6 +60,13 @@ def families(optima: Iterable[Optimum], scale: np.ndarray, apart: float) -> tupl
     return tuple(found)
 
 
+def place_of(problem: OrbitProblem, unknowns: np.ndarray) -> np.ndarray:
+    """Return unknowns in the optimiser's scale, without the mean velocity, to compare orbits at two speeds."""
+    drift = np.zeros(unknowns.size)
+    drift[1:3] = problem.speed, problem.climb
+    return (unknowns - drift) / problem.unknowns().scale
+
+
 @dataclass(frozen=True)
 class Solution:
     """What the solver found: wingbeat and initial state of the best orbit, and how far the orbit can be trusted.
@@ -114,10 +121,8 @@ class Solution:
 
     @property
     def place(self) -> np.ndarray:
-        """The unknowns in the optimiser's scale, with mean velocity subtracted, to compare orbits at two speeds."""
-        drift = np.zeros(self.unknowns.size)
-        drift[1:3] = self.problem.speed, self.problem.climb
-        return (self.unknowns - drift) / self.problem.unknowns().scale
+        """The unknowns as `place_of` returns them."""
+        return place_of(self.problem, self.unknowns)
 
     def same_as(self, other: Solution) -> bool:
         """Whether this optimum and another of the same problem are of one family."""

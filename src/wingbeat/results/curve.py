@@ -30,11 +30,10 @@ from wingbeat._base import (
 from wingbeat._workers.tuning import core_count
 from wingbeat.animal.kinematics import NAMED_IF_ON, PARAMETER_NAMES, in_use
 from wingbeat.mechanics.flight_model import State
-from wingbeat.orbits.branches import Branches, trace
+from wingbeat.orbits.branches import SPEED, Branches, certified, families, marks_of, trace
 from wingbeat.orbits.options import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
-from wingbeat.orbits.transitions import certified, families, marks_of
 from wingbeat.plots.draw_curve import curve_page
 from wingbeat.records.characteristic import (
     BestLine,
@@ -235,7 +234,8 @@ def solve_curve(
         left -= len(added)
         return [problem.at_speed(speed) for speed in added]
 
-    branches = trace(problem, speeds, starts, seed, progress, options=options, refine=refine)
+    problems = [problem.at_speed(speed) for speed in speeds]
+    branches = trace(SPEED, problems, starts, seed, progress, options=options, refine=refine)
     with ThreadPoolExecutor(core_count()) as pool:
         tasks = [[pool.submit(Orbit.of(o, starts, seed).record) for o in optima] for optima in branches.optima]
         records = [[task.result() for task in row] for row in tasks]

@@ -9,11 +9,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from wingbeat._base import FaultList, __version__
-from wingbeat.orbits.branches import SHARE, Branches, trace_along, with_share
+from wingbeat.orbits.branches import SHARE, Branches, certified, families, marks_of, trace
 from wingbeat.orbits.options import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
-from wingbeat.orbits.transitions import certified, families, marks_of
 from wingbeat.records.inputs import aero_record
 from wingbeat.records.numbers import power_account
 from wingbeat.records.tables import finite_or_none
@@ -128,8 +127,8 @@ def trace_terms(
         faults.add("shares", values, "must increase", "give each share once, the smallest first")
     faults.raise_if_any()
     begun = time.perf_counter()
-    problems = [with_share(problem, float(share)) for share in values]
-    branches = trace_along(SHARE, problems, starts, seed, progress, options=options)
+    problems = [SHARE.moved(problem, float(share)) for share in values]
+    branches = trace(SHARE, problems, starts, seed, progress, options=options)
     orbits = tuple(Orbit.of(optima[0], starts, seed) for optima in branches.optima)
     return TermTrace(problem, orbits, branches, time.perf_counter() - begun)
 

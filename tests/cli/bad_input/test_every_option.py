@@ -52,7 +52,7 @@ WORK = (
     "wingbeat.orbits.solve.find_orbit",
     "wingbeat.orbits.solution.correct_guess",
     "wingbeat.results.curve.trace",
-    "wingbeat.results.terms.trace_along",
+    "wingbeat.results.terms.trace",
     "wingbeat.results.flight.fly_beats",
     "wingbeat.mechanics.glide.GlideSolver.at",
     "wingbeat.stability.beat_feedback.linearise",

@@ -14,7 +14,7 @@ from wingbeat.orbits.nlp import newton_kkt as defect_correction
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace, correct
 from wingbeat.orbits.nlp.transcription import Transcription, search
 from wingbeat.orbits.solve import Settings, find_orbit
-from wingbeat.orbits.starts import start_point, usual_starts
+from wingbeat.orbits.starts import start_count, start_point
 
 
 def problems():
@@ -208,5 +208,5 @@ def test_if_nothing_is_said_each_problem_is_searched_as_often_as_by_itself(monke
     bat = wb.load_species("bat")
     both = [wb.OrbitProblem(bat, 9.0), wb.OrbitProblem(bat, 9.0, minimise="mean_power")]
     found = wb.solve_orbits(both)
-    assert asked == [usual_starts(problem) for problem in both]
+    assert asked == [start_count(problem) for problem in both]
     assert [orbit.inputs["starts"] for orbit in found] == asked

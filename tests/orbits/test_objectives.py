@@ -13,7 +13,7 @@ from wingbeat.orbits.nlp.transcription import Transcription, search
 from wingbeat.orbits.problem.quantities import QUANTITIES, named_objective, named_quantity, parse_constraint
 from wingbeat.orbits.solution import certified_optimum
 from wingbeat.orbits.solve import Settings, find_orbit
-from wingbeat.orbits.starts import start_beside, start_point, usual_starts
+from wingbeat.orbits.starts import start_beside, start_count, start_point
 from wingbeat.records.inputs import problem_from
 
 PIGEON, BAT = wb.load_species("pigeon"), wb.load_species("bat")
@@ -153,7 +153,7 @@ def test_a_limit_is_met_from_the_optima_without_it_too(cross, power):
 
 def test_least_peaks_are_sought_from_more_starts_and_beside_the_best():
     peak, mean = (wb.OrbitProblem(BAT, SPEED, minimise=name) for name in ("peak_power", "mean_power"))
-    assert usual_starts(peak) > usual_starts(mean) > usual_starts(wb.OrbitProblem(BAT, SPEED))
+    assert start_count(peak) > start_count(mean) > start_count(wb.OrbitProblem(BAT, SPEED))
     unknowns, best = peak.unknowns(), start_point(peak, 0, 0)
     beside = [start_beside(peak, best, index, 0) for index in (0, 0, 1)]
     assert np.array_equal(beside[0], beside[1])
@@ -341,4 +341,4 @@ def test_on_the_command_line(capsys):
 
 def test_a_wingbeat_bounded_more_tightly_is_sought_from_more_starts():
     tight, held = (wb.OrbitProblem(BAT, SPEED, subject_to=f"flap_amplitude{sign}50 deg") for sign in ("<=", "="))
-    assert usual_starts(tight) > usual_starts(held)
+    assert start_count(tight) > start_count(held)

@@ -15,7 +15,7 @@ from wingbeat._base import NUMERICAL_VERSION, find, label_of
 from wingbeat.cli import main
 from wingbeat.orbits.options import Status
 from wingbeat.orbits.solve import Settings, find_orbit
-from wingbeat.orbits.starts import usual_starts
+from wingbeat.orbits.starts import start_count
 from wingbeat.studies import work
 from wingbeat.studies.stopping import Stop
 from wingbeat.studies.store import Store
@@ -261,4 +261,4 @@ def test_if_nothing_is_said_a_point_is_searched_as_often_as_an_orbit(least, tmp_
     recipe = json.dumps(study.plan.bases[0].recipe.inputs())
     list(work.solve_unit(Unit(recipe, (Task(point.key, point.changes),))))
     problem = wb.OrbitProblem(wb.load_species("bat"), 9.0, minimise=least)
-    assert [given[2].starts for given in asked] == [usual_starts(problem)]
+    assert [given[2].starts for given in asked] == [start_count(problem)]

@@ -10,7 +10,7 @@ import dataclasses
 import functools
 import time
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -47,11 +47,8 @@ def group_similar(
 ) -> list[Group]:
     """Return groups of problems that differ in numbers only, in an order that favours predictions.
 
-    The problems of a group share a species and a coefficient model, by name. In a large group, a sample of problems
-    is to be solved first. All others are split into parts, each of which contains problems with similar numbers.
-    The sample and each part are ordered in the same way: first comes the problem whose numbers are nearest to the
-    mean, and each next problem is the one farthest from all problems already in the list. Groups depend on the
-    problems alone, not on the number of processes.
+    Of a large group, a sample is to be solved first, then parts of similar problems. Sample and parts begin nearest
+    to the mean and go on with what is farthest from all before. The number of processes has no effect.
     """
     kinds: dict[object, list[int]] = {}
     for i, problem in enumerate(problems):
@@ -62,11 +59,8 @@ def group_similar(
         whole = np.arange(len(members))
         first = _spread(places, whole, len(members) if len(members) <= options.batch_size else options.batch_first)
         rest = np.setdiff1d(whole, first)
-        parts = (
-            [_spread(places, part, part.size) for part in _parts(places, rest, options.batch_size)]
-            if rest.size
-            else []
-        )
+        split = _parts(places, rest, options.batch_size) if rest.size else []
+        parts = [_spread(places, part, part.size) for part in split]
         groups.append(Group([members[j] for j in first], [[members[j] for j in part] for part in parts]))
     return groups
 
@@ -75,22 +69,12 @@ def kind(problem: OrbitProblem) -> Hashable:
     """Return a value that is equal for problems that differ in numbers only."""
     leaves, tree = jax.tree_util.tree_flatten((problem.model, problem.species.wingbeat))
     shapes = tuple(np.shape(leaf) for leaf in leaves)
-    names = (
-        problem.species.name,
-        problem.aero.coefficients.name,
-        *problem.free,
-        repr(problem.minimise),
-        repr(problem.subject_to),
-    )
-    return names, tree, shapes
+    asked = *problem.free, repr(problem.minimise), repr(problem.subject_to)
+    return (problem.species.name, problem.aero.coefficients.name, *asked), tree, shapes
 
 
 def differences(described: Sequence[np.ndarray], rounding: float) -> np.ndarray:
-    """Return coordinates of problems of one kind about their mean, shape (problems, directions).
-
-    The directions are those in which the problems differ. The distance of two problems is the distance of the
-    numbers that describe them, each number divided by its largest magnitude.
-    """
+    """Return coordinates of problems about their mean, in the directions in which their scaled numbers differ."""
     numbers = np.array(described)
     numbers = numbers / np.maximum(np.abs(numbers).max(axis=0), np.finfo(float).tiny)
     places, sizes, _ = np.linalg.svd(numbers - numbers.mean(axis=0), full_matrices=False)
@@ -160,9 +144,7 @@ class Answers:
     def predict(self, place: int) -> list[tuple[np.ndarray, ReducedHessian | None]]:
         """Return predicted unknowns, each with the curvature of the nearest solution that has one.
 
-        A prediction uses solutions with the same active bounds, which count as one family. Where families meet, the
-        nearest solutions differ in their active bounds, and each family makes its own prediction. The list is empty
-        if one of these families has too few solutions.
+        Each family of solutions with the same active bounds near the problem makes one; none does if one is small.
         """
         away = self._places[self._at] - self._places[self._before + place]
         order = np.linalg.norm(away, axis=1).argsort(kind="stable")
@@ -171,12 +153,13 @@ class Answers:
         members = [np.array([i for i in order if self._known[i].active == family]) for family in families]
         if any(alike.size < enough for alike in members):
             return []
-        return [self._predicted(alike, away[alike]) for alike in members]
-
-    def _predicted(self, alike: np.ndarray, away: np.ndarray) -> tuple[np.ndarray, ReducedHessian | None]:
-        known = [self._known[i] for i in alike]
-        unknowns = _regression(away, np.array([one.unknowns for one in known]), self._near_share)
-        return unknowns, next((one.reduced_hessian for one in known if one.reduced_hessian is not None), None)
+        predicted = []
+        for alike in members:
+            known = [self._known[i] for i in alike]
+            unknowns = _regression(away[alike], np.array([one.unknowns for one in known]), self._near_share)
+            curvatures = (one.reduced_hessian for one in known if one.reduced_hessian is not None)
+            predicted.append((unknowns, next(curvatures, None)))
+        return predicted
 
 
 def _regression(away: np.ndarray, values: np.ndarray, near_share: float) -> np.ndarray:
@@ -190,12 +173,6 @@ def _regression(away: np.ndarray, values: np.ndarray, near_share: float) -> np.n
     distance = np.linalg.norm(away[:count], axis=1)
     weights = 1.0 / (distance + near_share * distance[-1])[:, None]
     return np.linalg.lstsq(columns[:count] * weights, values[:count] * weights)[0][0]
-
-
-T = TypeVar("T")
-R = TypeVar("R")
-
-_MOST_PROCESSES = 1024
 
 
 class Part(NamedTuple):
@@ -217,11 +194,9 @@ def find_orbits(
 ) -> Iterator[Solution]:
     """Yield the solution of each problem, in the order of `problems`; a failure is a result, as in `find_orbit`.
 
-    Problems that differ in numbers only form a group. The first few problems of a group are solved as in
-    `find_orbit`. For each later problem, the solutions before it predict a first start, which counts only if it
-    leads to a certified orbit. A large group is split: some of its problems are solved first, and the processes
-    then share the others. The results do not depend on the number of `processes`. What is not an `OrbitProblem`,
-    and numbers out of range, raise `InvalidInputError`.
+    In a group that differs in numbers only, solutions predict a first start of each later problem, which counts if
+    it leads to a certified orbit. The number of `processes` has no effect on the results. What is not an
+    `OrbitProblem`, and numbers out of range, raise `InvalidInputError`.
     """
     faults = FaultList()
     for i, problem in enumerate(problems):
@@ -237,7 +212,7 @@ def find_orbits(
 
 def check_processes(faults: FaultList, processes: Any) -> None:
     """Add a fault unless `processes` is a whole number in range."""
-    faults.whole("processes", processes, 1, _MOST_PROCESSES)
+    faults.whole("processes", processes, 1, 1024)
 
 
 def _in_order(
@@ -281,8 +256,8 @@ def _by_groups(
             yield index, solution
 
 
-def _all_of(solve: Callable[[T], Iterator[R]], item: T) -> list[R]:
-    return list(solve(item))
+def _all_of(solve: Callable[[Part], Iterator[Answer]], part: Part) -> list[Answer]:
+    return list(solve(part))
 
 
 def _solve_part(part: Part, settings: Settings) -> Iterator[Answer]:
@@ -312,11 +287,7 @@ def best_of_guesses(
 
 
 def find_with_known(problem: OrbitProblem, known: Solution | None, settings: Settings) -> Solution:
-    """Return the known certified orbit, if there is one, or a better solution that the other starts find.
-
-    The known orbit counts as one of the `starts` of the settings, which must be given. If it is given,
-    `most_starts` and `advise` have no effect.
-    """
+    """Return the known certified orbit, if any, or a better one that the other `starts` of the settings find."""
     if known is None:
         return find_orbit(problem, settings, threads=1)
     assert settings.starts is not None
@@ -324,10 +295,7 @@ def find_with_known(problem: OrbitProblem, known: Solution | None, settings: Set
 
 
 def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
-    """Return the better of a certified orbit and the best orbit from a number of starts, run one after the other.
-
-    Only optima that may be better, judged by the solver's coarse flights, are certified.
-    """
+    """Return the better of a certified orbit and the best orbit from a number of further starts."""
     begun = time.perf_counter()
     programme, options = Transcription(known.problem, known.options), known.options.search
     here, scale = programme.scaled(known.unknowns), known.problem.minimise.scale
@@ -337,6 +305,7 @@ def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
     others = [
         c for c in optimal(found) if c.objective <= objective - error or np.abs(c.scaled - here).max() > apart
     ]
+    # Only optima that may be better, judged by the solver's coarse flights, are certified.
     best = first_certified(programme, [c for c in others if c.objective <= objective + error])
     if best is not None:
         return better_of(solution_of(best, programme, begun, found, len(found), seed), known)
@@ -360,17 +329,15 @@ def find_series(
 ) -> list[Solution]:
     """Solve a series of problems, such as increasing speeds, from starts and from the neighbours' solutions.
 
-    A start from the stock wingbeat finds the family of orbits that is near it. Solutions are passed up and down the
-    series, so that the best family found for any problem reaches every problem where it exists. The numbers of
-    `starts` include those from neighbours. Problems that differ in what is free raise `InvalidInputError`.
+    Solutions are passed up and down the series, so that the best family found for any problem reaches every problem
+    where it exists. Problems that differ in what is free raise `InvalidInputError`.
     """
     faults = FaultList()
     for i, problem in enumerate(problems):
         if problem.free != problems[0].free:
             fix = f"give all problems the same free parameters: {', '.join(problems[0].free)}"
-            faults.add(
-                f"problems[{i}].free", problem.free, "differs from the free parameters of the first problem", fix
-            )
+            rule = "differs from the free parameters of the first problem"
+            faults.add(f"problems[{i}].free", problem.free, rule, fix)
     check_processes(faults, processes)
     faults.raise_if_any()
     search = functools.partial(find_orbit, settings=settings, threads=1)
@@ -392,10 +359,7 @@ def find_series(
 
 
 def _hand_on(giver: Solution, own: Solution) -> tuple[Solution, bool]:
-    """Return the better of two solutions, and whether it is the second.
-
-    The first is the problem's own solution; the second is found from the solution of a neighbour.
-    """
+    """Return the better of a problem's own solution and one from its neighbour, and whether it is the second."""
     below = float("inf")
     if own.status is Status.CONVERGED:
         below = own.objective - own.options.continuation.improvement * abs(own.objective)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import functools
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -34,11 +33,7 @@ def terms_on(problem: OrbitProblem) -> tuple[str, ...]:
 
 
 def on_and_off(problem: OrbitProblem, name: str) -> tuple[float, float, str]:
-    """Return the number that describes a term in a problem, its value without the term, and its unit.
-
-    The number is the upstroke factor or the tail's area. For a term that can only be on or off, the number is 1,
-    and its value without the term is 0.
-    """
+    """Return the number that describes a term (1 if it can only be on), that without the term, and the unit."""
     if name == UPSTROKE:
         return problem.aero.upstroke_factor, 1.0, "1"
     if name == TAIL and problem.vehicle.tail is not None:
@@ -62,8 +57,7 @@ def without_term(problem: OrbitProblem, name: str) -> OrbitProblem:
 def with_trace_of(problem: OrbitProblem, name: str, trace: float) -> OrbitProblem | None:
     """Return the problem with one of its terms scaled to the share `trace`; None if the term is the hand.
 
-    The compiled programs of the full problem also run this problem. If the term is inflow, the coefficients remain
-    those of wing sections.
+    The compiled programs of the full problem also run this one.
     """
     aero = problem.aero
     if name == TAIL:
@@ -137,13 +131,11 @@ WIDER_FREQUENCIES = (("frequency", "<="), ("frequency", ">="))
 
 @dataclass(frozen=True)
 class Change:
-    """A number of a problem that may be changed, in one direction only.
+    """A number of a problem (SI and radians) that may move from `old` to `reach`; a change by `scale` is large.
 
     Its name is a wingbeat parameter, ``body_pitch`` or ``flap`` along the path, a constraint's quantity, ``mass``
-    (the vehicle's mass; only the body becomes lighter), ``speed``, ``climb`` or ``shoulder`` (its distance ahead of
-    the body's centre of mass). The sign is ``<=`` or ``>=`` for a bound or limit, ``=`` for a fixed number. The
-    number may move from `old` to `reach` (SI and radians); a change by `scale` is large. `tries` are changes to try
-    first, as shares of the scale; without them, only the reach is tried.
+    (only the body becomes lighter), ``speed``, ``climb`` or ``shoulder`` (ahead of the body's centre of mass). The
+    sign is ``<=`` or ``>=`` for a bound or limit, ``=`` for a fixed number. `tries` are first changes, as shares.
     """
 
     name: str
@@ -214,57 +206,47 @@ _PLACES: dict[str, Place] = {
     "speed": ("speed",),
     "climb": ("climb",),
 }
-
-
-def _unit(problem: OrbitProblem, change: Change) -> str:
-    limits = [c.quantity.unit for c in problem.subject_to if is_limit(c, change.name, change.sign)]
-    return limits[0] if limits else plain_unit(change.name)
+_WORDS = {
+    "flap_mean": "mean flap",
+    "pitch_mean": "mean wing pitch",
+    "pitch_amplitude": "wing pitch amplitude",
+    "mass": "whole mass",
+}
 
 
 def relaxation(problem: OrbitProblem, change: Change, value: float, more: int = 0) -> Relaxation:
     """Return the change to a value (SI), rounded outward to the digits that its text prints.
 
-    The value is that of the least change that suffices; `more` are additional steps in the last printed digit.
+    `more` are additional steps in the last printed digit.
     """
-    unit = _unit(problem, change)
+    name, sign = change.name, change.sign
+    limits = [c.quantity.unit for c in problem.subject_to if is_limit(c, name, sign)]
+    unit = limits[0] if limits else plain_unit(name)
     factor, shown = (1e3, "mm") if unit == "m" else for_people(cf(unit))
     new = rounded_outward(change, value, factor, more)
-    text = f"{_words(problem, change)} {change.old * factor:.6g} -> {new * factor:.9g}"
+    side = "upper" if sign == "<=" else "lower"
+    words = _WORDS.get(name, name.replace("_", " "))
+    words = f"{side} limit of {name}" if limits else words if sign == "=" else f"{side} bound of {words}"
+    text = f"{words} {change.old * factor:.6g} -> {new * factor:.9g}"
     text += f" {shown}" if shown else ""
-    if change.name == "mass":
+    if name == "mass":
         text += f" ({100 * (new / change.old - 1):.2g} %, by a lighter body)"
-    return Relaxation(change.name, change.sign, change.old, new, unit, text)
-
-
-def _words(problem: OrbitProblem, change: Change) -> str:
-    if any(is_limit(c, change.name, change.sign) for c in problem.subject_to):
-        return f"{'upper' if change.sign == '<=' else 'lower'} limit of {change.name}"
-    words = {
-        "flap_mean": "mean flap",
-        "pitch_mean": "mean wing pitch",
-        "pitch_amplitude": "wing pitch amplitude",
-        "mass": "whole mass",
-    }
-    name = words.get(change.name, change.name.replace("_", " "))
-    return name if change.sign == "=" else f"{'upper' if change.sign == '<=' else 'lower'} bound of {name}"
+    return Relaxation(name, sign, change.old, new, unit, text)
 
 
 def with_change(problem: OrbitProblem, name: str, sign: str, value: float) -> OrbitProblem:
     """Return the problem with one number set, named as in `Change`."""
-    if name == "mass":
-        value -= 2.0 * problem.vehicle.wing.mass
-    return with_number(problem, _place(problem, name, sign), value)
-
-
-def _place(problem: OrbitProblem, name: str, sign: str) -> Place:
-    if name in _PLACES:
-        return _PLACES[name]
     limits = [i for i, c in enumerate(problem.subject_to) if is_limit(c, name, sign)]
-    if limits:
-        return "subject_to", limits[0], "limit"
-    if sign == "=":
-        return "species", "wingbeat", name
-    return "bounds", name, int(sign == "<=")
+    place: Place
+    if name in _PLACES:
+        place = _PLACES[name]
+    elif limits:
+        place = "subject_to", limits[0], "limit"
+    elif sign == "=":
+        place = "species", "wingbeat", name
+    else:
+        place = "bounds", name, int(sign == "<=")
+    return with_number(problem, place, value - 2.0 * problem.vehicle.wing.mass if name == "mass" else value)
 
 
 def is_limit(constraint: Constraint, name: str, sign: str) -> bool:
@@ -281,56 +263,54 @@ def possible_changes(
     """Yield the changes that may make a problem feasible.
 
     The closest wingbeat is at the bounds `at_bounds`, (name, sign), and `short` of each balance by a share of the
-    weight, or of weight times chord. A vehicle that is lighter by the missing lift, or that descends to make up for
-    the missing thrust, is close to an orbit.
+    weight, or of weight times chord.
     """
-    towards = functools.partial(_towards, large_angle=options.large_angle)
-    tries_for = functools.partial(_tries, beyond=options.beyond)
-    wide = options.wide_frequency
-    limits = [(c.quantity.name, "<=" if c.at_most else ">=", c) for c in problem.subject_to]
-    for name, sign, constraint in limits:
-        old = float(constraint.limit)
+
+    def towards(name: str, sign: str, old: float, upper: bool, tries: tuple[float, ...]) -> Iterator[Change]:
+        """Yield the change of a wingbeat parameter, up or down, if this relaxes the problem."""
+        reach = _reach(problem, name, old, upper, options.wide_frequency)
+        scale = options.large_angle if name in (*ANGLES, *PATH_NAMES) else max(abs(old), 0.1)
+        if {"<=": reach > old, ">=": reach < old}.get(sign, reach != old):
+            yield Change(name, sign, old, reach, scale, tries)
+
+    def tries_for(law: str, *others: float) -> tuple[float, ...]:
+        """Return first tries: lighter by the missing lift, or sinking for the thrust, is close to an orbit."""
+        return (options.beyond * abs(short[law]), *others) if law in short else others
+
+    limited = set()
+    for constraint in problem.subject_to:
+        name, sign, old = constraint.quantity.name, "<=" if constraint.at_most else ">=", float(constraint.limit)
+        limited.add((name, sign))
         scale = abs(old) or constraint.quantity.scale
-        yield Change(
-            name,
-            sign,
-            old,
-            old + (options.limit_factor if constraint.at_most else -options.limit_factor) * scale,
-            scale,
-        )
+        factor = options.limit_factor if constraint.at_most else -options.limit_factor
+        yield Change(name, sign, old, old + factor * scale, scale)
     for name, sign in dict.fromkeys((*at_bounds, *WIDER_FREQUENCIES)):
-        if name in problem.bounds and (name, sign) not in [limit[:2] for limit in limits]:
+        if name in problem.bounds and (name, sign) not in limited:
             upper = sign == "<="
-            old = float(problem.bounds[name][upper])
             tries = options.raised_frequency if (name, upper) == ("frequency", True) else ()
-            yield from towards(name, sign, old, _reach(problem, name, old, upper, wide), tries)
+            yield from towards(name, sign, float(problem.bounds[name][upper]), upper, tries)
     for name in problem.species.bounds:
         if name not in problem.free:
-            old = float(parameter(problem.species.wingbeat, name))
+            tries = (0.1, 0.3, *options.raised_frequency) if name == "frequency" else (0.1, 0.3)
             for upper in (False, True):
-                tries = (0.1, 0.3, *options.raised_frequency) if name == "frequency" else (0.1, 0.3)
-                yield from towards(name, "=", old, _reach(problem, name, old, upper, wide), tries)
+                yield from towards(name, "=", float(parameter(problem.species.wingbeat, name)), upper, tries)
     wing = problem.vehicle.wing
     mass, wings, ahead = problem.vehicle.mass, 2.0 * wing.mass, wing.shoulder[0]
-    yield Change(
-        "mass", "=", mass, wings + options.lightest * (mass - wings), mass, tries_for(short.get(LIFT), (0.3, 0.6))
-    )
+    yield Change("mass", "=", mass, wings + options.lightest * (mass - wings), mass, tries_for(LIFT, 0.3, 0.6))
     brisk = max(problem.speed, options.low_speed)
     fastest = min(problem.speed + options.faster * brisk, FASTEST)
-    yield from _moving("speed", problem.speed, fastest, brisk, (0.3, 1.0, 2.5))
     slowest = options.slowest * problem.speed if problem.needs_speed else 0.0
-    yield from _moving("speed", problem.speed, slowest, brisk, (0.3,))
     steepest = max(problem.climb - brisk, -FASTEST_CLIMB)
-    yield from _moving("climb", problem.climb, steepest, brisk, tries_for(short.get(THRUST), (0.2, 0.4)))
+    for name, old, reach, tries in (
+        ("speed", problem.speed, fastest, (0.3, 1.0, 2.5)),
+        ("speed", problem.speed, slowest, (0.3,)),
+        ("climb", problem.climb, steepest, tries_for(THRUST, 0.2, 0.4)),
+    ):
+        if reach != old:
+            yield Change(name, "=", old, reach, brisk, tries)
     for way in (1.0, -1.0):
-        reach, tries = ahead + way * options.chords * wing.mean_chord, tries_for(short.get(MOMENT), (0.2, 0.6))
-        yield Change("shoulder", "=", ahead, reach, wing.mean_chord, tries)
-
-
-def _moving(name: str, old: float, reach: float, scale: float, tries: tuple[float, ...]) -> Iterator[Change]:
-    """Yield the change of a velocity, unless the velocity is already at the reach."""
-    if reach != old:
-        yield Change(name, "=", old, reach, scale, tries)
+        reach = ahead + way * options.chords * wing.mean_chord
+        yield Change("shoulder", "=", ahead, reach, wing.mean_chord, tries_for(MOMENT, 0.2, 0.6))
 
 
 def _reach(problem: OrbitProblem, name: str, old: float, upper: bool, wide: float) -> float:
@@ -349,24 +329,8 @@ def _reach(problem: OrbitProblem, name: str, old: float, upper: bool, wide: floa
     return old
 
 
-def _tries(short: float | None, others: tuple[float, ...], beyond: float) -> tuple[float, ...]:
-    return others if short is None else (beyond * abs(short), *others)
-
-
-def _towards(
-    name: str, sign: str, old: float, reach: float, tries: tuple[float, ...], large_angle: float
-) -> Iterator[Change]:
-    """Yield the change from `old` to `reach`, if `reach` is on the side that relaxes the problem."""
-    scale = large_angle if name in (*ANGLES, *PATH_NAMES) else max(abs(old), 0.1)
-    if {"<=": reach > old, ">=": reach < old}.get(sign, reach != old):
-        yield Change(name, sign, old, reach, scale, tries)
-
-
 def rounded_outward(change: Change, value: float, factor: float, more: int = 0) -> float:
-    """Return a printable value (SI): rounded away from `old`, to two digits of the change in the printed unit.
-
-    `factor` converts from SI to that unit; `more` are additional steps in the last printed digit.
-    """
+    """Return a value (SI) rounded away from `old`, to two digits of the change in the unit of SI times `factor`."""
     moved = max(abs(value - change.old), _LEAST * change.scale) * factor
     digits = 1 - math.floor(math.log10(moved))
     way = change.direction

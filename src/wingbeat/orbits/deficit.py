@@ -20,23 +20,15 @@ from wingbeat.orbits.nlp.levenberg_marquardt import least_squares
 
 if TYPE_CHECKING:
     from wingbeat.orbits.nlp.transcription import Candidate, Transcription
-    from wingbeat.orbits.problem.problem import OrbitProblem
 
 
 @dataclass(frozen=True)
 class Deficit:
-    """The mean deficit of a balance over the beat; negative for an excess.
+    """The mean deficit of a balance over the beat; negative for an excess."""
 
-    Parameters
-    ----------
-    law : ``lift`` (upward force), ``thrust`` (forward force minus drag) or ``pitching moment`` (nose up).
-    share : the deficit as a share of the weight, or of weight times mean chord.
-    amount : the deficit [N] or [N m].
-    """
-
-    law: str
-    share: float
-    amount: float
+    law: str  # ``lift`` (upward force), ``thrust`` (forward force minus drag) or ``pitching moment`` (nose up)
+    share: float  # of the weight, or of weight times mean chord
+    amount: float  # [N] or [N m]
 
     @property
     def unit(self) -> str:
@@ -55,10 +47,9 @@ class Deficit:
 
 @dataclass(frozen=True)
 class Unbalanced:
-    """The beat closest to an orbit if some balances may fail, in the optimiser's scale.
+    """The beat closest to an orbit if the balances in `shares` may fail, in the optimiser's scale.
 
-    `shares` are the deficits of these balances; together they count as zero if their root of the sum of squares is
-    at most `negligible`. `keeps_the_rest` says whether all other conditions hold.
+    Deficits together up to `negligible` count as zero; `keeps_the_rest` says whether all other conditions hold.
     """
 
     scaled: np.ndarray
@@ -83,10 +74,7 @@ class Unbalanced:
 
 
 class Balance:
-    """Finds the wingbeat closest to an orbit, and the mean forces and moment that it lacks.
-
-    Forces are divided by the weight, the pitching moment by weight times mean chord.
-    """
+    """Finds the wingbeat closest to an orbit, and the mean forces and moment that it lacks."""
 
     def __init__(self, programme: Transcription) -> None:
         self._programme, problem = programme, programme.problem
@@ -94,7 +82,11 @@ class Balance:
         vehicle, gravity = problem.vehicle, max(problem.air.gravity, self._options.least_gravity)
         weight = vehicle.mass * gravity
         self.units = {THRUST: weight, LIFT: weight, MOMENT: weight * vehicle.wing.mean_chord}
-        inertias = {THRUST: vehicle.mass, LIFT: vehicle.mass, MOMENT: _pitch_inertia(problem)}
+        motion = motion_table(problem.model, problem.species.wingbeat, jnp.zeros(1))
+        offset = sum(float(part[0]) ** 2 for part in motion.first_moment) / vehicle.mass
+        # About the vehicle's own centre of mass at the top of the stroke [kg m2].
+        pitch_inertia = float(vehicle.body.pitch_inertia + motion.inertia[0] - offset)
+        inertias = {THRUST: vehicle.mass, LIFT: vehicle.mass, MOMENT: pitch_inertia}
         self._rows = {law: CLOSURE.index(state) for law, state in BALANCES.items()}
         # Share of the weight for a residual of 1 in the optimiser's scale, divided by the frequency.
         self._per_hertz = {
@@ -138,13 +130,7 @@ class Balance:
         )
 
     def failing(self, starts: Iterable[np.ndarray]) -> Unbalanced:
-        """Return a beat that closes. If none is found, return the closest beat.
-
-        In the closest beat, only one balance fails if possible. All balances may fail only if no beat with a single
-        failing balance was found. If each of several balances can be the only one that fails, the balance with the
-        smallest deficit is reported. An excess of force is reported only if no deficit explains the failure,
-        because excess force can mostly be removed at the expense of another balance.
-        """
+        """Return a beat that closes, or else the closest beat, in which only one balance fails if possible."""
         trial = self._options.trial_evaluations
         together: list[Unbalanced] = []
         for start in starts:
@@ -157,6 +143,7 @@ class Balance:
         for evaluations in (trial, None):
             alone = [self.nearest(best.scaled, [law], evaluations) for law in BALANCES]
             if keeping := [c for c in alone if c.keeps_the_rest]:
+                # An excess of force comes last: it can mostly be removed at the expense of another balance.
                 least = min(keeping, key=lambda c: (c.is_excess, c.size))
                 return self.nearest(least.scaled, least.shares)
         return best
@@ -165,14 +152,6 @@ class Balance:
         """Return the deficits of a beat, the largest first."""
         shares = sorted(beat.shares.items(), key=lambda item: -abs(item[1]))
         return tuple(Deficit(law, share, share * self.units[law]) for law, share in shares)
-
-
-def _pitch_inertia(problem: OrbitProblem) -> float:
-    """Return the moment of inertia about the vehicle's own centre of mass at the top of the stroke [kg m2]."""
-    motion = motion_table(problem.model, problem.species.wingbeat, jnp.zeros(1))
-    first = [float(part[0]) for part in motion.first_moment]
-    offset = sum(part**2 for part in first) / problem.vehicle.mass
-    return float(problem.vehicle.body.pitch_inertia + motion.inertia[0] - offset)
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ this number is one more unknown.
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import islice
@@ -48,10 +48,7 @@ _REMEMBERED = 8
 
 
 class _Relaxed(Programme):
-    """A programme that minimises the change of one number; the change divided by its scale is one more unknown.
-
-    In the problem's own programme, the number is either at its reach or unchanged.
-    """
+    """A programme that minimises the change of one number; the change divided by its scale is one more unknown."""
 
     def __init__(self, programme: Transcription, change: Change) -> None:
         self.change, self._programme = change, programme
@@ -173,22 +170,25 @@ class _RelaxedNumber(_Relaxed):
         return (function(np.append(scaled[:-1], scaled[-1] + step)) - function(scaled)) / step
 
 
-def _relaxed(problem: OrbitProblem, change: Change, options: SolverOptions) -> _Relaxed:
-    """Return the programme that moves one number of a problem as little as possible."""
-    if change.name in PATH_NAMES or any(is_limit(c, change.name, change.sign) for c in problem.subject_to):
-        return _RelaxedLimit(problem, change, options)
-    return (_RelaxedNumber if change.sign == "=" else _RelaxedBound)(problem, change, options)
+class LeastChange(NamedTuple):
+    """A change, its least amount (as a share of the change's scale), and the unknowns of a beat that closes."""
+
+    change: Change
+    share: float
+    unknowns: np.ndarray
 
 
 def least_change(
     problem: OrbitProblem, change: Change, near: np.ndarray, options: SolverOptions
-) -> tuple[float, np.ndarray] | None:
-    """Return the least change with which a beat closes, and this beat; None if there is no such change.
+) -> LeastChange | None:
+    """Move a number far, until a beat closes, and then back as far as possible; None if none closes.
 
-    The change is divided by its scale. The search moves the number far, until a beat closes, and then back as far
-    as possible. `near` are the unknowns of a beat that nearly closes.
+    `near` are the unknowns of a beat that nearly closes.
     """
     usual, search = options.diagnosis, options.search
+    relaxed = _RelaxedNumber if change.sign == "=" else _RelaxedBound
+    if change.name in PATH_NAMES or any(is_limit(c, change.name, change.sign) for c in problem.subject_to):
+        relaxed = _RelaxedLimit
     for share in change.tries or (change.widest,):
         share = min(share, change.widest)
         try:
@@ -201,23 +201,15 @@ def least_change(
             found, _ = easy.optimise(easy.scaled(start), usual.far_iterations, search.tolerance)
             if not easy.is_closed(found, search.closure_tolerance):
                 continue
-            programme = _relaxed(problem, change, options)
+            programme = relaxed(problem, change, options)
             kept = programme.start(easy.physical(found), share)
             for _ in range(usual.back_times):
                 scaled, _ = programme.optimise(kept, usual.back_iterations, search.tolerance)
                 if not programme.is_closed(scaled, search.closure_tolerance) or scaled[-1] >= kept[-1]:
                     break
                 kept = scaled
-            return float(kept[-1]), programme.physical(kept)
+            return LeastChange(change, float(kept[-1]), programme.physical(kept))
     return None
-
-
-class LeastChange(NamedTuple):
-    """A change, its least amount (as a share of the change's scale), and the unknowns of a beat that closes."""
-
-    change: Change
-    share: float
-    unknowns: np.ndarray
 
 
 def least_changes(
@@ -231,10 +223,9 @@ def least_changes(
 
     `near` are the unknowns of the closest wingbeat; `threads` changes are tried at a time.
     """
-    programme = _plainly(programme)
     problem, options = programme.problem, programme.options
 
-    def least(change: Change) -> tuple[float, np.ndarray] | None:
+    def least(change: Change) -> LeastChange | None:
         try:
             return least_change(problem, change, near, options)
         except InvalidInputError:  # the change makes the problem impossible
@@ -245,10 +236,9 @@ def least_changes(
     changes = list(possible_changes(problem, at_bounds, shares, options.changes))
     found = []
     with ThreadPoolExecutor(threads) as pool:
-        answers = pool.map(least, changes)
-        for i, (change, answer) in enumerate(zip(changes, answers, strict=True), start=1):
+        for i, answer in enumerate(pool.map(least, changes), start=1):
             if answer is not None:
-                found.append(LeastChange(change, *answer))
+                found.append(answer)
             if progress is not None:
                 progress(i, len(changes))
     return sorted(found, key=lambda least: least.share)
@@ -256,14 +246,26 @@ def least_changes(
 
 def certified_changes(programme: Transcription, found: Iterable[LeastChange]) -> tuple[Relaxation, ...]:
     """Return the first few changes that, rounded outward, lead to a certified orbit."""
-    programme = _plainly(programme)
-    tried = (_certified_change(programme, least) for least in found)
-    return tuple(islice((one for one in tried if one is not None), programme.options.diagnosis.reported))
+    problem, options, usual = programme.problem, programme.options, programme.options.diagnosis
+
+    def flying() -> Iterator[Relaxation]:
+        for least in found:
+            value = least.change.moved(usual.slack * least.share)
+            for more in usual.widened:
+                change = relaxation(problem, least.change, value, more)
+                try:
+                    changed = Transcription(change.apply(problem), options)
+                except InvalidInputError:  # impossible once rounded, such as a shoulder at the centre of mass
+                    continue
+                if _certified_from(changed, least.unknowns) is not None:
+                    yield change
+                    break
+
+    return tuple(islice(flying(), usual.reported))
 
 
 def certified_without_terms(programme: Transcription, near: np.ndarray, threads: int) -> tuple[Relaxation, ...]:
     """Return the terms of the air loads without which a certified orbit was found, one term left out at a time."""
-    programme = _plainly(programme)
     with ThreadPoolExecutor(threads) as pool:
         tried = pool.map(lambda name: _without_term(programme, name, near), terms_on(programme.problem))
         return tuple(one for one in tried if one is not None)
@@ -296,41 +298,11 @@ def _certified_from(programme: Transcription, start: np.ndarray) -> Corrected | 
     return None
 
 
-def _plainly(programme: Transcription) -> Transcription:
-    """Return the programme with an objective that needs no epigraph variable."""
-    problem = programme.problem
-    if programme.has_epigraph:
-        plain = Frequency() if "frequency" in problem.free else QUANTITIES["mean_positive_power"]
-        problem = dataclasses.replace(problem, minimise=plain)
-    return Transcription(problem, programme.options)
-
-
-def _certified_change(programme: Transcription, least: LeastChange) -> Relaxation | None:
-    problem, options = programme.problem, programme.options
-    for more in options.diagnosis.widened:
-        value = least.change.moved(options.diagnosis.slack * least.share)
-        change = relaxation(problem, least.change, value, more)
-        try:
-            changed = Transcription(change.apply(problem), options)
-        except InvalidInputError:  # impossible once rounded, such as a shoulder at the centre of mass
-            continue
-        if _certified_from(changed, least.unknowns) is not None:
-            return change
-    return None
-
-
 # --- The least frequency may be at its lower bound, as in a descent that is nearly a glide. ---
 # Where the wings hardly need to beat, orbits exist down to any frequency. Local searches often do not reach the
 # bound, because the closure of a beat of half a second or more is far from linear. For a pigeon at 12 m/s and a
 # sink of 7.2 m/s, none of 20 starts closed. With a lower bound of 2, 4 or 6 Hz, the first few starts found an orbit
 # at that bound. So if all starts fail, the bound is raised.
-
-
-def may_end_at_lower_bound(programme: Transcription, closed: Iterable[np.ndarray]) -> bool:
-    """Return whether the lowest frequency may be at its bound: in a descent, or if a beat at the bound closed."""
-    problem, tolerance = programme.problem, programme.options.search.bound_tolerance
-    sinks = problem.climb < 0 and problem.minimise.parameter == "frequency"
-    return sinks or any(is_at_lower_bound(problem, unknowns, tolerance) for unknowns in closed)
 
 
 def from_raised_bound(unsolved: Transcription, seed: int = 0) -> tuple[Relaxation, Corrected] | None:
@@ -370,9 +342,10 @@ def without_orbit(
 ) -> tuple[Corrected, Ending | None]:
     """Return the closest wingbeat and what fails; if it leads to an orbit after all, return that orbit.
 
-    The local searches ended in `found`. With `advise`, changes that lead to an orbit are sought, `threads` at a
-    time; for `progress`, each of them counts as one more start.
+    The local searches ended in `found`. With `advise`, changes that lead to an orbit are sought, each of which
+    counts for `progress` as one more start.
     """
+    problem, options = programme.problem, programme.options
     nearest = nearest_beat(programme, found)
     near = programme.physical(nearest.scaled)
 
@@ -380,13 +353,19 @@ def without_orbit(
         if progress is not None:
             progress(len(found) + done, len(found) + total)
 
-    closed = [programme.physical(c.scaled) for c in found if c.closed]
-    raised = from_raised_bound(programme) if may_end_at_lower_bound(programme, closed) else None
-    if raised is not None:
-        return _below(programme, *raised)
-    changes = least_changes(programme, near, nearest, threads, report) if advise and not nearest.closes else []
+    closed = (programme.physical(c.scaled) for c in found if c.closed)
+    sinks = problem.climb < 0 and problem.minimise.parameter == "frequency"
+    if sinks or any(is_at_lower_bound(problem, end, options.search.bound_tolerance) for end in closed):
+        raised = from_raised_bound(programme)
+        if raised is not None:
+            return _below(programme, *raised)
+    plainly = programme  # with an objective that needs no epigraph variable
+    if programme.has_epigraph:
+        objective = Frequency() if "frequency" in problem.free else QUANTITIES["mean_positive_power"]
+        plainly = Transcription(dataclasses.replace(problem, minimise=objective), options)
+    changes = least_changes(plainly, near, nearest, threads, report) if advise and not nearest.closes else []
     # If a negligible change suffices, the local searches missed an orbit.
-    negligible = programme.options.diagnosis.negligible_change
+    negligible = options.diagnosis.negligible_change
     leads = [near] * nearest.closes + [least.unknowns for least in changes if least.share <= negligible]
     led = [search(programme.uncorrected(), lead) for lead in leads]
     orbit = first_certified(programme, led)
@@ -396,7 +375,7 @@ def without_orbit(
         return _uncertified(closing, len(found))
     if nearest.closes:
         return certified(programme.uncorrected(), nearest.scaled), _no_optimum("almost closed", len(found))
-    flying = certified_changes(programme, changes)
+    flying = certified_changes(plainly, changes)
     message = (
         f"no orbit within the bounds from {starts_in_words(len(found))}: {words_of(programme, nearest.deficits)}"
     )
@@ -404,7 +383,7 @@ def without_orbit(
         message += f"; the smallest single changes that give an orbit: {', or '.join(r.text for r in flying)}"
     elif advise:
         message += "; no single change of a bound, a limit, the mass, the speed or the shoulder gave an orbit"
-    without = certified_without_terms(programme, near, threads) if advise else ()
+    without = certified_without_terms(plainly, near, threads) if advise else ()
     message = "; ".join([message, *(term.text for term in without)])
     ending = Ending(Status.INFEASIBLE, message, nearest.deficits, (*flying, *without))
     return certified(programme.uncorrected(), nearest.scaled), ending

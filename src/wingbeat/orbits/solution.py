@@ -47,7 +47,7 @@ class Optimum(NamedTuple):
 def families(optima: Iterable[Optimum], scale: np.ndarray, apart: float) -> tuple[Optimum, ...]:
     """Return the best optimum of each family, best first, with the number of starts that ended in it.
 
-    Optima closer to one another than `apart`, in the optimiser's scale, belong to one family.
+    Those closer to one another than `apart`, in the optimiser's scale, are of one family.
     """
     found: list[Optimum] = []
     for optimum in sorted(optima, key=lambda o: o.objective):
@@ -71,13 +71,8 @@ def place_of(problem: OrbitProblem, unknowns: np.ndarray) -> np.ndarray:
 class Solution:
     """What the solver found: wingbeat and initial state of the best orbit, and how far the orbit can be trusted.
 
-    `optima` holds the best uncorrected optimum of each family. `reduced_hessian` helps to solve similar problems.
-    `options` are the options of the solvers. `free_objective` is the objective without limits of stability, if the
-    problem has such limits.
-
-    If there is no orbit, wingbeat and initial state are those of the closest wingbeat. `deficits` are then the
-    deficits of the balances that fail, the largest first. `relaxations` are the single changes with which an orbit
-    exists, the smallest first.
+    Without an orbit, they are those of the closest wingbeat; `deficits` of the balances that fail have the largest
+    first, `relaxations` with which an orbit exists the smallest. `free_objective` is without limits of stability.
     """
 
     problem: OrbitProblem
@@ -148,17 +143,12 @@ class Solution:
         return (Optimum(self.objective, self.unknowns),) if self.status is Status.CONVERGED else ()
 
     def beat(self) -> Beat:
-        """Return the certified beat as time series.
-
-        Each call computes it again, because the beats of thousands of solutions would not fit in memory.
-        """
+        """Return the certified beat as time series."""
+        # Computed anew in each call, because the beats of thousands of solutions would not fit in memory.
         return certified_beat(self.problem, self.wingbeat, self.certificate)
 
     def value_of(self, quantity: Quantity, beat: Beat | None = None) -> float:
-        """Return a quantity of the certified flight in its unit; for a series, its largest value.
-
-        Whoever asks for several hands over the `beat`, which is else computed again for each.
-        """
+        """Return a quantity of the certified flight, whose `beat` may be given; for a series, its largest value."""
         if isinstance(quantity, MapQuantity):
             return float(np.max(quantity.of(self.monodromy)))
         return float(np.max(quantity.of(self.beat() if beat is None else beat)))
@@ -212,16 +202,18 @@ def solution_of(
     seed: int = 0,
     ending: Ending | None = None,
 ) -> Solution:
-    """Return what the solver found: the best orbit or closest wingbeat, and the optima where local searches ended.
-
-    The solver began at `begun` [s]. Without an `ending`, the orbit is certified.
-    """
+    """Return what the solver found since `begun` [s]; without an `ending`, the orbit is certified."""
     seconds, certifying = time.perf_counter() - begun, sum(programme.certifying)
-    apart = programme.options.search.same_optimum
-    optima = families(optima_of(found), programme.problem.unknowns().scale, apart)
-    status, message = (
-        (Status.CONVERGED, _certified_words(best)) if ending is None else (ending.status, ending.message)
-    )
+    search = programme.options.search
+    optima = families(optima_of(found), programme.problem.unknowns().scale, search.same_optimum)
+    if ending is None:
+        status, message = Status.CONVERGED, f"certified: re-flown, it closes to {size(best.residual):.0e}"
+        problem = best.programme.problem
+        if is_at_lower_bound(problem, best.programme.physical(best.scaled), search.bound_tolerance):
+            low = problem.bounds["frequency"][0]
+            message += f"; the frequency is at its lower bound of {low:g} Hz, so more starts cannot improve it"
+    else:
+        status, message = ending.status, ending.message
     return Solution(
         problem=best.programme.problem,
         status=status,
@@ -261,22 +253,12 @@ def _active_bounds(programme: Transcription, scaled: np.ndarray) -> tuple[str, .
     return tuple(names)
 
 
-def _certified_words(best: Corrected) -> str:
-    words = f"certified: re-flown, it closes to {size(best.residual):.0e}"
-    problem, tolerance = best.programme.problem, best.programme.options.search.bound_tolerance
-    if is_at_lower_bound(problem, best.programme.physical(best.scaled), tolerance):
-        low = problem.bounds["frequency"][0]
-        words += f"; the frequency is at its lower bound of {low:g} Hz, so more starts cannot improve it"
-    return words
-
-
 def correct_guess(
     problem: OrbitProblem, guess: np.ndarray, like: ReducedHessian | None = None, options: SolverOptions = DEFAULTS
 ) -> Solution | None:
-    """Find the certified orbit next to a guess of the unknowns, by correction without a local search.
+    """Return the certified orbit next to a guess of the unknowns, by correction without a local search, or None.
 
-    `like` is the curvature at the optimum of a similar problem. None is returned if the guess is too far from an
-    orbit, or if its correction fails.
+    `like` is the curvature at the optimum of a similar problem.
     """
     begun = time.perf_counter()
     programme = Transcription(problem, options)
@@ -285,10 +267,8 @@ def correct_guess(
         return None
     newton = NewtonKKT(programme, scaled, like)
     nearer = newton.approach(programme, scaled, options.certificate.linear_range)
-    if nearer is None:
-        return None
-    corrected = follow_to_certificate(programme, newton, nearer)
-    if not corrected.is_orbit():
+    corrected = None if nearer is None else follow_to_certificate(programme, newton, nearer)
+    if corrected is None or not corrected.is_orbit():
         return None
     return solution_of(corrected, programme, begun)
 
@@ -296,10 +276,7 @@ def correct_guess(
 def search_near(
     problem: OrbitProblem, start: np.ndarray, below: float = np.inf, options: SolverOptions = DEFAULTS
 ) -> Solution | None:
-    """Run one local search from unknowns near an orbit; return the certified orbit, or None.
-
-    Only an orbit with an objective less than `below` is returned.
-    """
+    """Return the orbit that one local search from near it leads to, or None unless its objective is `below`."""
     begun = time.perf_counter()
     candidate = refine(Transcription(problem, options), start)
     if not (candidate.is_optimum and candidate.objective < below):

@@ -17,12 +17,9 @@ import numpy as np
 from wingbeat._base import FaultList
 from wingbeat._workers.tuning import core_count
 from wingbeat.orbits.diagnosis import unexplained, without_orbit
-from wingbeat.orbits.flight.certificate import certify
-from wingbeat.orbits.flight.period import fly_part
-from wingbeat.orbits.nlp.newton_kkt import Corrected, first_certified
-from wingbeat.orbits.nlp.transcription import Candidate, Transcription, as_candidate, search
+from wingbeat.orbits.nlp.newton_kkt import first_certified
+from wingbeat.orbits.nlp.transcription import Candidate, Transcription, as_candidate, load_programs, search
 from wingbeat.orbits.options import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.quantities import Constraint
 from wingbeat.orbits.problem.quantity import MapQuantity
 from wingbeat.orbits.solution import Solution, families, optima_of, optimal, solution_of
 from wingbeat.orbits.starts import (
@@ -52,35 +49,19 @@ def check_search(starts: int, seed: int, most_starts: int = 1) -> None:
 
 @dataclass(frozen=True)
 class Settings:
-    """How a problem is searched.
+    """How a problem is searched; numbers of starts are by default those of `SearchOptions` for such a problem."""
 
-    Parameters
-    ----------
-    starts : number of starts; default as in `SearchOptions` for such a problem. If peaks are minimised, half as
-        many further starts follow near the best optimum.
-    seed : of the random starts; the same seed gives the same orbit.
-    most_starts : if no start leads to a certified orbit, more follow, up to this many; default that of
-        `SearchOptions`.
-    advise : if no orbit is found, find the single changes that lead to one. This takes as long as the starts.
-    explain : if no orbit is found, find the closest wingbeat and the balance that fails. This takes a third of the
-        time of the starts. If `explain` is false, `advise` has no effect.
-    options : of the solvers.
-    """
-
-    starts: int | None = None
-    seed: int = 0
-    most_starts: int | None = None
-    advise: bool = True
-    explain: bool = True
+    starts: int | None = None  # if peaks are minimised, half as many follow near the best optimum
+    seed: int = 0  # of the random starts
+    most_starts: int | None = None  # further starts follow, up to this many, until one leads to a certified orbit
+    advise: bool = True  # without an orbit, find single changes that lead to one; takes as long as the starts
+    explain: bool = True  # without an orbit, find the balance that fails and advise; takes a third of their time
     options: SolverOptions = DEFAULTS
 
     def check(self) -> None:
         """Raise `InvalidInputError` unless all numbers are whole numbers in range."""
-        check_search(
-            1 if self.starts is None else self.starts,
-            self.seed,
-            1 if self.most_starts is None else self.most_starts,
-        )
+        starts, most = (1 if count is None else count for count in (self.starts, self.most_starts))
+        check_search(starts, self.seed, most)
 
 
 USUAL = Settings()
@@ -91,22 +72,10 @@ BRIEF = Settings(advise=False)
 def find_orbit(
     problem: OrbitProblem, settings: Settings = USUAL, progress: Progress | None = None, threads: int | None = None
 ) -> Solution:
-    """Find the periodic orbit that minimises the objective, from several starts, and certify it.
+    """Find the periodic orbit that minimises the objective, and certify it; a failure is a result, no exception.
 
-    Parameters
-    ----------
-    problem, settings : the orbit problem, and how it is searched.
-    progress : called with (starts done, starts in all). Without an orbit, each single change that is tried counts
-        as one more start.
-    threads : number of local searches at a time; default the number of cores.
-
-    Returns
-    -------
-    Solution : with a status; a failure is a result, not an exception.
-
-    Raises
-    ------
-    InvalidInputError : starts, seed or most_starts not whole numbers in range.
+    `progress` is called with (starts done, starts in all); without an orbit, each single change tried counts as one
+    more start. Starts, seed or most_starts out of range raise `InvalidInputError`.
     """
     options, seed = settings.options, settings.seed
     starts = start_count(problem, settings.starts, options.search)
@@ -115,27 +84,10 @@ def find_orbit(
     begun = time.perf_counter()
     threads = threads or core_count()
     programme = Transcription(problem, options)
-    best, found, free = _searched(programme, starts, most, seed, threads, progress)
-    searches, ending = len(found), None
-    if best is None and settings.explain:
-        best, ending = without_orbit(programme, found, threads, settings.advise, progress)
-    elif best is None:
-        best, ending = unexplained(found)
-    solution = solution_of(best, programme, begun, found, searches, seed, ending)
-    return dataclasses.replace(solution, free_objective=_certified_objective(free))
-
-
-def _searched(
-    programme: Transcription, starts: int, most: int, seed: int, threads: int, progress: Progress | None = None
-) -> tuple[Corrected | None, list[Candidate], list[Candidate]]:
-    """Return the best certified orbit that the starts lead to, if any, and where all local searches ended.
-
-    The last list holds the ends of the searches without limits of stability, if the problem has such limits.
-    """
-    load_programs(programme, start_point(programme.problem, 0, seed, programme.options.search))
-    free: list[Candidate] = []
-    if asks_for_stability(programme.problem):
-        free = easier_searches(programme, starts, seed, threads, progress)
+    load_programs(programme, start_point(problem, 0, seed, options.search))
+    free: list[Candidate] = []  # where the searches without limits of stability end, if there are such limits
+    if asks_for_stability(problem):
+        free = first_searches(Transcription(easier(problem), options), starts, seed, threads, progress)
         found = stable_searches(programme, free, threads)
     else:
         found = first_searches(programme, starts, seed, threads, progress)
@@ -151,13 +103,17 @@ def _searched(
             progress(done, max(starts, most))
         if (best := first_certified(programme, [candidate])) is not None:
             break
-    return best, found, [] if minimises_map(programme.problem) else free
-
-
-def _certified_objective(found: list[Candidate]) -> float | None:
-    """Return the objective of the best candidate that can be certified, if any."""
-    best = first_certified(found[0].programme, found) if found else None
-    return None if best is None else best.programme.objective(best.scaled) * best.programme.problem.minimise.scale
+    searches, ending = len(found), None
+    if best is None and settings.explain:
+        best, ending = without_orbit(programme, found, threads, settings.advise, progress)
+    elif best is None:
+        best, ending = unexplained(found)
+    solution = solution_of(best, programme, begun, found, searches, seed, ending)
+    unlimited = first_certified(free[0].programme, free) if free and not minimises_map(problem) else None
+    if unlimited is None:
+        return solution
+    objective = unlimited.programme.objective(unlimited.scaled) * unlimited.programme.problem.minimise.scale
+    return dataclasses.replace(solution, free_objective=objective)
 
 
 def _where_limits_hold(programme: Transcription, starts: int, seed: int, threads: int) -> Iterator[list[Candidate]]:
@@ -177,29 +133,14 @@ def _where_limits_hold(programme: Transcription, starts: int, seed: int, threads
             yield search_from_optima(Transcription(problem, options), found, threads)
 
 
-def load_programs(programme: Transcription, start: np.ndarray) -> None:
-    """Load or compile the programs of a local search and of the certificate in parallel, once per process."""
-    if fly_part.loaded:
-        return
-
-    wingbeat = programme.problem.wingbeat(start)
-    with ThreadPoolExecutor(2) as pool:
-        # The program of the search compiles the longest, so it goes first.
-        searching = pool.submit(programme.closure_jacobian, programme.scaled(start))
-        pool.submit(certify, programme.model, wingbeat, start[:4]).result()
-        searching.result()
-
-
 def first_searches(
     programme: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
 ) -> list[Candidate]:
-    """Search from starts, from optima of the problem without limits, and near the lowest peak; return all ends.
-
-    The problem without limits gets as many starts as the problem. `progress` counts its searches too.
-    """
+    """Search from starts, from optima of the problem without limits, and near the lowest peak; return all ends."""
     problem, options = programme.problem, programme.options
     if asks_for_stability(problem):
-        return stable_searches(programme, easier_searches(programme, starts, seed, threads, progress), threads)
+        free = first_searches(Transcription(easier(problem), options), starts, seed, threads, progress)
+        return stable_searches(programme, free, threads)
     limited = bool(problem.subject_to)
     found: list[Candidate] = []
     for candidate in search_from_starts(programme, range(starts), seed, threads):
@@ -211,7 +152,12 @@ def first_searches(
         report = None if progress is None else lambda done, total: progress(starts + done, starts + total)
         found += search_from_optima(programme, first_searches(without, starts, seed, threads, report), threads)
     if programme.has_epigraph:
-        found += beside_best(programme, found, starts // 2, seed)
+        for _ in range(starts // 2):  # a lower peak is often near the best optimum
+            optima = optima_of(found)
+            if not optima:
+                break
+            start = start_beside(problem, optima[0].unknowns, len(found), seed, options.search)
+            found.append(search(programme.uncorrected(), start))
     return found
 
 
@@ -220,8 +166,8 @@ def search_from_optima(
 ) -> list[Candidate]:
     """Search from the best optimum of each family of an easier problem; return where the local searches end.
 
-    With `pruned`, families are left out that are dearer without the limits than an optimum found with them: limits
-    only raise the objective within a family.
+    With `pruned`, a family that is dearer without the limits than an optimum found with them is left out, because
+    limits only raise the objective within a family.
     """
     scale, apart = programme.problem.unknowns().scale, programme.options.search.same_optimum
     found: list[Candidate] = []
@@ -236,22 +182,10 @@ def search_from_optima(
     return found
 
 
-def easier_searches(
-    programme: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
-) -> list[Candidate]:
-    """Search as `first_searches` does, for the easier problem that comes before a search for stability."""
-    free = Transcription(easier(programme.problem), programme.options)
-    return first_searches(free, starts, seed, threads, progress)
-
-
 def stable_searches(programme: Transcription, free: list[Candidate], threads: int) -> list[Candidate]:
-    """Search for stable orbits from the optima without limits of stability; return where the searches end.
-
-    No search starts from elsewhere, for two reasons. Stable orbits are next to some of these optima. A flight with
-    the derivatives of the stroke map takes five times as long as one without. If a stable orbit costs too much
-    (`SearchOptions.dear_stability`) or none is found, one more search starts from the best of these optima. It
-    tightens the limits step by step, because a direct search may end in another family.
-    """
+    """Search for stable orbits from the optima without limits of stability; return where the searches end."""
+    # No search starts from elsewhere: stable orbits are next to some of these optima, and a flight with the
+    # derivatives of the stroke map takes five times as long as one without.
     best, map_is_minimised = optimal(free), minimises_map(programme.problem)
     if best and not map_is_minimised:
         already = as_candidate(programme.uncorrected(), programme.scaled(optima_of(best)[0].unknowns), optimal=True)
@@ -263,6 +197,7 @@ def stable_searches(programme: Transcription, free: list[Candidate], threads: in
     stable = optimal(found)
     dear = best[0].objective + programme.options.search.dear_stability * abs(best[0].objective)
     if not stable or stable[0].objective > dear:
+        # The limits are tightened step by step, because a direct search may end in another family.
         found.append(search(programme.uncorrected(), tightened(programme, optima_of(best)[0].unknowns)))
     return found
 
@@ -270,15 +205,12 @@ def stable_searches(programme: Transcription, free: list[Candidate], threads: in
 def search_from_starts(
     programme: Transcription, indices: Iterable[int], seed: int, threads: int
 ) -> Iterator[Candidate]:
-    """Search from these starts in parallel threads, and yield in order where each local search ends.
-
-    The first start is the stock wingbeat. Every other start is brought close to closure before the objective is
-    minimised, because a local search from far away diverges. If no orbit exists, such a search ends after 30
-    flights rather than 100.
-    """
+    """Search from these starts in parallel threads, and yield in order where each local search ends."""
 
     def one(index: int) -> Candidate:
         start = start_point(programme.problem, index, seed, programme.options.search)
+        # All but the stock wingbeat are first brought close to closure: from far away, a search diverges. If no
+        # orbit exists, it then ends after 30 flights rather than 100.
         return search(programme.uncorrected(), start, restore=index > 0)
 
     yield from _side_by_side(one, indices, threads)
@@ -296,43 +228,25 @@ def _side_by_side(work: Callable[[T], Candidate], items: Iterable[T], threads: i
             pool.shutdown(wait=False, cancel_futures=True)
 
 
-def beside_best(programme: Transcription, found: list[Candidate], count: int, seed: int) -> list[Candidate]:
-    """Search near the best optimum, because a lower peak is often near it; return where the searches end."""
-    more: list[Candidate] = []
-    for index in range(count):
-        optima = optima_of((*found, *more))
-        if not optima:
-            break
-        place = len(found) + index
-        start = start_beside(programme.problem, optima[0].unknowns, place, seed, programme.options.search)
-        more.append(search(programme.uncorrected(), start))
-    return more
-
-
 def tightened(programme: Transcription, start: np.ndarray) -> np.ndarray:
-    """Return unknowns near a local optimum; start from an orbit that exceeds limits of the stroke map.
+    """Return unknowns near an optimum within limits of the stroke map, from an orbit that exceeds them.
 
-    Each limit moves in steps of equal ratio. Its first value is that of the limited quantity at the start, its last
-    is the limit asked for. A short search follows each step.
+    Each limit moves from the quantity's value at the start in steps of equal ratio; a short search follows each.
     """
     problem, options = programme.problem, programme.options
     stroke_map = np.asarray(programme.fly(start[4:], start[:4]).end_jacobian)[2:, :4]
-    for share in np.linspace(0.0, 1.0, options.search.tightening_steps + 1)[1:]:
-        limits = tuple(_between(c, stroke_map, float(share)) for c in problem.subject_to)
-        nearer = Transcription(dataclasses.replace(problem, subject_to=limits), options)
+    for share in np.linspace(0.0, 1.0, options.search.tightening_steps + 1)[1:].tolist():
+        limits = []
+        for constraint in problem.subject_to:
+            quantity, limit = constraint.quantity, constraint.limit
+            if isinstance(quantity, MapQuantity) and constraint.at_most:
+                there = float(np.max(quantity.of(stroke_map)))
+                if there > limit > 0:
+                    constraint = dataclasses.replace(constraint, limit=there * (limit / there) ** share)
+            limits.append(constraint)
+        nearer = Transcription(dataclasses.replace(problem, subject_to=tuple(limits)), options)
         scaled = nearer.scaled(start)
         start = nearer.physical(
             nearer.optimise(scaled, options.search.tightening_iterations, options.search.tolerance)[0]
         )
     return start
-
-
-def _between(constraint: Constraint, stroke_map: np.ndarray, share: float) -> Constraint:
-    """Return a limit between the quantity's value at the start and the limit asked for; leave other constraints."""
-    quantity, limit = constraint.quantity, constraint.limit
-    if not (isinstance(quantity, MapQuantity) and constraint.at_most):
-        return constraint
-    there = float(np.max(quantity.of(stroke_map)))
-    if not there > limit > 0:
-        return constraint
-    return dataclasses.replace(constraint, limit=there * (limit / there) ** share)

@@ -18,16 +18,18 @@ from wingbeat.animal.kinematics import parameter
 from wingbeat.orbits.options import DEFAULTS
 from wingbeat.orbits.problem.quantities import QUANTITIES, Constraint, Frequency
 from wingbeat.orbits.problem.quantity import MAP_QUANTITIES, STABLE_RADIUS, MapQuantity
-from wingbeat.orbits.search_options import SearchOptions, StartFamily
+from wingbeat.orbits.search_options import SearchOptions
 
 if TYPE_CHECKING:
     from wingbeat.orbits.problem.problem import OrbitProblem
 
 
-def usual_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search) -> int:
-    """Return the default number of starts of a problem."""
+def start_count(problem: OrbitProblem, starts: int | None = None, options: SearchOptions = DEFAULTS.search) -> int:
+    """Return the number of starts as given, or the default of the problem."""
+    if starts is not None:
+        return starts
     if asks_for_stability(problem):
-        return usual_starts(easier(problem), options)
+        return start_count(easier(problem), None, options)
     if problem.minimises_peaks or problem.has_own_bounds:
         return options.starts_of_many_optima
     return options.starts_of_outputs if problem.has_outputs else options.starts
@@ -36,11 +38,6 @@ def usual_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search
 def usual_most_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search) -> int:
     """Return the default of the largest number of starts, tried while none leads to a certified orbit."""
     return options.most_stable_starts if asks_for_stability(problem) else options.most_starts
-
-
-def start_count(problem: OrbitProblem, starts: int | None, options: SearchOptions = DEFAULTS.search) -> int:
-    """Return the number of starts as given, or the default of the problem."""
-    return usual_starts(problem, options) if starts is None else starts
 
 
 def starts_in_words(count: int) -> str:
@@ -79,34 +76,27 @@ def start_point(
 
 
 def structured_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search) -> list[np.ndarray]:
-    """Return a start in each family of wingbeats, the species' stock wingbeat first.
-
-    In known optima, the wings beat below, above or about level with the body, with little or much pitching.
-    """
-    unknowns = problem.unknowns()
+    """Return a start in each family of wingbeats, the species' stock wingbeat first."""
+    unknowns, beat = problem.unknowns(), problem.species.wingbeat
     found: list[np.ndarray] = []
     for family in options.start_families:
-        start = np.clip(_start_in(problem, family), unknowns.lower, unknowns.upper)
+        wingbeat = {name: parameter(beat, name) for name in problem.free}
+        for name in ("frequency", "flap_amplitude"):
+            if name in wingbeat:
+                wingbeat[name] *= getattr(family, name)
+        for name in ("pitch_mean", "pitch_amplitude"):
+            if name in wingbeat and (own := getattr(family, name)) is not None:
+                wingbeat[name] = own
+        if "flap_mean" in wingbeat and family.flap_mean is not None:
+            low, high = problem.bounds["flap_mean"]
+            wingbeat["flap_mean"] = 0.5 * (low + high + family.flap_mean * (high - low))
+        # Tilting the stroke plane turns the body the other way and leaves the wings where they were.
+        pitch = family.nose_up + problem.vehicle.wing.stroke_plane_angle + beat.stroke_plane_tilt - 0.5 * math.pi
+        start = [pitch, problem.speed, problem.climb, 0.0, *wingbeat.values()]
+        start = np.clip(start, unknowns.lower, unknowns.upper)
         if not any(np.array_equal(start, other) for other in found):
             found.append(start)
     return found
-
-
-def _start_in(problem: OrbitProblem, family: StartFamily) -> list[float]:
-    beat = problem.species.wingbeat
-    wingbeat = {name: parameter(beat, name) for name in problem.free}
-    for name in ("frequency", "flap_amplitude"):
-        if name in wingbeat:
-            wingbeat[name] *= getattr(family, name)
-    for name in ("pitch_mean", "pitch_amplitude"):
-        if name in wingbeat and (own := getattr(family, name)) is not None:
-            wingbeat[name] = own
-    if "flap_mean" in wingbeat and family.flap_mean is not None:
-        low, high = problem.bounds["flap_mean"]
-        wingbeat["flap_mean"] = 0.5 * (low + high + family.flap_mean * (high - low))
-    # Tilting the stroke plane turns the body the other way and leaves the wings where they were.
-    pitch = family.nose_up + problem.vehicle.wing.stroke_plane_angle + beat.stroke_plane_tilt - 0.5 * math.pi
-    return [pitch, problem.speed, problem.climb, 0.0, *wingbeat.values()]
 
 
 def minimises_map(problem: OrbitProblem) -> bool:
@@ -120,11 +110,10 @@ def asks_for_stability(problem: OrbitProblem) -> bool:
 
 
 def easier(problem: OrbitProblem) -> OrbitProblem:
-    """Return the easier problem that is solved first; a search for stability starts from its optima.
+    """Return the easier problem from whose optima a search for stability starts.
 
-    If the objective is a quantity of the stroke map, the easier problem asks for the stable orbit of least
-    frequency, or of least power if the frequency is fixed. Otherwise, the easier problem is the same problem
-    without limits of the stroke map.
+    It has no limits of the stroke map; or if such a quantity is minimised, it asks for the stable orbit of least
+    frequency, or of least power if the frequency is fixed.
     """
     if minimises_map(problem):
         objective = Frequency() if "frequency" in problem.free else QUANTITIES["mean_positive_power"]

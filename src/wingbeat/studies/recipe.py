@@ -27,7 +27,7 @@ from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, pa
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.problem.quantities import named_objective
 from wingbeat.orbits.problem.quantity import Quantity
-from wingbeat.orbits.starts import usual_starts
+from wingbeat.orbits.starts import start_count
 from wingbeat.records.inputs import aero_from, inputs_of, species_from
 from wingbeat.studies.form import StudyForm
 
@@ -264,7 +264,7 @@ def recipe_from(inputs: Mapping[str, Any]) -> Recipe:
 def starts_of(recipe: Recipe, problem: OrbitProblem) -> int:
     """Return the number of starts for a problem of a recipe."""
     starts = recipe.search["starts"]
-    return usual_starts(problem) if starts is None else int(starts)
+    return start_count(problem) if starts is None else int(starts)
 
 
 @functools.cache

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -12,8 +13,8 @@ from scipy.optimize import minimize
 
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.orbits.flight.beat import Beat, highest_sample, peak_weights
-from wingbeat.orbits.flight.certificate import Certificate, map_and_changes, monodromy
-from wingbeat.orbits.flight.period import CLOSURE_SCALE, Flown, StrokeLimits, flier
+from wingbeat.orbits.flight.certificate import Certificate, certify, map_and_changes, monodromy
+from wingbeat.orbits.flight.period import CLOSURE_SCALE, Flown, StrokeLimits, flier, fly_part
 from wingbeat.orbits.flight.time_series import beat_reader, flown_beat
 from wingbeat.orbits.nlp.levenberg_marquardt import Values, least_squares, multiplier_residual
 from wingbeat.orbits.options import DEFAULTS, SolverOptions
@@ -33,10 +34,7 @@ _PITCH_LIMITS = (("body_pitch", ">="), ("body_pitch", "<="))
 
 
 class Point(NamedTuple):
-    """Values and derivatives at one point, in the optimiser's scale; `path` holds body pitch, then the stroke.
-
-    As a correction, values are subtracted, and derivatives times the way from an anchor are added.
-    """
+    """Values and derivatives at one point, scaled, or corrections of them; `path` has pitch, then the stroke."""
 
     closure: np.ndarray
     closure_jacobian: np.ndarray
@@ -51,10 +49,7 @@ class _DivergedError(Exception):
 
 
 class Programme:
-    """A nonlinear programme in scaled unknowns between `lower` and `upper`, and its minimisation by SLSQP.
-
-    The closure must vanish, the inequalities must not be negative, and the objective is minimised.
-    """
+    """A nonlinear programme in scaled unknowns: least objective, zero closure, and no negative inequality."""
 
     lower: np.ndarray
     upper: np.ndarray
@@ -80,8 +75,7 @@ class Programme:
     ) -> tuple[np.ndarray, bool]:
         """Minimise the objective over closed orbits with SLSQP; return where it ended and whether it converged.
 
-        With `patience`, a search counts as diverged if its least violation still exceeds `diverged_closure` after
-        `diverged_flights` flights. It then ends where its violation was least.
+        With `patience`, a search that diverges by its options ends where its violation was least.
         """
         nearest, least, flights = scaled, np.inf, 0
 
@@ -111,11 +105,8 @@ class Transcription(Programme):
     """Closure, inequalities and objective of a problem as functions of scaled unknowns; flights are cached.
 
     If the objective is the largest value of a series, the last unknown is the epigraph variable: an upper limit of
-    the series' peaks. A programme is immutable; `linearised_at` and `matched_to` return a corrected one.
-
-    A flight has `blocks` times `STEPS` steps. `unknowns` replaces the problem's own bounds and scales, for a point
-    just outside the bounds. `outputs` are objective and constraints that are outputs of the wingbeat, None if there
-    are none; `path_limits` has name and sign of each limit along the path, of body pitch and of the stroke.
+    the series' peaks. A flight has `blocks` times `STEPS` steps. `unknowns` replaces the problem's own, for a point
+    just outside the bounds; `path_limits` has name and sign of each limit along the path.
     """
 
     def __init__(
@@ -136,8 +127,8 @@ class Transcription(Programme):
         self.outputs = None
         if problem.has_outputs:
             objective = [] if problem.minimise.parameter else [problem.minimise]
-            velocity, drive = (problem.speed, problem.climb), problem.vehicle.drive
-            self.outputs = Outputs(objective, problem.subject_to, problem.aero.strips, drive)
+            self.outputs = Outputs(objective, problem.subject_to, problem.aero.strips, problem.vehicle.drive)
+            velocity = problem.speed, problem.climb
             self._reader = beat_reader(self.model, stock, free, velocity, self.outputs.fields)
         # Number of outputs that belong to the objective.
         self._minimised = 0 if self.outputs is None else self.outputs.of_objective
@@ -190,10 +181,9 @@ class Transcription(Programme):
         """Return values and derivatives of the flight from one point."""
         key = scaled[: self.unknowns.lower.size].tobytes()
         if key not in self._points:
-            unknowns = self.physical(scaled)
             if len(self._points) == _REMEMBERED:
                 del self._points[next(iter(self._points))]
-            self._points[key] = self._fly(unknowns, self._blocks)
+            self._points[key] = self._fly(self.physical(scaled), self._blocks)
         return self._points[key]
 
     def _fly(self, unknowns: np.ndarray, blocks: int) -> Point:
@@ -266,11 +256,7 @@ class Transcription(Programme):
         return self.point(scaled).outputs - by.outputs + by.outputs_jacobian @ (scaled - self._anchor)
 
     def inequalities(self, scaled: np.ndarray) -> np.ndarray:
-        """Return the margins of the limits along the path, of the constraints, and of the objective's peaks.
-
-        The limits along the path are those of `path_limits` [rad, strip corners in wing lengths]. Constraints and
-        peaks, whose margin is that of the epigraph variable, are divided by the scales of their quantities.
-        """
+        """Return the margins of `path_limits`, of constraints, and of peaks below the epigraph variable."""
         path = self.point(scaled).path - self._correction.path
         if self.outputs is None:
             return path
@@ -303,20 +289,14 @@ class Transcription(Programme):
         return values, np.concatenate([self.closure_jacobian(scaled), by_inequalities])
 
     def linearised_at(self, scaled: np.ndarray, blocks: int) -> Transcription:
-        """Return the programme, corrected to values and derivatives of a flight with more blocks at this point.
-
-        Theory: equation ``defect-correction``.
-        """
+        """Return the programme, corrected to a flight with more blocks. Theory: equation ``defect-correction``."""
         here, fine = self.point(scaled), self._fly(self.physical(scaled), blocks)
         offsets = {n: getattr(here, n) - getattr(fine, n) for n in ("closure", "path", "outputs")}
         slopes = {n: getattr(fine, n) - getattr(here, n) for n in ("closure_jacobian", "outputs_jacobian")}
         return self._corrected(scaled.copy(), self._correction._replace(**offsets, **slopes))
 
     def matched_to(self, scaled: np.ndarray, certificate: Certificate) -> Transcription:
-        """Return the programme, corrected to the certifier's values of closure, path and outputs at this point.
-
-        Theory: equation ``defect-correction``.
-        """
+        """Return the programme, corrected to the certifier's values. Theory: equation ``defect-correction``."""
         unknowns, by = self.physical(scaled), self._correction
         residual = self.problem.closure(certificate.end, unknowns, self.problem.frequency(unknowns)) / CLOSURE_SCALE
         path, outputs = by.path.copy(), by.outputs
@@ -335,10 +315,7 @@ class Transcription(Programme):
         return np.concatenate([path, self.outputs.limits - outputs[self._minimised :]])
 
     def optimality(self, scaled: np.ndarray) -> float:
-        """Return the largest residual of the Karush-Kuhn-Tucker conditions, in the optimiser's scale.
-
-        Theory: equation ``optimality-conditions``.
-        """
+        """Return the largest residual, scaled, of optimality. Theory: equation ``optimality-conditions``."""
         tolerance, unit = self.options.search.bound_tolerance, np.eye(scaled.size)
         reach = tolerance * (self.upper - self.lower)
         bounds = [unit[scaled - self.lower <= reach], -unit[self.upper - scaled <= reach]]
@@ -370,6 +347,18 @@ class Transcription(Programme):
         return unit * self.unknowns.scale / self.problem.minimise.scale
 
 
+def load_programs(programme: Transcription, start: np.ndarray) -> None:
+    """Load or compile the programs of a local search and of the certificate in parallel, once per process."""
+    if fly_part.loaded:
+        return
+    wingbeat = programme.problem.wingbeat(start)
+    with ThreadPoolExecutor(2) as pool:
+        # The program of the search compiles the longest, so it goes first.
+        searching = pool.submit(programme.closure_jacobian, programme.scaled(start))
+        pool.submit(certify, programme.model, wingbeat, start[:4]).result()
+        searching.result()
+
+
 def certified_beat(problem: OrbitProblem, wingbeat: Wingbeat, flown: Certificate) -> Beat:
     """Return the time series of a flight of the certifier, with the vehicle's muscles, motor and springs."""
     velocity = problem.speed, problem.climb
@@ -395,11 +384,9 @@ class Candidate:
 
 
 def search(programme: Transcription, start: np.ndarray, *, restore: bool = False) -> Candidate:
-    """Search from unknowns with SLSQP; if it stalls, restore closure and search once more.
-
-    With `restore`, closure is restored before the first search too. Most stalls come from a poor BFGS matrix, or
-    from a start whose full Newton steps leave the region where the quadratic model is valid.
-    """
+    """Search from unknowns with SLSQP; first `restore` closure, or if it stalls, before one more search."""
+    # Most stalls come from a poor BFGS matrix, or from a start whose full Newton steps leave the region where the
+    # quadratic model is valid.
     options = programme.options.search
     scaled = programme.scaled(start)
     closed = optimal = False

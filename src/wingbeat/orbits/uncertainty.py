@@ -19,7 +19,6 @@ import numpy as np
 from wingbeat._base import PRECISION, Fault, InvalidInputError
 from wingbeat._workers.pool import in_processes
 from wingbeat.animal.kinematics import unpack
-from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.certificate import certify
 from wingbeat.orbits.flight.period import PATH_NAMES, PITCH_STATE
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace
@@ -50,10 +49,7 @@ class Sensitivity(NamedTuple):
 
 
 class OptimumSlopes:
-    """The active set of an optimum, its multipliers and its curvature.
-
-    More active bounds than free unknowns, and an objective without curvature there, raise `InvalidInputError`.
-    """
+    """The active set, multipliers and curvature of an optimum; `InvalidInputError` if it is not isolated."""
 
     def __init__(self, problem: OrbitProblem, unknowns: np.ndarray, options: SolverOptions = DEFAULTS) -> None:
         self.problem = problem
@@ -118,10 +114,7 @@ class OptimumSlopes:
         return self._read(self._here, self._at, quantities)
 
     def by(self, parameter: Parameter, quantities: Sequence[Quantity] = ()) -> Sensitivity:
-        """Return the derivatives by one parameter, of other quantities too; of a series, of its largest value.
-
-        Theory: equations ``envelope`` and ``optimum-slope``.
-        """
+        """Return the derivatives by one parameter. Theory: equations ``envelope`` and ``optimum-slope``."""
         size, scale = parameter.size, self._unknowns.scale
         moved = np.zeros(self._at.size)
         moves: Parameter | None = parameter
@@ -164,8 +157,6 @@ class OptimumSlopes:
 
     def _read(self, programme: Transcription, scaled: np.ndarray, quantities: Sequence[Quantity]) -> np.ndarray:
         """Return quantities of the beat by the certifier's flight, and those of the stroke map by the solver's."""
-        if not quantities:
-            return np.zeros(0)
         problem, unknowns = programme.problem, scaled[: self._unknowns.scale.size] * self._unknowns.scale
         stroke_map, beat = None, None
         found = []
@@ -178,16 +169,14 @@ class OptimumSlopes:
                     stroke_map = np.asarray(flight.end_jacobian)[2:, :4]
                 found.append(np.max(quantity.of(stroke_map)))
             else:
-                beat = beat or self._certified_beat(problem, unknowns)
+                if beat is None:
+                    # `unpack` skips the constructor's checks: just outside a bound a wingbeat may be invalid, but
+                    # it has derivatives.
+                    wingbeat = unpack(problem.free, problem.species.wingbeat, unknowns[4:])
+                    flown = certify(problem.model, wingbeat, unknowns[:4], self._options.certificate.rtol)
+                    beat = certified_beat(problem, wingbeat, flown)
                 found.append(np.max(quantity.of(beat)))
         return np.array(found, dtype=float)
-
-    def _certified_beat(self, problem: OrbitProblem, unknowns: np.ndarray) -> Beat:
-        # `unpack` skips the constructor's checks: just outside a bound a wingbeat may be invalid, but it has
-        # derivatives.
-        wingbeat = unpack(problem.free, problem.species.wingbeat, unknowns[4:])
-        flown = certify(problem.model, wingbeat, unknowns[:4], self._options.certificate.rtol)
-        return certified_beat(problem, wingbeat, flown)
 
     def _along(
         self,
@@ -195,10 +184,7 @@ class OptimumSlopes:
         direction: np.ndarray,
         parameter: Parameter | None = None,
     ) -> np.ndarray:
-        """Return a function's derivative along a direction of the unknowns.
-
-        If a parameter is given, it changes at the same time, by its size.
-        """
+        """Return a function's derivative along a direction of the unknowns, and of a parameter by its size."""
         step = self._options.sensitivity.step / max(1.0, float(np.abs(direction).max()))
         nodes = self._nodes(parameter, step)
         values = [w * function(programme, self._at + at * step * direction) for at, w, programme in nodes]
@@ -225,8 +211,7 @@ _UNIFORM = 1 / math.sqrt(12)
 class ParameterSpread(NamedTuple):
     """Random deviations of some parameters from their values, independent of all other spreads.
 
-    ``plausible`` is the lowest and the highest deviation of one parameter, with a uniform distribution between
-    them. Without it the deviations are normal, of mean 0 and of `covariance`, shape (P, P).
+    They are uniform between the ends `plausible` of one parameter, or else normal of `covariance`, shape (P, P).
     """
 
     name: str
@@ -357,28 +342,25 @@ def sample_orbits(
 ) -> Samples:
     """Solve a problem for random draws of its parameters, and compute quantities of each certified orbit.
 
-    For each draw, the derivatives predict an optimum, and a correction of the prediction gives the orbit. So the
-    orbit belongs to the same family. If the correction fails, a local search from the prediction follows. If that
-    fails too, a last search from `starts` starts follows; it takes most of the time if many draws have no orbit,
-    and 0 omits it.
+    The derivatives predict an optimum of the same family; its correction, a local search, and a last search from
+    `starts` starts follow until one finds an orbit.
     """
     generator = np.random.default_rng(seed)
     parameters = [p for spread in spreads for p in spread.parameters]
     deviations = np.concatenate([spread.draw(generator, count) for spread in spreads], axis=1)
     by_path = {s.parameter.path: [*s.initial_state.values(), *s.wingbeat.values()] for s in slopes}
     predicted = unknowns + deviations @ np.array([by_path[p.path] for p in parameters])
-    drawn = [(_moved(problem, parameters, row), guess) for row, guess in zip(deviations, predicted, strict=True)]
+    drawn = []
+    for row, guess in zip(deviations.tolist(), predicted, strict=True):
+        moved = problem
+        for parameter, deviation in zip(parameters, row, strict=True):
+            moved = parameter.changed(moved, parameter.value + deviation)
+        drawn.append((moved, guess))
     work = functools.partial(_read_off, quantities=tuple(quantities), seed=seed, options=options, starts=starts)
     found = in_processes(work, drawn, processes, progress)
     values, at_limit = (np.array(each) for each in zip(*found, strict=True))
     certified = np.asarray(np.isfinite(values).all(axis=1))
     return Samples(tuple(p.path for p in parameters), deviations, values, certified, at_limit)
-
-
-def _moved(problem: OrbitProblem, parameters: Sequence[Parameter], deviations: np.ndarray) -> OrbitProblem:
-    for parameter, deviation in zip(parameters, deviations.tolist(), strict=True):
-        problem = parameter.changed(problem, parameter.value + deviation)
-    return problem
 
 
 def _read_off(

@@ -134,9 +134,7 @@ def mean_positive(values: Samples, xp: Any = jnp) -> Scalar:
     """Return the mean of the positive part of a piecewise linear curve through samples at equal phases.
 
     Unlike the mean of the samples' positive parts, it is differentiable when a sample passes through zero. `xp` is
-    the array module of the samples.
-
-    Theory: equation ``mean-positive``.
+    the array module of the samples. Theory: equation ``mean-positive``.
     """
     before, after = values[:-1], values[1:]
     crosses = before * after < 0.0
@@ -155,29 +153,22 @@ PARTS = 4
 
 def highest(series: SampledSeries) -> Quarters:
     """Return the largest sample in each quarter of the beat, ends included, along the first axis."""
-    return series[_quarters(series)].max(axis=1)
+    return series[_quarters(series.shape[0])].max(axis=1)
 
 
 def peaks(series: SampledSeries) -> Quarters:
-    """Return the peak of a smooth curve through a closed path's samples (first axis), in each quarter of the beat.
+    """Return the peak of a smooth curve through a closed path's samples, in each quarter of the beat.
 
-    The curve between two samples is a Catmull-Rom cubic. The highest sample would not do: as a function of the
-    unknowns, it has a kink where two samples are equal. A search that lowers a peak, or that is at a bound of the
-    path, would end in this kink.
-
-    Theory: equation ``peaks``.
+    The highest sample would not do: as a function of the unknowns, it has a kink where two samples are equal, in
+    which a search that lowers a peak, or that is at a bound of the path, would end. Theory: equation ``peaks``.
     """
     samples = _taken(series, _samples_around(series, jnp), jnp)
     return jnp.sum(jax.lax.stop_gradient(_weights(samples, jnp)) * samples, axis=0)
 
 
-def _quarters(series: SampledSeries) -> np.ndarray:
-    """Return the indices of the samples of each quarter, ends included, shape (quarters, samples)."""
-    return _quarters_of(series.shape[0])
-
-
 @functools.lru_cache(32)
-def _quarters_of(count: int) -> np.ndarray:
+def _quarters(count: int) -> np.ndarray:
+    """Return the indices of the samples of each quarter, ends included, shape (quarters, samples)."""
     part = (count - 1) // PARTS
     return part * np.arange(PARTS)[:, None] + np.arange(part + 1)
 
@@ -196,11 +187,8 @@ def _taken(series: SampledSeries, around: SamplesOfPeaks, xp: Any) -> Any:
 
 
 def _samples_around(series: SampledSeries, xp: Any) -> Any:
-    """Return the indices of four samples for each quarter; the curve peaks between the middle two.
-
-    Shape (4, quarters, ...); `xp` is the array module of the series.
-    """
-    count, quarters = series.shape[0] - 1, _quarters(series)
+    """Return the indices of four samples for each quarter, between whose middle two the curve peaks."""
+    count, quarters = series.shape[0] - 1, _quarters(series.shape[0])
     begin, end = (quarters[:, i].reshape(-1, *[1] * (series.ndim - 1)) for i in (0, -1))
     top = begin + xp.argmax(series[quarters], axis=1)
 
@@ -217,31 +205,25 @@ class WeightedSamples:
     """The samples of a closed path, shape (K, ...), from which its `peaks` are computed, and their weights."""
 
     def __init__(self, series: np.ndarray) -> None:
-        self._around = _samples_around(series, np)
-        self._weights = _weights(_taken(series, self._around, np), np)
+        self.around = _samples_around(series, np)
+        self.weights = _weights(_taken(series, self.around, np), np)
         self.peaks = self.of(series)
 
     def of(self, series: np.ndarray) -> np.ndarray:
-        """Return the weighted sums of the samples of a series; several series may lie along further last axes.
-
-        If the series is a change of the path, the result is the change of the path's peaks, because a shift of a
-        peak's phase has no first-order effect.
-        """
-        around, weights = self._around, self._weights
+        """Return the weighted sums of the samples of a series; several series may lie along further last axes."""
+        # Of a change of the path, this is the change of its peaks: a shift of phase has no first-order effect.
+        around, weights = self.around, self.weights
         if more := tuple(range(weights.ndim, series.ndim + 1)):
             around, weights = (np.expand_dims(a, more) for a in (around, weights))
         return (weights * _taken(series, around, np)).sum(axis=0)
 
-    def of_highest(self, count: int) -> np.ndarray:
-        """Return the weights, shape (K,), with which the samples of a single path sum to its highest peak."""
-        weights, highest = np.zeros(count), self.peaks.argmax()
-        np.add.at(weights, self._around[:, highest], self._weights[:, highest])
-        return weights
-
 
 def peak_weights(path: np.ndarray) -> np.ndarray:
     """Return the weights, shape (K,), with which a closed path's samples sum to the highest of its `peaks`."""
-    return WeightedSamples(path).of_highest(len(path))
+    found, weights = WeightedSamples(path), np.zeros(len(path))
+    highest = found.peaks.argmax()
+    np.add.at(weights, found.around[:, highest], found.weights[:, highest])
+    return weights
 
 
 def highest_sample(path: np.ndarray) -> np.ndarray:
@@ -252,12 +234,9 @@ def highest_sample(path: np.ndarray) -> np.ndarray:
 
 
 def _weights(samples: Quarters, xp: Any) -> Quarters:
-    """Return the weights with which four samples sum to the peak of the curve between the middle two.
-
-    The first of these two is the higher. Samples and weights are the first axis; `xp` is their array module.
-    """
+    """Return the weights (first axis) with which four samples sum to the curve's peak between the middle two."""
     before, here, there, after = samples
-    # Coefficients of the cubic, from linear to cubic. The highest sample is at 0, its higher neighbour at 1.
+    # Coefficients of a Catmull-Rom cubic. The highest sample is at 0, its higher neighbour at 1.
     slope, slope_there = 0.5 * (there - before), 0.5 * (after - here)
     bend = 3.0 * (there - here) - 2.0 * slope - slope_there
     twist = 2.0 * (here - there) + slope + slope_there
@@ -275,11 +254,8 @@ def _weights(samples: Quarters, xp: Any) -> Quarters:
 
 
 def spread(series: SampledSeries) -> Columns:
-    """Return a series minus its least value in each quarter of the beat, shape (phases, quarters).
-
-    The largest of these numbers is the series' range. If we subtracted only the least value of the whole beat, the
-    range would have a kink where two minima are equal.
-    """
+    """Return a series minus its least value in each quarter of the beat; the largest is the series' range."""
+    # With the least value of the whole beat, the range would have a kink where two minima are equal.
     return series[:, None] + peaks(-series)
 
 
@@ -288,10 +264,7 @@ _FARTHEST_REST = math.pi
 
 
 class Spring(NamedTuple):
-    """Both flap springs together: stiffness [N m/rad], rest angle [rad], and the actuators' remaining power [W].
-
-    Stiffness 0 means no spring; the rest angle is then None.
-    """
+    """Both flap springs: stiffness [N m/rad], rest angle [rad], None without, and the actuators' power left [W]."""
 
     stiffness: float
     rest_angle: float | None
@@ -301,23 +274,14 @@ class Spring(NamedTuple):
 @jax.jit
 def _left(spring: Columns, flap: Samples, flap_rate: Samples, power: Samples) -> Any:
     """Return the mean positive power left by a spring ``(k, k rest)``, and its derivative."""
-
-    def left(k: Any, preload: Any) -> Any:
-        return mean_positive(power + (k * flap - preload) * flap_rate)
-
-    return jax.value_and_grad(lambda s: left(s[0], s[1]))(spring)
+    return jax.value_and_grad(lambda s: mean_positive(power + (s[0] * flap - s[1]) * flap_rate))(spring)
 
 
 def best_spring(flap: Samples, flap_rate: Samples, hinge_power: Samples) -> Spring:
-    """Return the springs with which the actuators need the least mean positive power, for one closed beat.
+    """Return springs with which the actuators need the least mean positive power, for one closed beat.
 
-    The power is linear in stiffness and in stiffness times rest angle, so its mean positive part is convex in both,
-    and SciPy's SLSQP finds the global minimum. If many springs are equally good, it returns one of them. The rest
-    angle stays within half a turn.
-
-    Parameters
-    ----------
-    flap, flap_rate, hinge_power : at equal phases from 0 to 1, both ends included [rad, rad/s, W].
+    The samples are at equal phases from 0 to 1, ends included. The power is linear in stiffness and in stiffness
+    times rest angle, so its mean positive part is convex in both, and SLSQP finds the global minimum.
 
     >>> phase = np.linspace(0.0, 1.0, 257)
     >>> flap, rate = np.cos(2 * np.pi * phase), -2 * np.pi * np.sin(2 * np.pi * phase)

@@ -100,10 +100,7 @@ _LANES = 64
 def _state_maps(
     model: FlightModel, wingbeat: Wingbeat, begin: Stretches, end: Stretches, path: StretchStates
 ) -> StretchMaps:
-    """Return the derivative of each stretch's last pitch state by its first, shape (K, 4, 4).
-
-    Each stretch is flown from its start on the path, shape (K, 4), and from disturbed starts near the path.
-    """
+    """Return the derivative of each stretch's last pitch state by its first, by flights from near the path."""
     length = (end - begin) / _STEPS
     seconds = length / wingbeat.frequency
 
@@ -151,12 +148,7 @@ def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) ->
 
 
 def multipliers_of(matrix: np.ndarray) -> np.ndarray:
-    """Return the eigenvalues of a monodromy matrix, largest modulus first, shape (4,).
-
-    They are not-a-number if the matrix is.
-
-    Theory: equation ``multipliers``.
-    """
+    """Return the eigenvalues of a monodromy matrix, largest modulus first. Theory: equation ``multipliers``."""
     if not np.isfinite(matrix).all():
         return np.full(4, np.nan + 0j)
     found = np.linalg.eigvals(matrix)
@@ -164,11 +156,9 @@ def multipliers_of(matrix: np.ndarray) -> np.ndarray:
 
 
 def monodromy(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarray:
-    """Return the derivative of (body_pitch, u, w, pitch_rate) at the end of a period by those at its start.
+    """Return the derivative of the pitch state at the end of a period by that at its start, shape (4, 4).
 
-    Its shape is (4, 4). It is not-a-number if the flight diverges.
-
-    Theory: equation ``monodromy``.
+    It is not-a-number if the flight diverges. Theory: equation ``monodromy``.
     """
     phase, path = steps.phase, steps.states[:, 2:]
     if phase[-1] < 1.0:
@@ -178,64 +168,42 @@ def monodromy(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarra
         # Spare lanes repeat the last stretch.
         lanes = np.minimum(np.arange(first, first + _LANES), count - 1)
         blocks.append(maps_of(phase[lanes], phase[lanes + 1], path[lanes]))
-    return _chained(np.concatenate(blocks)[:count])
-
-
-def _chained(maps: np.ndarray) -> np.ndarray:
-    """Return the product of linear maps, shape (K, 4, 4), by pairwise multiplication; the first map acts first."""
-    while len(maps) > 1:
+    maps = np.concatenate(blocks)[:count]
+    while len(maps) > 1:  # multiply in pairs; the first map acts first
         last = maps[len(maps) // 2 * 2 :]
         maps = np.concatenate([maps[1::2] @ maps[: len(maps) // 2 * 2 : 2], last])
     return maps[0]
 
 
 class StrokeMap(NamedTuple):
-    """Derivatives of (z, body_pitch, u, w, pitch_rate) after one beat, and of the pitch state along the beat.
+    """Derivatives of (z, body_pitch, u, w, pitch_rate) after one beat, and the pitch state at K equal phases."""
 
-    `by_state`, shape (5, 5), is by the same five numbers before the beat; `by_parameters`, shape (5, parameters),
-    by parameters of the wingbeat. `transition`, shape (K, 4, 4), is of the pitch state at equal phases from 0 to 1
-    by that at phase 0; `path`, shape (K, 4), is the pitch state there [rad, m/s, m/s, rad/s].
-    """
-
-    by_state: np.ndarray
-    by_parameters: np.ndarray
-    transition: np.ndarray
-    path: np.ndarray
+    by_state: np.ndarray  # by the same five numbers before the beat, shape (5, 5)
+    by_parameters: np.ndarray  # by parameters of the wingbeat, shape (5, parameters)
+    transition: np.ndarray  # of the pitch state at each phase by that at phase 0, shape (K, 4, 4)
+    path: np.ndarray  # the pitch state there, shape (K, 4) [rad, m/s, m/s, rad/s]
 
 
 def stroke_map(
     model: FlightModel, wingbeat: Wingbeat, pitch_state: np.ndarray, parameters: tuple[str, ...], blocks: int
 ) -> StrokeMap:
-    """Differentiate one beat of `blocks` blocks of 32 steps, exactly for these steps.
-
-    The pitch state at phase 0 is (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s]; at least one parameter of
-    the wingbeat is named.
-
-    Theory: equation ``stroke-map``.
-    """
+    """Differentiate one beat of `blocks` times 32 steps, by parameters. Theory: equation ``stroke-map``."""
     fly = flier(model, wingbeat, parameters, whole_path=True)
     values = np.array([parameter(wingbeat, name) for name in parameters], dtype=float)
     flown = fly(values, np.asarray(pitch_state, dtype=float), blocks)
     end = np.asarray(flown.end_jacobian)[1:]
     height = np.eye(5, 1)  # the flight does not depend on the height
-    return StrokeMap(
-        np.hstack([height, end[:, :4]]),
-        end[:, 4:],
-        np.asarray(flown.path_jacobian)[..., :4],
-        np.asarray(flown.path),
-    )
+    transition = np.asarray(flown.path_jacobian)[..., :4]
+    return StrokeMap(np.hstack([height, end[:, :4]]), end[:, 4:], transition, np.asarray(flown.path))
 
 
 def map_and_changes(
     fly: Callable[..., Flown], values: np.ndarray, start: np.ndarray, blocks: int, flown: Flown
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the stroke map of (body_pitch, u, w, pitch_rate), shape (4, 4), and its derivatives by the unknowns.
-
-    The derivatives have the shape (unknowns, 4, 4). They are second derivatives of the flight, which do not depend
-    on the order of differentiation. So we shift each of the four states in turn, and take the change of the exact
-    first derivatives by all unknowns. This takes four flights by `fly` beside the one `flown`, however many
-    parameters are free.
-    """
+    """Return the stroke map of (body_pitch, u, w, pitch_rate), (4, 4), and its derivatives, (unknowns, 4, 4)."""
+    # Second derivatives of the flight do not depend on the order of differentiation. So we shift each of the four
+    # states in turn, and take the change of the exact first derivatives by all unknowns. This takes four flights
+    # beside the one `flown`, however many parameters are free.
     here = np.asarray(flown.end_jacobian)[2:]
     beside = [np.asarray(fly(values, start + step, blocks).end_jacobian)[2:] for step in np.diag(_BESIDE)]
     changes = [(there - here) / step for there, step in zip(beside, _BESIDE, strict=True)]

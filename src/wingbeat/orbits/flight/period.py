@@ -72,9 +72,8 @@ WEIGHTS = np.array([1.0, 2.0, 2.0, 1.0]) / 6.0
 
 
 # --- How close a stroke comes to its limits: the plane of symmetry, and the range of the shoulder. ---
-# The distances depend on the wingbeat alone; their phase does not matter to first order. Each row is the least
-# distance from a limit: of the strips' leading and trailing corners in each quarter of the beat, of the flap angles
-# of arm and hand over the whole beat.
+# Each row is the least distance from a limit: of the strips' leading and trailing corners in each quarter of the
+# beat, of the flap angles of arm and hand over the whole beat.
 QUARTERS = 4
 # Name of the corners' limit among the active bounds.
 SYMMETRY = "plane_of_symmetry"
@@ -99,11 +98,9 @@ def _series(vehicle: Vehicle, wingbeat: Wingbeat, phase: Samples, strips: int) -
 
 
 def _places(sampled: StrokeSeries, strips: int) -> tuple[StrokeIndices, StrokeIndices]:
-    """Return, for each row, the index of the series with the least value, and the index of that sample.
-
-    The sample is found first, from the minimum over all corners at each phase. XLA on CPU vectorises a minimum, but
-    not the search for its index.
-    """
+    """Return, for each row, the index of the series with the least value, and the index of that sample."""
+    # The sample is found first, from the minimum over all corners at each phase: XLA on CPU vectorises a minimum,
+    # but not the search for its index.
     part = (sampled.shape[1] - 1) // QUARTERS
     quarters = np.arange(QUARTERS)[:, None] * part + np.arange(part + 1)
     corners = sampled[: 4 * strips].reshape(2, 2 * strips, -1)
@@ -115,11 +112,7 @@ def _places(sampled: StrokeSeries, strips: int) -> tuple[StrokeIndices, StrokeIn
 
 
 def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> StrokeRows:
-    """Return the least distance of each row, shape (12,).
-
-    Derivatives are computed at a fixed corner and phase. They are exact, because the derivative by phase is 0 at a
-    minimum.
-    """
+    """Return the least distance of each row, with derivatives at a fixed corner and phase, exact at a minimum."""
     samples = jnp.arange(_SAMPLES + 1) / _SAMPLES
     series, place = _places(jax.lax.stop_gradient(_series(vehicle, wingbeat, samples, strips)), strips)
     phase = place / _SAMPLES
@@ -135,8 +128,7 @@ def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> Stroke
         angles = flap_angles(wingbeat, at)
         return jnp.stack([angles[0, 0], angles[1, 1], -angles[0, 2], -angles[1, 3]])
 
-    corners = slice(2 * QUARTERS)
-    angles = slice(2 * QUARTERS, None)
+    corners, angles = slice(2 * QUARTERS), slice(2 * QUARTERS, None)
     return jnp.concatenate([_at_least(distance, phase, corners), _at_least(angle, phase, angles)])
 
 
@@ -159,9 +151,8 @@ STEPS = 32
 class Flown(NamedTuple):
     """A period flown from x = z = 0, and its derivatives by (body_pitch, u, w, pitch_rate, free parameters).
 
-    `end` is the last state, shape (6,). `path` is body pitch, or the whole pitch state, at the start and after each
-    step, shape (K, components). The last axis of each Jacobian is the unknowns. `stroke` holds the distances of the
-    stroke from its limits; it and its derivative by the free parameters are None unless requested.
+    `path` is body pitch, or the whole pitch state, at the start and after each step. The last axis of each Jacobian
+    is the unknowns. The distances of the stroke from its limits are None unless requested.
     """
 
     end: StateVector
@@ -175,19 +166,13 @@ class Flown(NamedTuple):
 def _tabulate(
     model: FlightModel, wingbeat: Wingbeat, first: Scalar, last: Scalar
 ) -> tuple[tuple[TableRows, Scalar], WingMotion]:
-    """Tabulate the wing at the ends of the steps, then at their middles.
-
-    Returns the table as one array of rows, the length of a step [s], and the table itself.
-    """
+    """Tabulate the wing at the ends of the steps, then at their middles; return rows, a step [s], the table."""
     whole = jnp.arange(STEPS + 1) / STEPS
     phase = first + (last - first) * jnp.concatenate([whole, whole[:-1] + 0.5 / STEPS])
     table = motion_table(model, wingbeat, phase)
-    return (_in_rows(table), (last - first) / (wingbeat.frequency * STEPS)), table
-
-
-def _in_rows(table: WingMotion) -> TableRows:
-    """Return a table as one array, (rows, times), because one array is faster to slice than many."""
-    return jnp.concatenate([leaf.reshape(-1, leaf.shape[-1]) for leaf in jax.tree_util.tree_leaves(table)])
+    # One array is faster to slice than many.
+    rows = jnp.concatenate([leaf.reshape(-1, leaf.shape[-1]) for leaf in jax.tree_util.tree_leaves(table)])
+    return (rows, (last - first) / (wingbeat.frequency * STEPS)), table
 
 
 def _from_rows(rows: TableRows, like: Any) -> WingMotion:
@@ -239,11 +224,7 @@ def _march(model: FlightModel, table: TableRows, like: Any, step: Scalar, start:
 def _stage_tangents(
     model: FlightModel, table: TableRows, tangents: TableTangents, like: Any, states: Stages
 ) -> tuple[StateTangents, FreeTangents]:
-    """Differentiate the rates of every stage of every step; one vectorised right-hand side handles all stages.
-
-    Returns the derivatives by state and by free parameter, shapes (4, 4 rates, stages, steps) and (free, 4 rates,
-    stages, steps).
-    """
+    """Differentiate the rates of all stages of all steps at once, by state and by free parameter."""
 
     def in_lanes(rows: Any) -> Any:
         return jnp.concatenate([rows[..., part] for part in _STAGES], axis=-1)
@@ -265,22 +246,18 @@ def _stage_tangents(
 
 
 def _through(by_state: LinearMap, tangents: Tangents) -> MappedTangents:
-    """Apply a linear map (4, components, ..), state first, to tangents (directions, 4, ..).
-
-    The sums are written out, because XLA on CPU vectorises sums of products along the last axis, but not products
-    of small matrices. With `einsum` a flight takes 1.8 ms in place of 1.6 ms.
-    """
+    """Apply a linear map (4, components, ..), state first, to tangents (directions, 4, ..)."""
+    # XLA on CPU vectorises sums of products along the last axis, but not products of small matrices: with `einsum`,
+    # a flight takes 1.8 ms in place of 1.6 ms.
     return sum(tangents[:, j, None] * by_state[j] for j in range(4))
 
 
 def _chain(
     flight: March, by_state: StateTangents, by_free: FreeTangents, step: Scalar, step_tangent: Free, components: int
 ) -> Flown:
-    """Compose the tangents of all stages into those of the steps, and these into those of the period.
+    """Compose the tangents of all stages into those of the period. Theory: equation ``step-chain``.
 
     Directions are the first axis, components the next, steps the last.
-
-    Theory: equation ``step-chain``.
     """
     states, rates = flight.states, flight.rates
     by_free = jnp.concatenate([jnp.zeros((4, *by_free.shape[1:])), by_free])
@@ -324,12 +301,10 @@ def fly_part(
     components: int,
     stroke: bool,
 ) -> Flown:
-    """Fly `STEPS` steps between two phases with the free parameters at `values`, and differentiate.
+    """Fly `STEPS` steps between two phases, and differentiate. Theory: equation ``runge-kutta``.
 
-    The part that starts at phase 0 also returns the least distances of the stroke from its limits over the whole
-    beat, because a separate program for them would double the cost.
-
-    Theory: equation ``runge-kutta``.
+    The part from phase 0 also returns the least distances of the stroke from its limits over the whole beat: a
+    separate program for them would double the cost.
     """
 
     def by_values(at: Any) -> Any:
@@ -361,11 +336,10 @@ def fly_part(
 def flier(
     model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], *, whole_path: bool = False, stroke: bool = False
 ) -> Callable[..., Flown]:
-    """Return a function that flies one period, given free parameters, pitch state at x = z = 0, and `blocks`.
+    """Return a function of free parameters and pitch state that flies one period in `blocks` times `STEPS` steps.
 
-    The function flies `blocks` times `STEPS` steps and differentiates them. `Flown.path` holds the body pitch
-    alone, or with `whole_path` the whole pitch state; the derivatives of the whole pitch state take a tenth of a
-    batch's time. With `stroke`, the function also returns the distances of the stroke from its limits.
+    `Flown.path` holds the body pitch alone, or with `whole_path` the whole pitch state, whose derivatives take a
+    tenth of a batch's time. With `stroke`, the flight has the distances of the stroke from its limits.
     """
     part = fly_part.bind(model, wingbeat, free=free, components=4 if whole_path else 1, stroke=stroke)
 
@@ -399,11 +373,10 @@ def _then(before: Flown, part: Flown) -> Flown:
 
 
 class StrokeLimits:
-    """Margins of a stroke within its limits, as rows of the inequalities; `names` has name and sign of each row.
+    """Margins of a stroke within its limits, if `limited`; `names` has name and sign of each row.
 
-    There are no rows unless the stroke is `limited`. `low` and `high` are the bounds of the flap angle, `clearance`
-    the least distance of strip corners from the plane of symmetry in wing lengths, `free` the number of free
-    parameters.
+    `clearance` is the least distance of strip corners from the plane of symmetry in wing lengths, `free` the number
+    of free parameters.
     """
 
     def __init__(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -41,12 +41,6 @@ if TYPE_CHECKING:
 
 # Fields that take longer than the others, grouped by the cause: columns of strips, and a third motion of the wing.
 _DEAR = (frozenset(BY_STRIP), frozenset({"actuator_power"}))
-
-
-def _with_cheap(fields: Collection[str]) -> tuple[str, ...]:
-    """Return these fields and all others that cost little, so that few programs serve all objectives and limits."""
-    dear = [group for group in _DEAR if group.isdisjoint(fields)]
-    return tuple(name for name in Beat._fields if name != "drive" and not any(name in group for group in dear))
 
 
 class _Tables(NamedTuple):
@@ -151,10 +145,7 @@ def _part(
 
 
 def _along_path(own: FieldByFree, by_state: FieldByState, tangents: PitchTangents) -> FieldTangents:
-    """Return the derivatives of a field: `own`, at a fixed path, plus those through the path.
-
-    A sample depends on the path at its own phase alone, so its derivatives by the four states are a linear map.
-    """
+    """Return the derivatives of a field: `own`, at a fixed path, plus those by the path at each sample's phase."""
     change = jnp.concatenate([jnp.zeros((4, *own.shape[1:])), own])
     if own.ndim == 1:  # a number
         return change
@@ -169,12 +160,14 @@ def beat_reader(
     mean_velocity: tuple[float, float],
     fields: tuple[str, ...] = Beat._fields,
 ) -> Callable[[np.ndarray, Flown], tuple[Beat, Beat]]:
-    """Return a function that computes a flight's beat and its derivatives by the unknowns (first axis).
+    """Return a function of parameters and their flight that computes the beat and its derivatives by the unknowns.
 
-    The function takes the values of the parameters named in `free`, and the flight that `flier` computed from them.
     Fields that take long are computed only if they are named; otherwise they are None.
     """
-    part = _part.bind(model, wingbeat, free=free, fields=_with_cheap(fields))
+    # All others cost little, so that few programs serve all objectives and limits.
+    dear = frozenset[str]().union(*(group for group in _DEAR if group.isdisjoint(fields)))
+    computed = tuple(name for name in Beat._fields if name != "drive" and name not in dear)
+    part = _part.bind(model, wingbeat, free=free, fields=computed)
     velocity = np.array(mean_velocity)
 
     def read(values: np.ndarray, flown: Flown) -> tuple[Beat, Beat]:
@@ -211,9 +204,5 @@ def _joined(pieces: tuple[Beat, ...], axis: int) -> Beat:
 
 @exported
 def flown_beat(model: FlightModel, wingbeat: Wingbeat, phase: Samples, path: Path, mean_velocity: Pair) -> Beat:
-    """Return the time series of a path flown at equal phases from 0 to 1, both ends included.
-
-    The path, shape (K, 4), is (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s]; the mean velocity is forward
-    and up [m/s].
-    """
+    """Return the time series of a path of pitch states, flown at equal phases from 0 to 1, both ends included."""
     return _series(model, _tabulate(model, wingbeat, phase), path.T, mean_velocity)

@@ -25,10 +25,7 @@ def least_squares(
     upper: np.ndarray,
     options: LeastSquaresOptions,
 ) -> np.ndarray:
-    """Return the unknowns between `lower` and `upper` that minimise the sum of the squares of residuals.
-
-    Residuals and jacobian may be huge or not-a-number away from the start, which is clipped to the bounds.
-    """
+    """Return the unknowns within bounds that minimise the sum of squares of residuals, which may diverge."""
     here = np.clip(start, lower, upper)
     found = residuals(here)
     squares, used, growth = _squares(found), 1, options.growth
@@ -102,10 +99,7 @@ def _step(
 
 
 def multiplier_residual(gradient: np.ndarray, equal: np.ndarray, within: np.ndarray) -> float:
-    """Return the largest part of a gradient that no weights of these conditions' gradients (rows) explain.
-
-    The weights are the multipliers that fit best in least squares; those of `within` must not be negative.
-    """
+    """Return the largest part of a gradient left by least-squares multipliers of rows, of `within` not negative."""
     normals = np.concatenate([equal, within]).T
     multipliers = np.linalg.lstsq(normals, gradient)[0]
     if (multipliers[len(equal) :] < 0).any():

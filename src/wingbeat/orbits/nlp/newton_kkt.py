@@ -24,24 +24,18 @@ if TYPE_CHECKING:
 
 
 class ReducedHessian(NamedTuple):
-    """The Lagrangian's curvature at one optimum, for optima nearby with the same active set.
+    """The Lagrangian's curvature at one optimum, for optima nearby with the same active set."""
 
-    The unknowns in `free` are at no bound. The `matrix` is the second derivative along the columns of `basis`, the
-    directions of the free unknowns that change no active condition.
-    """
-
-    free: np.ndarray
+    free: np.ndarray  # which unknowns are at no bound
     active: np.ndarray
-    basis: np.ndarray
-    matrix: np.ndarray
+    basis: np.ndarray  # columns: directions of the free unknowns that change no active condition
+    matrix: np.ndarray  # second derivative along them
 
 
 class NewtonKKT:
     """Newton's method from one optimum to that of a slightly changed problem, with the active set of the first.
 
-    The curvature `like` of a nearby optimum is used if its active set is the same, and else measured by
-    differences. The method `fits` if there are enough unknowns for the conditions and the measured curvature is
-    positive definite.
+    The curvature `like` of a nearby optimum is used if its active set is the same, and else measured.
     """
 
     def __init__(self, programme: Transcription, scaled: np.ndarray, like: ReducedHessian | None = None) -> None:
@@ -55,10 +49,10 @@ class NewtonKKT:
         self.fits = jacobian.shape[0] <= jacobian.shape[1] and bool(np.isfinite(jacobian).all())
         if not self.fits:
             return
-        if like is not None and self._has_active_set_of(like):
+        if like and np.array_equal(self.free, like.free) and np.array_equal(self.active, like.active):
             self._basis, self._hessian = like.basis, like.matrix
         else:
-            null_space = self._null_space(jacobian)
+            null_space = NullSpace(jacobian, self._options.rank_tolerance)
             self._basis = null_space.basis
             self._hessian = self._measured(programme, scaled, jacobian, null_space)
             self.fits = bool(np.isfinite(self._hessian).all() and (np.linalg.eigvalsh(self._hessian) > 0).all())
@@ -68,15 +62,9 @@ class NewtonKKT:
         """The curvature, for use with similar problems; None if the method is not applicable."""
         return ReducedHessian(self.free, self.active, self._basis, self._hessian) if self.fits else None
 
-    def _has_active_set_of(self, other: ReducedHessian) -> bool:
-        return np.array_equal(self.free, other.free) and np.array_equal(self.active, other.active)
-
     def _conditions(self, programme: Transcription, scaled: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         values, jacobian = programme.active_conditions(scaled, self.active)
         return values, jacobian[:, self.free]
-
-    def _null_space(self, jacobian: np.ndarray) -> NullSpace:
-        return NullSpace(jacobian, self._options.rank_tolerance)
 
     def _measured(
         self, programme: Transcription, scaled: np.ndarray, jacobian: np.ndarray, null_space: NullSpace
@@ -94,24 +82,16 @@ class NewtonKKT:
         return 0.5 * (curvature + curvature.T)
 
     def approach(self, programme: Transcription, scaled: np.ndarray, near: float) -> np.ndarray | None:
-        """Return a point from which the next step is shorter than `near`; None if none is within the bounds.
-
-        The next step is not taken. If certified optima predicted the first point, that step would lead to the
-        optimum of the coarse flight, which is farther from the certified optimum than this point.
-        """
+        """Return a point from which the next step is shorter than `near`; None if none is within the bounds."""
+        # That step is not taken: it would lead to the optimum of the coarse flight, which is farther from the
+        # certified optimum than a point that certified optima predicted.
         steps = self._steps(programme, scaled)
         return next((here for here, step in steps if np.abs(step).max() <= near), None)
 
     def converge(
         self, programme: Transcription, scaled: np.ndarray, step_tolerance: float | None = None
     ) -> np.ndarray | None:
-        """Return the optimum next to a point, or None if the method finds none within the bounds.
-
-        The method ends when a step is shorter than the tolerance (by default that of the options), or when
-        residuals and gradient are as small as rounding permits.
-
-        Theory: equation ``newton-step``.
-        """
+        """Return the optimum next to a point, or None if there is none. Theory: equation ``newton-step``."""
         still = self._options.step_tolerance if step_tolerance is None else step_tolerance
         for here, step in self._steps(programme, scaled):
             there = here + step
@@ -132,7 +112,7 @@ class NewtonKKT:
             if np.abs(values).max() > options.diverged:
                 return
             gradient = programme.objective_gradient(scaled)[self.free]
-            null_space = self._null_space(jacobian)
+            null_space = NullSpace(jacobian, options.rank_tolerance)
             # If the rank changes, the free directions change too, and their curvature is unknown.
             if null_space.basis.shape != self._basis.shape:
                 return
@@ -170,11 +150,7 @@ def _is_outside(programme: Transcription, scaled: np.ndarray) -> bool:
 
 
 class NullSpace:
-    """Null space and pseudo-inverse of linear conditions ``jacobian @ step = values``, factored once.
-
-    Singular values below a share of the largest count as zero. The orthonormal columns of `basis` span the steps
-    with ``jacobian @ step = 0``.
-    """
+    """Null space (columns of `basis`) and pseudo-inverse of conditions ``jacobian @ step = values``."""
 
     def __init__(self, jacobian: np.ndarray, rank_tolerance: float) -> None:
         rows = jacobian.shape[0]
@@ -212,12 +188,7 @@ class Corrected:
         return self.programme.optimality(self.scaled)
 
     def is_orbit(self, closure_tolerance: float | None = None) -> bool:
-        """Whether the candidate closes, keeps to its limits along the path, and is an optimum.
-
-        The default tolerance is that of a certificate.
-
-        Theory: equation ``certificate``.
-        """
+        """Whether the candidate closes, keeps its limits, and is an optimum. Theory: equation ``certificate``."""
         options = self.programme.options
         closed = options.certificate.closure_tolerance if closure_tolerance is None else closure_tolerance
         limits = self.programme.certified_inequalities(self.scaled, self.certificate)
@@ -231,9 +202,8 @@ class Corrected:
 def correct(programme: Transcription, scaled: np.ndarray) -> Corrected:
     """Shift a candidate's closure by the certifier's residual until the certified wingbeat closes.
 
-    The optimum of the solver's coarse flight is inaccurate. We first replace value and derivative of the
-    closure by those of a finer flight. In each round after that, we replace the value of the closure by that of the
-    certifier's flight. After each replacement, Newton's method finds the new optimum.
+    We first replace value and derivative of the closure by those of a finer flight, then in each round the value by
+    that of the certifier's flight. After each replacement, Newton's method finds the new optimum.
     """
     programme = programme.uncorrected()
     return follow_to_certificate(programme, NewtonKKT(programme, scaled), scaled)

@@ -61,11 +61,8 @@ def filmed_species(beat: Filmed, species: Species) -> Species:
 
 
 def trim_of(beat: Filmed, species: Species) -> tuple[tuple[str, ...], dict[str, tuple[float, float]]]:
-    """Return the species' free parameters that were not filmed, and bounds of those that are freed in addition.
-
-    Two free parameters are needed to control forward and vertical speed. If fewer are left, the mean wing pitch is
-    freed too, and then the wing pitch amplitude; the bounds returned limit their distance from the filmed values.
-    """
+    """Return the species' free parameters that were not filmed, and bounds of those that are freed in addition."""
+    # Two free parameters are needed to control forward and vertical speed.
     free, bounds = [name for name in species.free if name not in beat.held], {}
     for name in ("pitch_mean", "pitch_amplitude"):
         if len([one for one in free if one not in _NO_CONTROL]) < 2 and name not in free:

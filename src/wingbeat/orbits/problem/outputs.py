@@ -34,10 +34,7 @@ SAMPLES = 1 + 2 * PARTS
 # Tracing a function takes 2.5 ms, and every problem of a curve or study needs the shapes.
 @functools.lru_cache(256)
 def given_by(function: Callable[[Any], Any], strips: int, drive: Any, of_map: bool) -> Any:
-    """Return the shapes of the arrays that a quantity's function of a beat, or of a stroke map, returns.
-
-    `drive` is the structure of the vehicle's drive, as a tree.
-    """
+    """Return the shapes that a function of a beat, with a drive of this tree, or of a stroke map returns."""
     if of_map:
         return jax.eval_shape(function, jax.ShapeDtypeStruct((4, 4), jnp.float64))
     return jax.eval_shape(function, _any_beat(strips, drive))
@@ -85,10 +82,7 @@ def _value(function: Callable[[Any], Any], given: Any) -> Any:
 def _changes(
     drive: Drive, *series: Any, function: Callable[[Beat], Any], fields: tuple[str, ...]
 ) -> tuple[Any, Any]:
-    """Return the value of a function of these fields of a beat, and its change for each change of the fields.
-
-    `series` holds the fields and then their changes.
-    """
+    """Return the value of a function of fields of a beat, and its change; `series` has fields, then changes."""
 
     def at(*held: Any) -> Any:
         given = dict.fromkeys(ALL_FIELDS) | dict(zip(fields, held, strict=True))
@@ -116,10 +110,7 @@ class _Lacking:
 
 
 class Read(NamedTuple):
-    """The parts of a flight that quantities read, or their changes along directions (first axis); None if not read.
-
-    The `stroke_map` is the derivative of (body_pitch, u, w, pitch_rate) after the beat by those before it, (4, 4).
-    """
+    """The parts of a flight that quantities read, or their changes along directions (first axis)."""
 
     beat: Any = None
     stroke_map: Any = None
@@ -158,10 +149,7 @@ class _OfBeat:
 
 
 class _OfMap:
-    """A function of a scaled stroke map: of the map divided by the number `over`.
-
-    If the function is the smooth excess over an upper limit, `smooth_for` is this limit.
-    """
+    """A function of the stroke map `over` a number; a smooth excess over an upper limit is `smooth_for` it."""
 
     fields = ()
 
@@ -190,9 +178,8 @@ class _OfMap:
 class Outputs:
     """The values of several quantities and limits that a flight decides, each divided by its scale.
 
-    Each quantity and constraint has several values (`counts`, `constraint_counts`); those of the objective come
-    first (`of_objective` of all `count`). `limits` are upper limits of the constraints' values, `fields` the fields
-    of a beat that the quantities read; `of_beat` and `of_map` say whether any reads the beat, or the stroke map.
+    Those of the objective come first (`of_objective` of all `count`). `limits` are upper limits of the constraints'
+    values; `of_beat` and `of_map` say whether any reads the beat (its `fields`), or the stroke map.
     """
 
     def __init__(
@@ -209,7 +196,6 @@ class Outputs:
                 return _OfMap(quantity.excess, limit.limit, limit), 0.0
             return reader(quantity, quantity.of), limit.limit
 
-        self._constraints = constraints
         within = [kept(constraint) for constraint in constraints]
         self._functions = [*(reader(q, q.of) for q in quantities), *(function for function, _ in within)]
         everything = [*quantities, *(c.quantity for c in constraints)]
@@ -217,18 +203,15 @@ class Outputs:
         self.of_map = any(isinstance(f, _OfMap) for f in self._functions)
         self.of_beat = any(isinstance(f, _OfBeat) for f in self._functions)
         self.fields = tuple(name for name in Beat._fields if any(name in f.fields for f in self._functions))
-        self.counts = [f.count for f in self._functions]
-        self._scale = np.repeat([q.scale for q in everything], self.counts)
+        counts = [f.count for f in self._functions]
+        self._scale = np.repeat([q.scale for q in everything], counts)
         limits = [limit / c.quantity.scale for (_, limit), c in zip(within, constraints, strict=True)]
-        self.constraint_counts = self.counts[len(quantities) :]
-        self.limits = np.repeat(limits, self.constraint_counts)
-        self.count, self.of_objective = sum(self.counts), sum(self.counts[: len(quantities)])
+        self._counts = counts[len(quantities) :]  # of the constraints
+        self.limits = np.repeat(limits, self._counts)
+        self.count, self.of_objective = sum(counts), sum(counts[: len(quantities)])
 
     def values(self, read: Read, *, exact: bool = False) -> np.ndarray:
-        """Return the values; for a series, its highest sample in each quarter of the beat.
-
-        With `exact`, a limit for which the search uses smooth numbers is judged by the quantity itself.
-        """
+        """Return the values; with `exact`, a smooth limit is judged by the quantity itself."""
         return self._joined(read, [f.exactly(read) if exact else f.value(read) for f in self._functions])
 
     def linearised(self, read: Read, changes: Read) -> tuple[np.ndarray, np.ndarray]:
@@ -246,12 +229,11 @@ class Outputs:
 
     def values_of(self, index: int) -> range:
         """Return the indices of one constraint among the constraints' values."""
-        counts = self.constraint_counts
-        return range(sum(counts[:index]), sum(counts[: index + 1]))
+        return range(sum(self._counts[:index]), sum(self._counts[: index + 1]))
 
     def with_active(self, active: np.ndarray) -> list[int]:
         """Return the indices of constraints with an active value; `active` flags the values of all constraints."""
-        return [i for i in range(len(self._constraints)) if active[self.values_of(i)].any()]
+        return [i for i in range(len(self._counts)) if active[self.values_of(i)].any()]
 
 
 def value_count(quantity: Quantity, strips: int, drive: Drive) -> int:
@@ -271,11 +253,8 @@ def check_quantities(
     """Return the faults of quantities whose functions fail, have the wrong shape, or cannot be minimised."""
     faults = []
     if isinstance(minimised, MapQuantity) and minimised.excess is not None:
-        rule, fix = (
-            "can be limited but not minimised: its optima are at kinks",
-            "minimise gust_response, or limit it",
-        )
-        faults.append(Fault("minimise", minimised.name, rule, fix))
+        rule = "can be limited but not minimised: its optima are at kinks"
+        faults.append(Fault("minimise", minimised.name, rule, "minimise gust_response, or limit it"))
     for quantity in quantities:
         if quantity.needs is not None and getattr(drive, quantity.needs) is None:
             rule = f"needs a {quantity.needs}, and the vehicle has none"
@@ -283,8 +262,8 @@ def check_quantities(
             continue
         where = f"quantity {quantity.name}"
         of_map = isinstance(quantity, MapQuantity)
-        where_said = "MapQuantity" if of_map else "Beat"
-        fix = f"write the function in JAX-compatible Python; `{where_said}` documents the function's argument"
+        said = "MapQuantity" if of_map else "Beat"
+        fix = f"write the function in JAX-compatible Python; `{said}` documents the function's argument"
         try:
             found = given_by(quantity.of, strips, jax.tree.structure(drive), of_map)
         except Exception as error:  # whatever a user's function raises

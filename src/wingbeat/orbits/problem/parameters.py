@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from wingbeat.orbits.problem.problem import OrbitProblem
 
 CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms", "wing": "terms"}
-_AXES = ("x", "y", "z")
 SIDES = ("lower", "upper")
 
 # Path from a problem to one of its numbers: names of fields, indices of tuples.
@@ -23,32 +22,17 @@ Place = tuple[str | int, ...]
 
 
 class Parameter(NamedTuple):
-    """One number of a problem.
+    """One number of a problem."""
 
-    Parameters
-    ----------
-    path : its name as in ``--set`` and the orbit record: ``wing.mass``, ``air.density``, ``aero.lift.amplitude``.
-    unit : of the value, ``1`` if it has none.
-    value : SI and radians, but degrees as published where the name ends in ``_deg``.
-    size : magnitude of the value, or a typical magnitude if the value is 0; a change by this much is large.
-    place : path from the problem to the number.
-    plausible : lowest and highest plausible value, where the species file gives them.
-    """
-
-    path: str
-    unit: str
-    value: float
-    size: float
-    place: Place
-    plausible: tuple[float, float] | None = None
+    path: str  # its name as in ``--set`` and the record: ``wing.mass``, ``air.density``, ``aero.lift.amplitude``
+    unit: str  # ``1`` if it has none
+    value: float  # SI and radians, but degrees as published where the name ends in ``_deg``
+    size: float  # magnitude of the value, or a typical one if the value is 0; a change by this much is large
+    place: Place  # path from the problem to the number
+    plausible: tuple[float, float] | None = None  # lowest and highest value, where the species file gives them
 
     def changed(self, problem: OrbitProblem, value: float) -> OrbitProblem:
-        """Return the problem with this number at another value, and all else unchanged.
-
-        Raises
-        ------
-        InvalidInputError : an impossible value.
-        """
+        """Return the problem with this number at another value; an impossible one raises `InvalidInputError`."""
         return with_number(problem, self.place, value)
 
 
@@ -72,39 +56,29 @@ def with_number(record: Any, place: Place, value: float) -> Any:
 def parameters_of(problem: OrbitProblem) -> list[Parameter]:
     """Return every number that the orbit depends on: vehicle, fixed wingbeat, air, coefficients and velocity.
 
-    The list omits:
-
-    - the wrist, which has no effect until it crosses the centre of a strip;
-    - parameters of motions that are off;
-    - the numbers of coefficient models that are not formulas.
-
-    The terms of a cambered wing have names such as ``aero.wing.lift_slope``.
+    The list omits the wrist, which has no effect until it crosses the centre of a strip, parameters of motions that
+    are off, and the numbers of coefficient models that are not formulas.
 
     >>> import wingbeat as wb
     >>> found = parameters_of(wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0))
     >>> [p.path for p in found][:3], found[0].value
     (['body.mass', 'body.pitch_inertia', 'body.drag_area'], 0.276)
     """
-    found = [*_vehicle(problem), *_held(problem), *_air(problem), *_aero(problem), *_velocity(problem)]
-    return [_with_plausible(problem, parameter) for parameter in found]
-
-
-def _with_plausible(problem: OrbitProblem, parameter: Parameter) -> Parameter:
-    plausible = _plausible(problem, parameter)
-    if plausible is None:
-        return parameter
-    size = abs(parameter.value) or plausible[1] - plausible[0]
-    return parameter._replace(size=size, plausible=plausible)
+    found = []
+    for one in _every(problem):
+        plausible = _plausible(problem, one)
+        if plausible is not None:
+            size = abs(one.value) or plausible[1] - plausible[0]
+            one = one._replace(size=size, plausible=plausible)
+        found.append(one)
+    return found
 
 
 def _plausible(problem: OrbitProblem, parameter: Parameter) -> tuple[float, float] | None:
-    """Return the species file's range; the body's mass has the range of the vehicle's mass minus the wings' mass.
-
-    If the species leaves a parameter free and the user fixes it, it counts as measured and has no range.
-    """
+    """Return the species file's range; of the body's mass, that of the whole minus the wings' mass."""
     numbers = problem.species.numbers
     last = str(parameter.place[-1])
-    if last in problem.species.free:
+    if last in problem.species.free:  # fixed by the user, it counts as measured
         return None
     keys = [str(key) for key in parameter.place if not isinstance(key, int) and key != "species"]
     harmonic = harmonic_place(last)
@@ -124,38 +98,24 @@ def _made(path: str, value: float, place: Place, size: float = 1.0) -> Parameter
     return Parameter(path, plain_unit(path), float(value), abs(value) or size, place)
 
 
-def _vehicle(problem: OrbitProblem) -> Iterator[Parameter]:
-    wing, parts = problem.vehicle.wing, vars(problem.vehicle)
-    area, chord = wing.semi_span * wing.mean_chord, wing.mean_chord
-    sizes = {"drag_area": area, "arm": chord, "height": chord}
-    for part, record in parts.items():
-        if record is None:  # no tail
-            continue
-        for name, value in vars(record).items():
-            if name == "crank":  # a switch
-                continue
+def _every(problem: OrbitProblem) -> Iterator[Parameter]:
+    wing = problem.vehicle.wing
+    sizes = {"drag_area": wing.semi_span * wing.mean_chord, "arm": wing.mean_chord, "height": wing.mean_chord}
+    for part, record in vars(problem.vehicle).items():
+        for name, value in ({} if record is None else vars(record)).items():  # None: no tail
             path, place = f"{part}.{name}", ("species", "vehicle", part, name)
-            if not isinstance(value, tuple):
+            if isinstance(value, tuple):
+                for i, item in enumerate(value):
+                    here = f"{path}.{'xyz'[i]}" if name == "shoulder" else f"{path}[{i}]"
+                    yield _made(here, item, (*place, i), size=wing.mean_chord)
+            elif name != "crank":  # a switch
                 yield _made(path, value, place, size=sizes.get(name, 1.0))
-                continue
-            for i, item in enumerate(value):
-                here = f"{path}.{_AXES[i]}" if name == "shoulder" else f"{path}[{i}]"
-                yield _made(here, item, (*place, i), size=wing.mean_chord)
-
-
-def _held(problem: OrbitProblem) -> Iterator[Parameter]:
     wingbeat = problem.species.wingbeat
     for name in FREE_NAMES:
         if name not in problem.free and in_use(wingbeat, name):
             yield _made(f"wingbeat.{name}", parameter(wingbeat, name), ("species", "wingbeat", name))
-
-
-def _air(problem: OrbitProblem) -> Iterator[Parameter]:
     for name, value in vars(problem.air).items():
         yield _made(f"air.{name}", value, ("air", name))
-
-
-def _aero(problem: OrbitProblem) -> Iterator[Parameter]:
     coefficients, place = problem.aero.coefficients, ("aero", "coefficients")
     yield from _curves(problem, "aero", coefficients, place)
     if problem.aero.hand != "none":
@@ -166,6 +126,8 @@ def _aero(problem: OrbitProblem) -> Iterator[Parameter]:
         yield _made("aero.induced_factor", problem.aero.induced_factor, ("aero", "induced_factor"))
     if problem.aero.upstroke_factor != 1:
         yield _made("aero.upstroke_factor", problem.aero.upstroke_factor, ("aero", "upstroke_factor"))
+    yield _made("speed", problem.speed, ("speed",))
+    yield _made("climb", problem.climb, ("climb",), size=max(problem.speed, 1.0))
 
 
 def _curves(problem: OrbitProblem, path: str, coefficients: CoefficientModel, place: Place) -> Iterator[Parameter]:
@@ -177,11 +139,6 @@ def _curves(problem: OrbitProblem, path: str, coefficients: CoefficientModel, pl
         for name, value in vars(terms).items():
             if value is not None:
                 yield _made(f"{path}.{curve}.{name}", value, (*place, field, name))
-
-
-def _velocity(problem: OrbitProblem) -> Iterator[Parameter]:
-    yield _made("speed", problem.speed, ("speed",))
-    yield _made("climb", problem.climb, ("climb",), size=max(problem.speed, 1.0))
 
 
 def bound_of(problem: OrbitProblem, name: str, side: str) -> Parameter:

@@ -30,10 +30,7 @@ def judged_names(species: Species, free: Sequence[str]) -> list[str]:
 def drawn_in(
     species: Species, free: Sequence[str], bounds: Mapping[str, tuple[float, float]], faults: FaultList
 ) -> dict[str, tuple[float, float]]:
-    """Return the bounds of free parameters (SI and radians) narrowed to their plausible ranges.
-
-    Bounds that do not overlap with the plausible range, and parameters fixed outside theirs, are faults.
-    """
+    """Return the bounds of free parameters (SI and radians) narrowed to their plausible ranges."""
     drawn = {}
     for name in free:
         known = species.plausible_range(name, 0.0)
@@ -55,17 +52,13 @@ def drawn_in(
 
 
 def plausible_limits(species: Species, speed: float, air: Air, faults: FaultList) -> tuple[Constraint, ...]:
-    """Return the limits that keep quantities of the beat plausible at a speed [m/s].
-
-    The Reynolds number has no limit, because no wingbeat changes it. A speed is a fault if its Reynolds number is
-    not plausible.
-    """
+    """Return the limits that keep quantities of the beat plausible at a speed [m/s]."""
     limits = []
     for name in judged_names(species, ()):
         known = species.plausible_range(name, speed)
         if name in FREE_NAMES or (name == "strouhal" and speed == 0):
             continue
-        if name == "reynolds":
+        if name == "reynolds":  # which no wingbeat changes
             reynolds = air.reynolds(speed, species.vehicle.wing.mean_chord)
             if speed > 0 and _outside(reynolds, known):
                 rule = f"gives a Reynolds number of {reynolds:.3g}, outside the plausible range ({_words(known)})"

@@ -36,33 +36,12 @@ from wingbeat.orbits.problem.words import TERMS, Origin, limit_in_words, loads_i
 
 @dataclass(frozen=True)
 class Unknowns:
-    """Names, bounds and scales of the unknowns: the pitch state at phase 0, then the free parameters.
-
-    Theory: equation ``unknowns``.
-
-    Parameters
-    ----------
-    names : of the unknowns.
-    lower, upper : bounds, SI and radians, shape (unknowns,).
-    scale : differences that matter, shape (unknowns,); the optimiser's scale is in multiples of them.
-    """
+    """Bounds of the pitch state at phase 0 and the free parameters, SI. Theory: equation ``unknowns``."""
 
     names: tuple[str, ...]
     lower: np.ndarray
     upper: np.ndarray
-    scale: np.ndarray
-
-
-def check_tilts(vehicle: Vehicle, free: tuple[str, ...], faults: FaultList) -> None:
-    """Add a fault for each free tilt that has no effect on this vehicle's flight."""
-    ahead, _, above = vehicle.wing.shoulder
-    if "stroke_plane_tilt" in free and ahead == 0 and above == 0 and vehicle.tail is None:
-        rule = "changes only the body's pitch, because the shoulder is at its centre of mass and there is no tail"
-        faults.add("free", "stroke_plane_tilt", rule, "set wing.shoulder, or leave stroke_plane_tilt fixed")
-    if "tail_tilt" in free and vehicle.tail is None:
-        rule = "changes nothing, because there is no tail"
-        fix = "set tail.area, tail.arm and tail.lift_slope, or leave tail_tilt fixed"
-        faults.add("free", "tail_tilt", rule, fix)
+    scale: np.ndarray  # differences that matter; the optimiser's scale is in multiples of them
 
 
 # Free parameters that change when or how fast the wings move along the stroke, or turn the whole stroke.
@@ -176,11 +155,9 @@ class OrbitProblem(Reported):
             return
         object.__setattr__(self, "minimise", minimise)
         object.__setattr__(self, "subject_to", tuple(constraints))
-        if self.speed == 0 and not faults.faults:
-            for quantity in {q.name: q for q in self._quantities() if q.in_hover is not None}.values():
-                faults.add(
-                    "speed", self.speed, f"leaves {quantity.name} undefined", f"in hover {quantity.in_hover}"
-                )
+        if self.speed == 0:
+            for name, advice in {q.name: q.in_hover for q in self._quantities() if q.in_hover is not None}.items():
+                faults.add("speed", self.speed, f"leaves {name} undefined", f"in hover {advice}")
 
     def _limit_wingbeat(self, limit: WingbeatLimit) -> None:
         """Fix a parameter at a value, or tighten its bounds."""
@@ -203,8 +180,7 @@ class OrbitProblem(Reported):
     def _draw_in(self, faults: FaultList) -> None:
         """Narrow the bounds to the plausible ranges, and limit quantities of the beat to theirs."""
         bounds = {**self.species.bounds, **self.bounds}
-        free = self.free or self.species.free
-        drawn = drawn_in(self.species, free, bounds, faults)
+        drawn = drawn_in(self.species, self.free or self.species.free, bounds, faults)
         object.__setattr__(self, "bounds", {**self.bounds, **drawn})
         self._limit_plausibly(self.subject_to, faults)
 
@@ -283,7 +259,16 @@ class OrbitProblem(Reported):
                 faults.add("free", name, "is not a wingbeat parameter that can be free", fix)
             elif name not in bounds:
                 faults.add("bounds", name, "is free but has no bounds", "give bounds={name: (lower, upper)}")
-        check_tilts(self.vehicle, free, faults)
+        ahead, _, above = self.vehicle.wing.shoulder
+        if self.vehicle.tail is None and "stroke_plane_tilt" in free and ahead == above == 0:
+            rule = (
+                "changes only the body's pitch, because the shoulder is at its centre of mass and there is no tail"
+            )
+            faults.add("free", "stroke_plane_tilt", rule, "set wing.shoulder, or leave stroke_plane_tilt fixed")
+        if self.vehicle.tail is None and "tail_tilt" in free:
+            rule = "changes nothing, because there is no tail"
+            fix = "set tail.area, tail.arm and tail.lift_slope, or leave tail_tilt fixed"
+            faults.add("free", "tail_tilt", rule, fix)
         if len(set(free)) != len(free):
             faults.add("free", free, "names a parameter twice")
         if self.minimise.parameter and self.minimise.parameter not in free:
@@ -294,21 +279,21 @@ class OrbitProblem(Reported):
                 faults.add("bounds", name, "is bounded but not free", f"the free parameters are {', '.join(free)}")
             elif not isinstance(pair, tuple | list) or len(pair) != 2:
                 faults.add(f"bounds.{name}", pair, "must be (lower, upper)")
-            elif all(_check_bound(faults, name, value) for value in pair):
+            elif all(
+                faults.angle(f"bounds.{name}", value, advice=f"write np.radians({value})")
+                if name in (*PATH_NAMES, *ANGLES)
+                else faults.number(f"bounds.{name}", value)
+                for value in pair
+            ):
                 if not pair[0] < pair[1]:
                     faults.add(f"bounds.{name}", pair, "lower must be below upper")
-                if name not in PATH_NAMES:
-                    self._check_reach(faults, name, (pair[0], pair[1]))
+                try:
+                    for value in () if name in PATH_NAMES else pair:
+                        with_parameters(self.species.wingbeat, {name: value})
+                except InvalidInputError as error:
+                    rule = f"contains impossible values: {error.faults[0].rule}"
+                    faults.add(f"bounds.{name}", (pair[0], pair[1]), rule)
         faults.raise_if_any()
-
-    def _check_reach(self, faults: FaultList, name: str, pair: tuple[float, float]) -> None:
-        """Add a fault if the bounds contain an impossible wingbeat."""
-        for value in pair:
-            try:
-                with_parameters(self.species.wingbeat, {name: value})
-            except InvalidInputError as error:
-                faults.add(f"bounds.{name}", pair, f"contains impossible values: {error.faults[0].rule}")
-                return
 
     @property
     def vehicle(self) -> Vehicle:
@@ -392,10 +377,3 @@ class OrbitProblem(Reported):
             jacobian[0, column] += self.speed / frequency**2
             jacobian[1, column] += self.climb / frequency**2
         return jacobian
-
-
-def _check_bound(faults: FaultList, name: str, value: Any) -> bool:
-    where = f"bounds.{name}"
-    if name in (*PATH_NAMES, *ANGLES):
-        return faults.angle(where, value, advice=f"write np.radians({value})")
-    return faults.number(where, value)

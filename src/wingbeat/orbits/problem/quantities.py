@@ -81,9 +81,8 @@ def PowerCost(returned: float = 0.0) -> Quantity:
     fix = "0 means that negative work is lost, 1 that it is returned"
     faults.number("returned", returned, at_least=-1, at_most=1, fix=fix)
     faults.raise_if_any()
-    return Quantity(
-        f"power_cost({_exactly(returned)})", _Cost("hinge_power", float(returned)), plain_unit("power_cost")
-    )
+    name = f"power_cost({_exactly(returned)})"
+    return Quantity(name, _Cost("hinge_power", float(returned)), plain_unit("power_cost"))
 
 
 def SpringPower(stiffness: float, rest_angle: float | None = None) -> Quantity:
@@ -290,10 +289,6 @@ _EXPRESSION = re.compile(rf"\s*([\w.+-]+(?:\([^()]*\))?)\s*(<=|>=)\s*({NUMBER})\
 def parse_constraint(text: str) -> Constraint:
     """Return the constraint in a text such as ``peak_power<=30`` or ``body_pitch_range <= 10 deg``.
 
-    Raises
-    ------
-    InvalidInputError : a text not of that form, an unknown quantity, degrees for a quantity that is not an angle.
-
     >>> str(parse_constraint("peak_power <= 30"))
     'peak_power<=30'
     """
@@ -327,15 +322,13 @@ _LIMIT = re.compile(rf"\s*(\w+)\s*(<=|>=|=)\s*({NUMBER})\s*(deg)?\s*")
 def parse_wingbeat_limit(text: Any) -> WingbeatLimit | None:
     """Return the limit of a wingbeat parameter in a text, or None if the text has another meaning.
 
-    The result is also None for an upper or lower limit of the frequency, which is a constraint like any other.
-
     >>> parse_wingbeat_limit("frequency = 6").value
     6.0
     """
     found = _LIMIT.fullmatch(text) if isinstance(text, str) else None
     if found is None or found[1] not in FREE_NAMES or (found[4] and found[1] not in ANGLES):
         return None
-    if found[1] == "frequency" and found[2] != "=":
+    if found[1] == "frequency" and found[2] != "=":  # a constraint like any other
         return None
     value = float(found[3])
     return WingbeatLimit(found[1], found[2], math.radians(value) if found[4] else value)
@@ -343,11 +336,6 @@ def parse_wingbeat_limit(text: Any) -> WingbeatLimit | None:
 
 def read_limits(given: Sequence[Any], faults: FaultList) -> tuple[list[WingbeatLimit], list[Constraint]]:
     """Return the limits of wingbeat parameters and those of quantities; of two on the same side, the tighter one.
-
-    Parameters
-    ----------
-    given : texts, constraints, and limits of wingbeat parameters.
-    faults : receives what is not a limit, angles in degrees, and limits that contradict each other.
 
     >>> [str(one) for one in read_limits(["peak_power<=30", "peak_power<=40", "peak_power<=30.0"], FaultList())[1]]
     ['peak_power<=30']

@@ -140,15 +140,12 @@ def _characteristic(stroke_map: StrokeMatrix) -> FourCoefficients:
 
 
 def _beyond_circle(over_limit: StrokeMatrix) -> FiveExcesses:
-    """Return five numbers that are all at most 0 only if no multiplier has a modulus above 1.
+    """Return numbers at most 0 only if no multiplier exceeds 1. Theory: equation ``stability-conditions``.
 
     The map ``z = (1 + s) / (1 - s)`` takes the left half-plane of s to the unit disc of multipliers z. All roots s
     of ``b4 s^4 + ... + b0`` lie in the left half-plane if b0, b2, b3, b4 and Hurwitz's third determinant are
-    positive (Lienard and Chipart). These five numbers are smooth where two multipliers meet; each multiplier by
-    itself has an infinite derivative there. If the five are positive, b1 is positive too. It has no row of its own,
-    because the conditions would then be dependent where two multipliers meet at 1.
-
-    Theory: equation ``stability-conditions``.
+    positive (Lienard and Chipart). Unlike each multiplier, these are smooth where two multipliers meet. With a row
+    for b1, which is then positive too, the conditions would be dependent where two meet at 1.
     """
     a3, a2, a1, a0 = _characteristic(over_limit / (1.0 - _INSET))
     b0, b4 = 1.0 + a3 + a2 + a1 + a0, 1.0 - a3 + a2 - a1 + a0
@@ -159,12 +156,10 @@ def _beyond_circle(over_limit: StrokeMatrix) -> FiveExcesses:
 
 
 def _gust_response(stroke_map: StrokeMatrix) -> Scalar:
-    """Return the root mean square of the disturbance under gusts of 1 m/s that change at random every beat.
+    """Return the root mean square of the disturbance under gusts of 1 m/s. Theory: equation ``gust-response``.
 
-    The covariance P of the disturbances solves ``P = A P A' + G G'`` with ``G = (I - A)[:, (u, w)]``. A is the
-    stroke map.
-
-    Theory: equation ``gust-response``.
+    Gusts change at random every beat. The covariance P of the disturbances solves ``P = A P A' + G G'`` with
+    ``G = (I - A)[:, (u, w)]`` for the stroke map A.
     """
     radius = _moduli(stroke_map)[-1]
     steady = stroke_map * jnp.minimum(1.0, _STEADY / jax.lax.stop_gradient(radius))

@@ -12,14 +12,7 @@ if TYPE_CHECKING:
 
 
 class Choice(NamedTuple):
-    """One choice of a model.
-
-    Attributes
-    ----------
-    what : what is chosen, in words.
-    value : the choice, in words or as a number with its unit.
-    reason : why.
-    """
+    """One choice of a model: what is chosen, the choice in words or as a number with its unit, and why."""
 
     what: str
     value: str
@@ -27,26 +20,16 @@ class Choice(NamedTuple):
 
 
 class Origin(NamedTuple):
-    """The model with which a problem was made.
+    """The model with which a problem was made."""
 
-    Attributes
-    ----------
-    name : of the model, ``"paper"`` or ``"animal"``.
-    choices : all its choices.
-    changed : names of the air loads and of the parameters of `OrbitProblem` that the user chose differently. The
-        list omits changed numbers of the species; their sources name the change.
-    """
-
-    name: str
+    name: str  # ``"paper"`` or ``"animal"``
     choices: tuple[Choice, ...]
+    # Air loads and parameters of `OrbitProblem` that the user chose differently. Changed numbers of the species are
+    # no part of it: their sources name the change.
     changed: tuple[str, ...] = ()
 
     def record(self) -> dict[str, Any]:
-        """Return the origin as lists and texts, for JSON.
-
-        >>> Origin("paper", (Choice("coefficients", "su-fan", "measured"),)).record()["choices"]
-        [{'what': 'coefficients', 'value': 'su-fan', 'reason': 'measured'}]
-        """
+        """Return the origin as lists and texts, for JSON."""
         choices = [choice._asdict() for choice in self.choices]
         return {"name": self.name, "choices": choices, "changed": list(self.changed)}
 

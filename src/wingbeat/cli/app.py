@@ -110,22 +110,21 @@ def main(argv: Sequence[str] | None = None, *, app: App | None = None) -> int:
 
 def _outcome(argv: list[str], app: App | None) -> int:
     """Run a command line; print what goes wrong on stderr, one line for each fault."""
-    command = argv[0] if argv else ""
     for word in argv:
+        rule = ""
         if len(word) > _LONGEST:
             rule = f"has {len(word)} characters, more than {_LONGEST}; put long values into a file"
-            return _complain([f"the argument {word[:40]!r}... {rule}"], EXIT_BAD_INPUT)
-        if word.startswith("[" * _DEEPEST):
+        elif word.startswith("[" * _DEEPEST):
             rule = f"is a list nested more than {_DEEPEST} levels deep; give a plain list of numbers"
+        if rule:
             return _complain([f"the argument {word[:40]!r}... {rule}"], EXIT_BAD_INPUT)
-    if command in COMMANDS and (shortage := memory_shortage(command)) is not None:
+    if argv and argv[0] in COMMANDS and (shortage := memory_shortage(argv[0])) is not None:
         return _complain([shortage], EXIT_SYSTEM)
     try:
         return _run(argv, app)
     except MemoryError:
-        return _complain(
-            ["there is not enough memory; close other programs or choose a smaller problem"], EXIT_SYSTEM
-        )
+        fix = "close other programs or choose a smaller problem"
+        return _complain([f"there is not enough memory; {fix}"], EXIT_SYSTEM)
     except KeyboardInterrupt:
         return _complain(["interrupted"], EXIT_INTERRUPTED)
     except WingbeatError as error:
@@ -139,32 +138,20 @@ def _run(argv: list[str], app: App | None) -> int:
     try:
         result = app(argv, exit_on_error=False, print_error=False, result_action="return_value")
     except CycloptsError as error:
-        return _complain([_message(error)], EXIT_BAD_INPUT)
+        text = " ".join(str(error).split())
+        if isinstance(error, UnknownCommandError) and not error.command_chain and error.unused_tokens:
+            # cyclopts would import every command to look for the nearest: seconds for a slip of the finger.
+            word = error.unused_tokens[0]
+            kind = "option" if word.startswith("-") else "command"
+            text = f"unknown {kind} {word!r}; {suggest(word, COMMANDS, most=1)}"
+        return _complain([text], EXIT_BAD_INPUT)
     except ImportError as error:
-        name = _missing_command(error)
-        if name is None:
-            raise
-        return _complain([f"the command '{name}' is not part of this installation"], EXIT_BAD_INPUT)
+        absent = error.__cause__.name if isinstance(error.__cause__, ModuleNotFoundError) else None
+        for name in COMMANDS:
+            if absent == module_of(name):
+                return _complain([f"the command '{name}' is not part of this installation"], EXIT_BAD_INPUT)
+        raise
     return result if isinstance(result, int) else EXIT_GOOD
-
-
-def _message(error: CycloptsError) -> str:
-    """Return a parsing error as one line."""
-    if isinstance(error, UnknownCommandError) and not error.command_chain and error.unused_tokens:
-        # cyclopts would import every command to look for the nearest: seconds for a slip of the finger.
-        word = error.unused_tokens[0]
-        kind = "option" if word.startswith("-") else "command"
-        return f"unknown {kind} {word!r}; {suggest(word, COMMANDS, most=1)}"
-    return " ".join(str(error).split())
-
-
-def _missing_command(error: ImportError) -> str | None:
-    """Return the name of the command whose module is absent; None if an import failed for another reason."""
-    cause = error.__cause__
-    for name in COMMANDS:
-        if isinstance(cause, ModuleNotFoundError) and cause.name == module_of(name):
-            return name
-    return None
 
 
 def _complain(lines: list[str], code: int) -> int:

@@ -104,7 +104,7 @@ def given_beside(command: Callable[..., Any], values: dict[str, Any], *allowed: 
 
 # --- ranges of numbers: ``start:stop:step``, the stop included ---
 
-MAX_VALUES = 10_000_000
+_MAX_VALUES = 10_000_000
 _MAX_DIGITS = 12
 _SYNTAX = "write start:stop:step, for example 0:110:2, or one number"
 
@@ -127,23 +127,6 @@ def _exact(faults: FaultList, where: str, text: str) -> Fraction | None:
     return Fraction(number)
 
 
-def _check_steps(faults: FaultList, where: str, text: str, parts: list[Fraction]) -> None:
-    """Note a step that is zero, too small, leads away from the stop, or misses the stop."""
-    start, stop, step = parts
-    if step == 0:
-        faults.add(where, text, "the step must not be 0", _SYNTAX)
-        return
-    steps = (stop - start) / step
-    if steps < 0:
-        faults.add(where, text, "the step leads away from the stop", "reverse the sign of the step")
-    elif steps >= MAX_VALUES:
-        faults.add(where, text, f"gives more than {MAX_VALUES} values", "take a larger step")
-    elif steps.denominator != 1:
-        nearest = float(start + floor(steps) * step), float(start + (floor(steps) + 1) * step)
-        fix = f"stop at {nearest[0]:g} or {nearest[1]:g}, or change the step"
-        faults.add(where, text, "the stop is not a whole number of steps from the start", fix)
-
-
 def parse_range(text: str, where: str) -> NDArray[np.float64]:
     """Return the numbers of ``start:stop:step``, both ends included exactly, or a single number, shape (n,).
 
@@ -163,13 +146,23 @@ def parse_range(text: str, where: str) -> NDArray[np.float64]:
     faults.raise_if_any()
     if len(parts) == 1:
         return np.array([float(parts[0])])
-    _check_steps(faults, where, text, parts)
-    faults.raise_if_any()
     start, stop, step = parts
+    if step == 0:
+        faults.add(where, text, "the step must not be 0", _SYNTAX)
+        faults.raise_if_any()
+    steps = (stop - start) / step
+    if steps < 0:
+        faults.add(where, text, "the step leads away from the stop", "reverse the sign of the step")
+    elif steps >= _MAX_VALUES:
+        faults.add(where, text, f"gives more than {_MAX_VALUES} values", "take a larger step")
+    elif steps.denominator != 1:
+        nearest = float(start + floor(steps) * step), float(start + (floor(steps) + 1) * step)
+        fix = f"stop at {nearest[0]:g} or {nearest[1]:g}, or change the step"
+        faults.add(where, text, "the stop is not a whole number of steps from the start", fix)
+    faults.raise_if_any()
     # In whole units of the common denominator every value is exact, and its quotient rounded only once.
     unit = lcm(start.denominator, step.denominator)
-    count = int((stop - start) / step) + 1
-    return np.array([(int(start * unit) + i * int(step * unit)) / unit for i in range(count)])
+    return np.array([(int(start * unit) + i * int(step * unit)) / unit for i in range(int(steps) + 1)])
 
 
 # --- files ---
@@ -193,23 +186,17 @@ def check_result(faults: FaultList, output: Path | None, **figures: Path | None)
 
 def check_files(faults: FaultList, output: Path | None = None, **figures: Path | None) -> None:
     """Note figure names without a figure's suffix, and files that two options name."""
-    taken = {} if output is None else {_real(output): "--output"}
-    for name, figure in figures.items():
-        if figure is None:
+    taken: dict[str, str] = {}
+    for name, path in {"output": output, **figures}.items():
+        if path is None:
             continue
-        option = f"--{name.replace('_', '-')}"
-        check_figure_name(faults, option, figure)
-        other = taken.setdefault(_real(figure), option)
-        if other != option:
-            faults.add(option, str(figure), f"is also the file of {other}", "give each option its own file")
-
-
-def _real(path: Path) -> str:
-    """Return the resolved path of a file; an impossible path is refused later, when it is written."""
-    try:
-        return os.path.realpath(path)
-    except ValueError:  # a NUL
-        return str(path)
+        given, real = f"--{name.replace('_', '-')}", str(path)
+        if name in figures:
+            check_figure_name(faults, given, path)
+        with suppress(ValueError):  # a NUL in the path; it is refused later, when the file is written
+            real = os.path.realpath(path)
+        if (other := taken.setdefault(real, given)) != given:
+            faults.add(given, str(path), f"is also the file of {other}", "give each option its own file")
 
 
 def check_outputs(*paths: Path | None) -> None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json as json_format
 from typing import Annotated, Any
 
+from wingbeat._base import FaultList
 from wingbeat.cli.arguments import Whole, flag, option
-from wingbeat.cli.terminal import progress_bar
+from wingbeat.cli.terminal import deliver, plain_console, progress_bar
 
 
 def bench(
@@ -18,7 +18,6 @@ def bench(
 
     No orbit starts from the result of another. The time of an orbit includes its certificate.
     """
-    from wingbeat._base import FaultList
     from wingbeat.bench import measure
 
     faults = FaultList()
@@ -26,14 +25,10 @@ def bench(
     faults.raise_if_any()
     with progress_bar("measuring") as progress:
         found = measure(batch, progress)
-    if json:
-        print(json_format.dumps(found, indent=2))
-    else:
-        _print(found)
+    deliver(found, lambda: _print(found), json=json)
 
 
 def _print(found: dict[str, Any]) -> None:
-    from rich.console import Console
     from rich.table import Table
 
     table = Table(box=None, show_header=False, padding=(0, 2))
@@ -55,4 +50,4 @@ def _print(found: dict[str, Any]) -> None:
     ]
     for row in rows:
         table.add_row(*row)
-    Console(markup=False, highlight=False).print(table)
+    plain_console().print(table)

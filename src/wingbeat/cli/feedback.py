@@ -116,20 +116,16 @@ def _print(held: Feedback, flights: dict[str, GustFlight], late: int, survey: Gu
     print_report([*feedback_report(held.record()), Line("")], console)
     for name, one in flights.items():
         called = name if name == FREE or not late else f"{name}, {beats_of(late)} late"
-        console.print(_outcome(called, one), soft_wrap=True)
+        record, told = one.record(), "lost"
+        if one.survived:
+            settled = record["settled_beats"]
+            ending = "not settled at the end" if settled is None else f"settled after {beats_of(settled)}"
+            told = (
+                f"survived, body pitch within {math.degrees(record['largest_pitch']):.1f} deg of the orbit's, "
+                f"height {record['lowest']:+.2f} to {record['highest']:+.2f} m, {ending}"
+            )
+        console.print(f"{called}: {told}", soft_wrap=True)
     if not flights[HELD].survived:
         console.print(_ADVICE, markup=False, soft_wrap=True)
     if survey is not None:
         print_report([Line(""), *survey_report(survey.record())], console)
-
-
-def _outcome(name: str, one: GustFlight) -> str:
-    record = one.record()
-    if not one.survived:
-        return f"{name}: lost"
-    settled = record["settled_beats"]
-    ending = "not settled at the end" if settled is None else f"settled after {beats_of(settled)}"
-    return (
-        f"{name}: survived, body pitch within {math.degrees(record['largest_pitch']):.1f} deg of the orbit's, "
-        f"height {record['lowest']:+.2f} to {record['highest']:+.2f} m, {ending}"
-    )

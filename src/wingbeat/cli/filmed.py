@@ -16,7 +16,7 @@ from wingbeat.animal.species.species import Species
 from wingbeat.cli.arguments import option
 from wingbeat.experiment.film import WHOLE
 from wingbeat.experiment.film_file import read_film
-from wingbeat.experiment.film_fit import BodyPath, FilmedBeat, fit_body_path, fit_film
+from wingbeat.experiment.film_fit import FilmedBeat, fit_body_path, fit_film
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.results.flight import CarriedFlight, carry
 from wingbeat.words.orbit_words import power_label
@@ -161,19 +161,15 @@ def carried(
     path = fit_body_path(beat, given.get("u"), given.get("w"), given.get("body_pitch"))
     model = FlightModel(animal.vehicle, aero, animal.air, velocity=path.velocity)
     flight = carry(model, animal.wingbeat, path, beats, samples, species=animal)
-    return flight, _errors(flight, beat, path, samples)
-
-
-def _errors(flight: CarriedFlight, beat: FilmedBeat, path: BodyPath, samples: int) -> dict[str, float | None]:
     told, rows = flight.summary, []
     for wingbeat in beat.draws(flight.wingbeat, DRAWS):
         # The body keeps the beat of the film.
         same = dataclasses.replace(wingbeat, frequency=path.frequency)
         rows.append([*carry(flight.model, same, path, 1, samples).summary.values()])
     if not rows:
-        return dict.fromkeys(told)
+        return flight, dict.fromkeys(told)
     errors = np.sqrt(np.mean((np.array(rows) - [*told.values()]) ** 2, axis=0))
-    return dict(zip(told, errors.tolist(), strict=True))
+    return flight, dict(zip(told, errors.tolist(), strict=True))
 
 
 def print_carried(told: Mapping[str, float], errors: Mapping[str, float | None]) -> None:

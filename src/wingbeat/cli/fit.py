@@ -88,29 +88,21 @@ def fit(
 
 def _summary(found: WingFit) -> dict[str, Any]:
     """Return the fit as JSON types; numbers that are not finite become null."""
-
-    def curve(label: str) -> dict[str, Any]:
-        one = found.curves[label]
-        limits = one.interval()
-        return {
-            "formula": one.form.formula,
-            "parameters": {n: {"value": v, "interval": list(limits[n])} for n, v in one.parameters.items()},
-            "r_squared": _finite(one.r_squared),
-            "aicc": _finite(one.aicc),
-            "points": len(one.values),
+    record: dict[str, Any] = {"name": found.name, "form": found.form}
+    record["alpha_range_deg"] = list(found.alpha_range_deg)
+    record["reynolds_range"] = None if found.reynolds_range is None else list(found.reynolds_range)
+    record["aspect_ratio"] = None if found.aspect_ratio is None else _finite(found.aspect_ratio) or "inf"
+    for label, curve in found.curves.items():
+        limits = curve.interval()
+        record[label] = {
+            "formula": curve.form.formula,
+            "parameters": {n: {"value": v, "interval": list(limits[n])} for n, v in curve.parameters.items()},
+            "r_squared": _finite(curve.r_squared),
+            "aicc": _finite(curve.aicc),
+            "points": len(curve.values),
         }
-
-    return {
-        "name": found.name,
-        "form": found.form,
-        "alpha_range_deg": list(found.alpha_range_deg),
-        "reynolds_range": None if found.reynolds_range is None else list(found.reynolds_range),
-        "aspect_ratio": None if found.aspect_ratio is None else _finite(found.aspect_ratio) or "inf",
-        **{label: curve(label) for label in found.curves},
-        "notes": _only_notes(found),
-        "warnings": list(found.warnings),
-        "failures": list(found.failures),
-    }
+    said = {"notes": _only_notes(found), "warnings": list(found.warnings), "failures": list(found.failures)}
+    return record | said
 
 
 def _only_notes(found: WingFit) -> list[str]:
@@ -128,14 +120,14 @@ def _print_table(found: WingFit) -> None:
     from rich.text import Text
 
     low, high = found.alpha_range_deg
-    stream = found.reynolds_range
     title = f"{found.name}, form {found.form}, {low:g} to {high:g} degrees"
-    title += "" if stream is None else f", Re {stream[0]:.0f} to {stream[1]:.0f}"
+    if found.reynolds_range is not None:
+        title += ", Re {:.0f} to {:.0f}".format(*found.reynolds_range)
     # As Text, for rich would take [deg] in a plain string for markup.
     caption = "angles in degrees; parameters as in wingbeat.aero's formulas"
-    table = Table(title=Text(title), caption=Text(caption))
-    for heading in ("curve", "parameter", "value (95 % interval)", "R-squared", "AICc"):
-        table.add_column(Text(heading), justify="left" if heading in ("curve", "parameter") else "right")
+    table = Table("curve", "parameter", title=Text(title), caption=Text(caption))
+    for heading in ("value (95 % interval)", "R-squared", "AICc"):
+        table.add_column(heading, justify="right")
     for label, curve in found.curves.items():
         limits = curve.interval()
         for i, (parameter, value) in enumerate(curve.parameters.items()):
@@ -143,6 +135,6 @@ def _print_table(found: WingFit) -> None:
             # Cut, not rounded: 0.99996 is not 1.
             r_squared = math.floor(curve.r_squared * 1e5) / 1e5 if math.isfinite(curve.r_squared) else math.nan
             whole = (label, f"{r_squared:.5f}", f"{curve.aicc:.1f}") if i == 0 else ("", "", "")
-            table.add_row(whole[0], parameter, shown, *whole[1:], end_section=False)
+            table.add_row(whole[0], parameter, shown, *whole[1:])
         table.add_section()
     Console().print(table)

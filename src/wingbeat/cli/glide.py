@@ -12,19 +12,13 @@ from wingbeat._base import NOMENCLATURE, FaultList, for_people
 from wingbeat.cli.arguments import Output, check_outputs, check_result, figure, flag, option, parse_range
 from wingbeat.cli.problem_options import DEFAULT_MODEL, SPECIES, ModelOptions, Payload, Settings
 from wingbeat.cli.terminal import deliver, plain_console
-from wingbeat.mechanics.glide import Glide
 from wingbeat.plots import glide_page
 from wingbeat.results.glide import GlidePolar, glide_polar
 
 # The head of each column, and what of a glide stands in it.
-_HEADS = {
-    "alpha": "angle_of_attack",
-    "speed": "speed",
-    "sink": "sink",
-    "ratio": "glide_ratio",
-    "path": "glide_angle",
-}
-_HEADS |= {"body": "body_pitch", "wing": "wing_pitch", "flap": "flap", "tail": "tail_moment", "hold": "flap_torque"}
+_HEADS = {"alpha": "angle_of_attack", "speed": "speed", "sink": "sink", "ratio": "glide_ratio"}
+_HEADS |= {"path": "glide_angle", "body": "body_pitch", "wing": "wing_pitch", "flap": "flap"}
+_HEADS |= {"tail": "tail_moment", "hold": "flap_torque"}
 
 
 def glide(
@@ -84,28 +78,21 @@ def _print(polar: GlidePolar) -> None:
         unit = for_people(NOMENCLATURE[name].unit)[1] or "-"
         table.add_column(Text(f"{head}\n[{unit}]"), justify="right", no_wrap=True)
     for one in polar.glides:
-        table.add_row(*_cells(one))
+        angles = (one.glide_angle, one.body_pitch, one.wing_pitch, one.flap)
+        numbers = [f"{value:.2f}" for value in (one.speed, one.sink, one.glide_ratio)]
+        numbers += [f"{math.degrees(angle):z.1f}" for angle in angles]
+        numbers += ["-" if one.trimmed else f"{one.tail_moment:.4f}", f"{one.flap_torque:.3f}"]
+        shown = numbers if math.isfinite(one.speed) else ["none"] * len(numbers)
+        table.add_row(f"{math.degrees(one.angle_of_attack):.4g}", *shown)
     console.print(table)
     for label, best in (("slowest sink", polar.least_sink), ("flattest glide", polar.best_ratio)):
-        console.print(f"{label}: {'not within the given angles' if best is None else _told(best)}")
+        told = "not within the given angles"
+        if best is not None:
+            alpha = f"angle of attack {math.degrees(best.angle_of_attack):.2f} deg"
+            told = f"{best.sink:.3f} m/s at {best.speed:.2f} m/s, ratio {best.glide_ratio:.3f}, {alpha}"
+        console.print(f"{label}: {told}")
     console.print(
         "path: angle below the horizontal; tail: moment that a tail must supply; hold: flap torque of both wings"
     )
     for warning in polar.record()["warnings"]:
         console.print(f"- {warning}", style="yellow")
-
-
-def _cells(one: Glide) -> list[str]:
-    angles = (one.glide_angle, one.body_pitch, one.wing_pitch, one.flap)
-    numbers = [f"{one.speed:.2f}", f"{one.sink:.2f}", f"{one.glide_ratio:.2f}"]
-    numbers += [f"{math.degrees(angle):z.1f}" for angle in angles]
-    numbers += ["-" if one.trimmed else f"{one.tail_moment:.4f}", f"{one.flap_torque:.3f}"]
-    found = math.isfinite(one.speed)
-    return [f"{math.degrees(one.angle_of_attack):.4g}", *(numbers if found else ["none"] * len(numbers))]
-
-
-def _told(one: Glide) -> str:
-    alpha = math.degrees(one.angle_of_attack)
-    return (
-        f"{one.sink:.3f} m/s at {one.speed:.2f} m/s, ratio {one.glide_ratio:.3f}, angle of attack {alpha:.2f} deg"
-    )

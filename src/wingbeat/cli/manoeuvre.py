@@ -78,21 +78,17 @@ def manoeuvre(
         if gust is not None:
             flights["without feedback"] = plan.fly(wind, feedback=False)
     page = (lambda: plan.plot(flights)) if flights else None
-    certified = plan.status is Status.CONVERGED
-    return deliver(plan.record(), lambda: _print(plan, flights), certified, json=json, plot=plot, page=page)
+    return deliver(plan.record(), lambda: _print(plan, flights), bool(flights), json=json, plot=plot, page=page)
 
 
 def _print(plan: Manoeuvre, flights: dict[str, Flight]) -> None:
     console = plain_console()
     print_report(manoeuvre_report(plan.record()), console)
     for name, flight in flights.items():
-        console.print(f"{name}: {_outcome(plan, flight)}", soft_wrap=True)
-
-
-def _outcome(plan: Manoeuvre, flight: Flight) -> str:
-    """Return how far a flight ends from the last steady flight."""
-    if not flight.completed:
-        return "lost: it tumbles"
-    state, last = flight.states[-1], plan.ends[-1].state
-    path = float(plan.beat_map.orbit.initial_state.z) + plan.beat_map.climb * flight.time[-1]
-    return f"ends {abs(state[3] - last[2]):.2g} m/s from the speed, {abs(state[1] - path):.2g} m from the path"
+        told = "lost: it tumbles"
+        if flight.completed:
+            state, last = flight.states[-1], plan.ends[-1].state
+            path = float(plan.beat_map.orbit.initial_state.z) + plan.beat_map.climb * flight.time[-1]
+            height = f"{abs(state[1] - path):.2g} m from the path"
+            told = f"ends {abs(state[3] - last[2]):.2g} m/s from the speed, {height}"
+        console.print(f"{name}: {told}", soft_wrap=True)

@@ -129,10 +129,8 @@ def orbit(
             limits += [WingbeatLimit(name, "<=", most) for name, (_, most) in bounds.items()]
         asked: dict[str, Any] = {"climb": climb, "subject_to": limits}
         asked["bounds"] = "plausible" if within_plausible else bounds
-        if wings_may_cross:
-            asked["wings_may_cross"] = True
-        if minimise is not None:
-            asked["minimise"] = minimise
+        asked |= {"wings_may_cross": True} if wings_may_cross else {}
+        asked |= {} if minimise is None else {"minimise": minimise}
         if kinematics is None:
             problem = whole.problem(animal, speed, **asked)
         else:

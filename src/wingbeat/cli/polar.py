@@ -72,9 +72,8 @@ def polar(
 
 
 def _print_csv(columns: Columns) -> None:
-    writer = csv_format.writer(sys.stdout, lineterminator="\n")
-    writer.writerow(columns)
-    writer.writerows(zip(*columns.values(), strict=True))
+    rows = (columns, *zip(*columns.values(), strict=True))
+    csv_format.writer(sys.stdout, lineterminator="\n").writerows(rows)
 
 
 def _collected(faults: FaultList, door: Callable[[], Any]) -> Any:
@@ -83,22 +82,17 @@ def _collected(faults: FaultList, door: Callable[[], Any]) -> Any:
         return door()
     except InvalidInputError as error:
         faults.faults.extend(error.faults)
-    return None
 
 
 def polar_columns(model: CoefficientModel, alpha_deg: NDArray[np.float64], about: float) -> Columns:
     """Return the polar as named lists of equal length; c_m and x_cp hold None where the model has no x_cp."""
     alpha = np.deg2rad(alpha_deg)
-    nothing: list[None] = [None] * len(alpha)
-    has_centre = model.has_centre_of_pressure
-    return {
-        "alpha_deg": alpha_deg.tolist(),
-        "c_l": model.lift(alpha).tolist(),
-        "c_d": model.drag(alpha).tolist(),
-        "c_n": model.normal(alpha).tolist(),
-        "c_m": model.moment(alpha, about).tolist() if has_centre else nothing,
-        "x_cp": model.centre_of_pressure(alpha).tolist() if has_centre else nothing,
-    }
+    columns: Columns = {"alpha_deg": alpha_deg.tolist(), "c_l": model.lift(alpha).tolist()}
+    columns |= {"c_d": model.drag(alpha).tolist(), "c_n": model.normal(alpha).tolist()}
+    if not model.has_centre_of_pressure:
+        return columns | dict.fromkeys(("c_m", "x_cp"), [None] * len(alpha))
+    moment, centre = model.moment(alpha, about), model.centre_of_pressure(alpha)
+    return columns | {"c_m": moment.tolist(), "x_cp": centre.tolist()}
 
 
 def _title(model: CoefficientModel) -> str:

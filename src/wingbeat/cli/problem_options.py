@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -113,9 +113,14 @@ class ModelOptions:
     ] = None
 
     def flown(self, name: str, settings: list[str] | None, payload: float = 0.0) -> tuple[Species, Model]:
-        """Return (species, model); the species has the model's parts, the numbers of ``--set`` and a payload."""
+        """Return (species, model), with the given air loads, the numbers of ``--set`` and a payload."""
         species = load_species(name)
-        model = self.chosen(species)
+        model = model_of(self.model, species)
+        given = {name: value for name, value in vars(self).items() if name != "model" and value is not None}
+        if given:
+            others = {name: value for name, value in given.items() if name not in _OF_COEFFICIENTS}
+            loads = dataclasses.replace(model.aero, **self._coefficients(model.aero), **others)
+            model = dataclasses.replace(model, aero=loads)
         return with_settings(model.species(species), settings, payload), model
 
     def problem(
@@ -125,22 +130,6 @@ class ModelOptions:
         species, model = self.flown(name, settings)
         given = {key: value for key, value in asked.items() if value is not None}
         return model.problem(species, speed, bounds="plausible" if within_plausible else {}, **given)
-
-    def chosen(self, species: Species) -> Model:
-        """Return the model for a species, with the air loads that were given in place of its own."""
-        whole = model_of(self.model, species)
-        given = self.given()
-        if not given:
-            return whole
-        others = {name: value for name, value in given.items() if name not in _OF_COEFFICIENTS}
-        coefficients = self._coefficients(whole.aero)
-        loads = dataclasses.replace(whole.aero, **coefficients, **others)
-        return dataclasses.replace(whole, aero=loads)
-
-    def given(self) -> dict[str, Any]:
-        """Return the options of air loads that the user gave."""
-        values = {field.name: getattr(self, field.name) for field in fields(self) if field.name != "model"}
-        return {name: value for name, value in values.items() if value is not None}
 
     def fit(self) -> Fitted | None:
         """Return the fit with its covariance if ``--aero`` names a fitted model's file; else None."""
@@ -211,10 +200,8 @@ def unpacking(path: Path) -> Iterator[None]:
     except NotInFileError as error:
         raise FileError(f"cannot set up the orbit in {str(path)!r} again: {error} in Python") from None
     except (LookupError, TypeError, ValueError, AttributeError) as error:
-        reason = first_line(error)
-        raise FileError(
-            f"cannot read {str(path)!r} as an orbit: its inputs are damaged ({reason}); solve the orbit again"
-        ) from None
+        rule = f"its inputs are damaged ({first_line(error)}); solve the orbit again"
+        raise FileError(f"cannot read {str(path)!r} as an orbit: {rule}") from None
 
 
 # --- moving air ---
@@ -228,25 +215,20 @@ Turbulence = Annotated[
 ]
 WindSeed = Annotated[Whole, option("Seed of the turbulence.")]
 
-_KEYS = tuple(field.name for field in fields(CosineGust))
-
 
 def wind_of(gust: list[str] | None, turbulence: str | None, seed: int, airspeed: float) -> Wind | None:
     """Return the wind that the options ask for, the sum if they ask for several; None for still air."""
     parts: list[Wind] = []
     if gust is not None:
         faults = FaultList()
-        found = named_numbers(faults, "--gust", gust, _KEYS, "w=3")
+        found = named_numbers(faults, "--gust", gust, [field.name for field in fields(CosineGust)], "w=3")
         faults.raise_if_any()
         parts.append(CosineGust(**found))
     if turbulence is not None:
         parts.append(DrydenTurbulence(airspeed, turbulence, seed=seed))
-    return _sum(parts) if parts else None
 
-
-def _sum(parts: list[Wind]) -> Callable[[np.ndarray], tuple[Any, Any]]:
     def air(times: np.ndarray) -> tuple[Any, Any]:
         found = [part(times) for part in parts]
         return sum(u for u, _ in found), sum(w for _, w in found)
 
-    return air
+    return air if parts else None

@@ -50,7 +50,13 @@ def end_on_signals() -> None:
     if signal.getsignal(signal.SIGTERM) is signal.SIG_DFL:
         signal.signal(signal.SIGTERM, _end)
     if os.name == "posix":  # Windows wakes nobody but sockets
-        _start_watch()
+        from threading import Thread
+
+        # A thread receives the signals, because the main thread receives none while in compiled code.
+        hears, tells = os.pipe()
+        os.set_blocking(tells, False)
+        signal.set_wakeup_fd(tells, warn_on_full_buffer=False)
+        Thread(target=_watch, args=(hears,), name="signals", daemon=True).start()
 
 
 def _end(number: int, frame: FrameType | None = None) -> None:
@@ -65,16 +71,6 @@ def _end(number: int, frame: FrameType | None = None) -> None:
     with suppress(OSError):
         os.write(2, f"error: {_WORDS[number]}\n".encode())
     os._exit(128 + number)
-
-
-def _start_watch() -> None:
-    """Start a thread that receives signals, because the main thread receives none while in compiled code."""
-    from threading import Thread
-
-    hears, tells = os.pipe()
-    os.set_blocking(tells, False)
-    signal.set_wakeup_fd(tells, warn_on_full_buffer=False)
-    Thread(target=_watch, args=(hears,), name="signals", daemon=True).start()
 
 
 def _watch(hears: int) -> None:
@@ -158,7 +154,6 @@ _SOLVER = 1_700_000_000
 _SOLVER_PER_CORE = 200_000_000
 # Address space of `wingbeat species`, which solves nothing.
 _READER = 500_000_000
-_READERS = ("species",)
 
 
 def memory_shortage(command: str) -> str | None:
@@ -171,7 +166,7 @@ def memory_shortage(command: str) -> str | None:
 
     limit = getrlimit(RLIMIT_AS)[0]
     cores = core_count()
-    need = _READER if command in _READERS else _SOLVER + _SOLVER_PER_CORE * cores
+    need = _READER if command == "species" else _SOLVER + _SOLVER_PER_CORE * cores
     if limit == RLIM_INFINITY or limit >= need:
         return None
     return (

@@ -8,7 +8,7 @@ from typing import Annotated
 
 from wingbeat._base import FaultList, FileError, InvalidInputError
 from wingbeat.cli.arguments import check_outputs, option, several, written_to
-from wingbeat.experiment.load_cell_run import LoadCellRun, read_run
+from wingbeat.experiment.load_cell_run import read_run
 from wingbeat.experiment.reduction import reduce_runs
 
 MAX_NOTES = 10
@@ -47,34 +47,19 @@ def reduce(
         faults.add("RUNS", "none", "there is nothing to reduce", "name the CSV files of the runs")
     if output in runs:
         faults.add("--output", str(output), "is one of the runs", "choose another name")
-    spans = [_interval(faults, text) for text in rest or []]
+    spans = []
+    for text in rest or []:
+        try:
+            start, end = map(float, text.split(":"))
+            spans.append((start, end))
+        except ValueError:
+            faults.add("--rest", text, "is not an interval", "write start:end in seconds, such as 0:5")
     faults.raise_if_any()
     check_outputs(output)
-    table = reduce_runs(_read_all(runs), last, spans)
-    for note in table.notes[:MAX_NOTES]:
-        print(f"note: {note}", file=sys.stderr)
-    table.save(output)
-    if len(table.notes) > MAX_NOTES:
-        print(f"note: {len(table.notes) - MAX_NOTES} more notes are in {output}", file=sys.stderr)
-    print(f"wrote {output}: {len(runs)} runs, {len(table.alpha_deg)} points", file=sys.stderr)
-
-
-def _interval(faults: FaultList, text: str) -> tuple[float, float]:
-    """Return start and end of an interval such as 0:5."""
-    try:
-        start, end = map(float, text.split(":"))
-    except ValueError:
-        faults.add("--rest", text, "is not an interval", "write start:end in seconds, such as 0:5")
-        return 0.0, 1.0
-    return start, end
-
-
-def _read_all(paths: list[Path]) -> list[LoadCellRun]:
-    """Read every run; report the faults of all files at once."""
-    runs, faults, unreadable = [], FaultList(), []
-    for path in paths:
+    records, unreadable = [], []
+    for path in runs:  # the faults of all files are reported at once
         try:
-            runs.append(read_run(path))
+            records.append(read_run(path))
         except InvalidInputError as error:
             faults.faults.extend(error.faults)
         except FileError as error:
@@ -82,4 +67,10 @@ def _read_all(paths: list[Path]) -> list[LoadCellRun]:
     if unreadable:
         raise FileError("\n".join([*unreadable, *(str(fault) for fault in faults.faults)]))
     faults.raise_if_any()
-    return runs
+    table = reduce_runs(records, last, spans)
+    for note in table.notes[:MAX_NOTES]:
+        print(f"note: {note}", file=sys.stderr)
+    table.save(output)
+    if len(table.notes) > MAX_NOTES:
+        print(f"note: {len(table.notes) - MAX_NOTES} more notes are in {output}", file=sys.stderr)
+    print(f"wrote {output}: {len(runs)} runs, {len(table.alpha_deg)} points", file=sys.stderr)

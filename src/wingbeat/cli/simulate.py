@@ -115,8 +115,7 @@ def simulate(
     if prescribed is not None:
         flight, errors = prescribed
         record: dict[str, Any] = {"body": "prescribed", "summary": flight.summary, "standard_errors": errors}
-        report = functools.partial(filmed.print_carried, flight.summary, errors)
-        completed = True
+        report, completed = functools.partial(filmed.print_carried, flight.summary, errors), True
     else:
         assert flown_by is not None
         wind = options.wind_of(gust, turbulence, wind_seed, math.hypot(start.u, start.w))
@@ -127,10 +126,8 @@ def simulate(
                 row["mean_power_se"] = error
         record = {"completed": completed, "beats": rows}
         report = functools.partial(_print, rows, completed)
-    notes = [
-        *crossing(flight.model.vehicle, flight.model.strips, wingbeat, reach),
-        *(beat.warnings if beat else ()),
-    ]
+    notes = [*crossing(flight.model.vehicle, flight.model.strips, wingbeat, reach)]
+    notes += beat.warnings if beat else ()
     record |= {"warnings": notes} | ({} if beat is None else {"kinematics": filmed.film_record(beat)})
     with answer() as told:
         told.tell(record, report, json)
@@ -145,12 +142,13 @@ def simulate(
 
 def _errors(flight: Flight, beat: FilmedBeat, beats: int, samples: int, wind: Wind | None) -> list[float | None]:
     """Return the standard error of each beat's mean power, from flights with random draws of the film."""
-    power = np.array([row["mean_power"] for row in beat_rows(flight, samples)], dtype=float)
-    start, squares = State(*flight.states[0]), []
+
+    def powers(one: Flight) -> np.ndarray:
+        return np.array([row["mean_power"] for row in beat_rows(one, samples)], dtype=float)
+
+    power, start, squares = powers(flight), State(*flight.states[0]), []
     for wingbeat in beat.draws(flight.wingbeat, filmed.DRAWS):
-        other = fly(flight.model, wingbeat, start, beats, samples, wind=wind)
-        rows = beat_rows(other, samples)
-        squares.append((np.array([row["mean_power"] for row in rows], dtype=float) - power) ** 2)
+        squares.append((powers(fly(flight.model, wingbeat, start, beats, samples, wind=wind)) - power) ** 2)
     errors = np.sqrt(np.mean(squares, axis=0)) if squares else np.full(beats, np.nan)
     return [float(error) if np.isfinite(error) else None for error in errors]
 
@@ -162,15 +160,10 @@ def beat_rows(flight: Flight, samples: int) -> list[dict[str, Any]]:
     rows = []
     for beat in range((len(flight.phase) - 1) // samples):
         first, last = flight.states[beat * samples], flight.states[(beat + 1) * samples]
+        means = {"mean_u": (last[0] - first[0]) / period, "mean_w": (last[1] - first[1]) / period}
         mean = beat_mean(power[beat * samples : (beat + 1) * samples + 1])
-        row = {
-            "beat": beat + 1,
-            "mean_u": (last[0] - first[0]) / period,
-            "mean_w": (last[1] - first[1]) / period,
-            **dict(zip(State._fields, last, strict=True)),
-            "mean_power": mean,
-        }
-        rows.append({name: float(v) if np.isfinite(v) else None for name, v in row.items()} | {"beat": beat + 1})
+        row = means | dict(zip(State._fields, last, strict=True)) | {"mean_power": mean}
+        rows.append({"beat": beat + 1} | {name: float(v) if np.isfinite(v) else None for name, v in row.items()})
     return rows
 
 

@@ -10,13 +10,11 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from cyclopts import App
 
-from wingbeat._base import FileError
+from wingbeat._base import FaultList, FileError, InvalidInputError, write_atomically
 from wingbeat.cli.arguments import flag, option, several
 from wingbeat.cli.terminal import plain_console, print_json, print_report
 
 if TYPE_CHECKING:
-    from rich.table import Table
-
     from wingbeat.animal.species.species import Species
 
 species = App(name="species", help="Show the built-in animals or your own species file.")
@@ -47,16 +45,29 @@ def show(
     from wingbeat.animal.species.making import load_species
     from wingbeat.animal.species.reading import parse_setting, species_names
 
+    faults, values = FaultList(), {}
     if name is None:
         if alternative is not None or set_:
-            raise _no_name("--alternative" if alternative is not None else "--set")
+            option = "--alternative" if alternative is not None else "--set"
+            faults.add(option, "no species", "needs a species to change", f"wingbeat species pigeon {option} ...")
+        faults.raise_if_any()
         everyone = [load_species(each) for each in species_names()]
         print_json([_summary(each) for each in everyone]) if json else _print_list(everyone)
         return
     chosen = load_species(name)
     if alternative is not None:
         chosen = chosen.with_alternative(alternative)
-    chosen = chosen.with_values(_settings(set_ or [], parse_setting))
+    for text in set_ or []:
+        try:
+            path, value = parse_setting(text)
+        except InvalidInputError as error:
+            faults.faults += error.faults
+            continue
+        if path in values:
+            faults.add(path, value, "is given twice", "keep one of the two")
+        values[path] = value
+    faults.raise_if_any()
+    chosen = chosen.with_values(values)
     if json:
         print_json(chosen.as_dict())
     else:
@@ -79,24 +90,11 @@ def new(
     force: Annotated[bool, flag("Overwrite an existing file.")] = False,
 ) -> None:
     """Write a species file: a commented template, or a bird, bat or robot derived by scaling laws."""
-    from wingbeat._base import write_atomically
-
-    size = {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
-    text = _new_text(kind, size, path.stem)
-    if os.path.lexists(path) and not path.is_dir() and not force:
-        raise FileError(f"cannot write {str(path)!r}: it exists; choose another name or give --force")
-    write_atomically(path, text)
-    print(f"wrote {path}; try: wingbeat species {path}")
-
-
-def _new_text(kind: str | None, size: dict[str, float | None], name: str) -> str:
-    """Return the text of the template, or of an animal of this size."""
-    from wingbeat._base import FaultList
     from wingbeat.animal.species.making import bat, bird, robot
     from wingbeat.animal.species.reading import template
     from wingbeat.animal.species.writing import species_text
 
-    faults = FaultList()
+    faults, size = FaultList(), {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
     for key, value in size.items():
         option = f"--{key.replace('_', '-')}"
         if kind is None and value is not None:
@@ -106,34 +104,14 @@ def _new_text(kind: str | None, size: dict[str, float | None], name: str) -> str
             faults.add(option, None, "must be given", f"the scaling laws of a {kind} need mass, span and area")
     faults.raise_if_any()
     if kind is None:
-        return template()
-    given: dict[str, Any] = size
-    return species_text({"bird": bird, "bat": bat, "robot": robot}[kind](name=name, **given))
-
-
-def _settings(texts: list[str], parse: Any) -> dict[str, Any]:
-    """Return the settings; report all unreadable ones at once."""
-    from wingbeat._base import FaultList, InvalidInputError
-
-    faults, values = FaultList(), {}
-    for text in texts:
-        try:
-            path, value = parse(text)
-        except InvalidInputError as error:
-            faults.faults += error.faults
-            continue
-        if path in values:
-            faults.add(path, value, "is given twice", "keep one of the two")
-        values[path] = value
-    faults.raise_if_any()
-    return values
-
-
-def _no_name(option: str) -> Exception:
-    from wingbeat._base import Fault, InvalidInputError
-
-    fault = Fault(option, "no species", "needs a species to change", f"wingbeat species pigeon {option} ...")
-    return InvalidInputError([fault])
+        text = template()
+    else:
+        given: dict[str, Any] = size
+        text = species_text({"bird": bird, "bat": bat, "robot": robot}[kind](name=path.stem, **given))
+    if os.path.lexists(path) and not path.is_dir() and not force:
+        raise FileError(f"cannot write {str(path)!r}: it exists; choose another name or give --force")
+    write_atomically(path, text)
+    print(f"wrote {path}; try: wingbeat species {path}")
 
 
 def _summary(animal: Species) -> dict[str, Any]:
@@ -142,34 +120,22 @@ def _summary(animal: Species) -> dict[str, Any]:
     wing = animal.vehicle.wing
     reynolds = _SPEED * wing.mean_chord / animal.air.viscosity
     fitted = [number * animal.air.viscosity / wing.mean_chord for number in SuFan().reynolds_range or ()]
-    return {
-        "name": animal.name,
-        "common_name": animal.common_name,
-        "kind": animal.kind,
-        "mass": animal.vehicle.mass,
-        "semi_span": wing.semi_span,
-        "chord": wing.mean_chord,
-        "reynolds_at_10_m_per_s": reynolds if math.isfinite(reynolds) else None,
-        "fitted_speeds": fitted,
-    }
-
-
-def _table(title: str, *columns: str) -> Table:
-    from rich import box
-    from rich.table import Table
-
-    table = Table(title=title, title_justify="left", box=box.SIMPLE_HEAD, pad_edge=False)
-    for column in columns:
-        name, _, right = column.partition(">")
-        # Numbers and the first column, which one types, stay whole; other words break at blanks.
-        whole = bool(right) or column == columns[0]
-        table.add_column(name, justify="right" if right else "left", no_wrap=whole, overflow="fold")
-    return table
+    named = {"name": animal.name, "common_name": animal.common_name, "kind": animal.kind}
+    size = {"mass": animal.vehicle.mass, "semi_span": wing.semi_span, "chord": wing.mean_chord}
+    stream = {"reynolds_at_10_m_per_s": reynolds if math.isfinite(reynolds) else None, "fitted_speeds": fitted}
+    return named | size | stream
 
 
 def _print_list(everyone: list[Species]) -> None:
-    columns = "mass\n[g]>r", "wing\n[mm]>r", "chord\n[mm]>r", "su-fan\n[m/s]>r"
-    table = _table("", "name", "animal", *columns)
+    from rich import box
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE_HEAD, pad_edge=False)
+    # Numbers and the first column, which one types, stay whole; other words break at blanks.
+    table.add_column("name", no_wrap=True, overflow="fold")
+    table.add_column("animal", overflow="fold")
+    for head in ("mass\n[g]", "wing\n[mm]", "chord\n[mm]", "su-fan\n[m/s]"):
+        table.add_column(head, justify="right", no_wrap=True, overflow="fold")
     outside = []
     for animal in everyone:
         row = _summary(animal)

@@ -120,8 +120,8 @@ def stability(
     answers, found, reports = [], [], []
     for orbit in orbits:
         if orbit.status is not Status.CONVERGED:
-            message = orbit.message
-            answers.append({"speed": orbit.inputs["speed"], "status": orbit.status.value, "message": message})
+            failed = {"speed": orbit.inputs["speed"], "status": orbit.status.value, "message": orbit.message}
+            answers.append(failed)
             continue
         record = linearise(orbit, inputs, height=height, smooth=not jumps).record()
         reports.append([*linear_report(record), Line("")])

@@ -17,7 +17,6 @@ from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import FIRST_POINT, duration, exit_of, pace, say, say_stopping, study_bar
 
 if TYPE_CHECKING:
-    from wingbeat.studies.driver import Tally
     from wingbeat.studies.study import Study
 
 study = App(name="study", help="Solve a grid or sample of problems; an interrupted study resumes.")
@@ -82,8 +81,9 @@ def run(
         say(_announcement(asked, summary.total, left, engine.workers))
         with study_bar() as progress:
             tally = asked.run_on(engine, stop, retry_failed, progress)
-        say(_told(tally))
-    _print_summary(asked)
+        none = "no point was solved" if tally.count("waiting") else "nothing left to solve"
+        say(f"{tally.here} points solved, {pace(tally.rate)}" if tally.here else none)
+    print(asked.summary(_WIDE))
     if stop.level:
         say(f"{points_wait(asked.status())}; to resume: wingbeat study run {shlex.quote(str(file))}")
         return exit_of(stop)
@@ -93,8 +93,7 @@ def run(
 @study.command
 def status(file: File) -> None:
     """Print the number of points with each status, and why points have no certified orbit."""
-    asked = _read(file)
-    _print_summary(asked)
+    print(_read(file).summary(_WIDE))
 
 
 @study.command
@@ -134,7 +133,7 @@ def salvage(file: File) -> None:
         print(f"the store {str(asked.store)!r} is not damaged; nothing was changed", file=sys.stderr)
     else:
         print(f"{kept} results kept; the damaged store was renamed to {str(aside)!r}", file=sys.stderr)
-    _print_summary(asked)
+    print(asked.summary(_WIDE))
 
 
 @contextmanager
@@ -168,14 +167,3 @@ def _announcement(asked: Study, total: int, left: int, processes: int) -> str:
     if seconds is None:
         return f"{told} with {processes} {many}; {FIRST_POINT}"
     return f"{told}: about {duration(seconds)} with {processes} {many}" if left else told
-
-
-def _told(tally: Tally) -> str:
-    if not tally.here:
-        return "no point was solved" if tally.count("waiting") else "nothing left to solve"
-    return f"{tally.here} points solved, {pace(tally.rate)}"
-
-
-def _print_summary(asked: Study) -> None:
-    """Print counts by status and the first points that are not certified, with their reasons."""
-    print(asked.summary(_WIDE))

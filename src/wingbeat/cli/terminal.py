@@ -50,10 +50,8 @@ class Answer:
 
     def tell(self, record: Any, report: Report | Callable[[], Any], json: bool) -> None:
         """Print a record as JSON, or else a report, which may be a function that prints it."""
-        if json:
-            self.show(lambda: print_json(record))
-        else:
-            self.show(report if callable(report) else lambda: print_report(report))
+        words = report if callable(report) else lambda: print_report(report)
+        self.show((lambda: print_json(record)) if json else words)
 
     def save(self, path: Path | None, write: Callable[[Path], Any] | None, *, named: bool = False) -> None:
         """Write a file if there is a path and something to write; note what went wrong.
@@ -172,8 +170,8 @@ FIRST_POINT = "the first point takes longest, because programs are compiled for 
 def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
     """Yield a function that shows (done, in all) on stderr: in a bar, or in a few lines outside a terminal."""
     if not sys.stderr.isatty():
-        with _Lines(what, _COMPILES) as lines:
-            yield lines.update
+        with _lines(what, _COMPILES) as update:
+            yield lambda done, total: update(done, total, None)
         return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
@@ -181,42 +179,35 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None] | None]:
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
     with Leftover(_show_cursor), Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task(what, total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)
 
-        def update(done: int, total: int) -> None:
-            bar.update(task, completed=done, total=total)
 
+@contextmanager
+def _lines(what: str, hint: str) -> Iterator[Callable[[int, int, float | None], None]]:
+    """Yield a function that notes (done, in all, seconds left if known); plain lines on stderr tell of it."""
+    done, total, left = 0, 0, None
+    ended = threading.Event()
+
+    def update(now: int, whole: int, seconds: float | None) -> None:
+        nonlocal done, total, left
+        done, total, left = now, whole, seconds
+
+    def tell() -> None:
+        began, due, told = time.monotonic(), FIRST_LINE, f"; {hint}"
+        while not ended.wait(began + due - time.monotonic()):
+            counted = f"{done} of {total} done" if total else "still working"
+            rest = told if left is None else f"; about {duration(left)} left"
+            say(f"{what}: {counted} after {duration(due)}{rest}")
+            due, told = 2.0 * due, ""
+
+    # A thread, because the first programs compile for a minute before the work calls `update`.
+    teller = threading.Thread(target=tell, daemon=True)
+    teller.start()
+    try:
         yield update
-
-
-class _Lines:
-    """Plain lines on stderr that tell how far long work is, for a log or another program."""
-
-    def __init__(self, what: str, hint: str) -> None:
-        self._what, self._hint, self._done, self._total = what, hint, 0, 0
-        self._left: float | None = None
-        self._ended = threading.Event()
-        # A thread, because the first programs compile for a minute before the work calls `update`.
-        self._teller = threading.Thread(target=self._tell, daemon=True)
-
-    def __enter__(self) -> _Lines:
-        self._teller.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self._ended.set()
-        self._teller.join()
-
-    def update(self, done: int, total: int, left: float | None = None) -> None:
-        """Note how much is done, of how much, and the seconds that are left, if known; then the hint is over."""
-        self._done, self._total, self._left = done, total, left
-
-    def _tell(self) -> None:
-        began, due, hint = time.monotonic(), FIRST_LINE, f"; {self._hint}"
-        while not self._ended.wait(began + due - time.monotonic()):
-            counted = f"{self._done} of {self._total} done" if self._total else "still working"
-            left = hint if self._left is None else f"; about {duration(self._left)} left"
-            say(f"{self._what}: {counted} after {duration(due)}{left}")
-            due, hint = 2.0 * due, ""
+    finally:
+        ended.set()
+        teller.join()
 
 
 def _show_cursor() -> None:
@@ -228,8 +219,8 @@ def _show_cursor() -> None:
 def study_bar() -> Iterator[Callable[[Tally], None]]:
     """Yield a function that shows a study's tally on stderr: in a bar, or in a few lines outside a terminal."""
     if not sys.stderr.isatty():
-        with _Lines("points", FIRST_POINT) as lines:
-            yield lambda tally: lines.update(tally.done, tally.total, tally.seconds_left)
+        with _lines("points", FIRST_POINT) as update:
+            yield lambda tally: update(tally.done, tally.total, tally.seconds_left)
         return
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
@@ -240,15 +231,14 @@ def study_bar() -> Iterator[Callable[[Tally], None]]:
     with Leftover(_show_cursor), Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("", total=None)
 
-        def update(tally: Tally) -> None:
+        def show(tally: Tally) -> None:
             left = tally.seconds_left
             parts = [f"{tally.count(status)} {status.replace('-', ' ')}" for status in (CERTIFIED, *UNCERTIFIED)]
-            parts += [f"{tally.failed} failed"]
-            parts += [FIRST_POINT] if not tally.here else [pace(tally.rate)]
+            parts += [f"{tally.failed} failed", pace(tally.rate) if tally.here else FIRST_POINT]
             parts += [] if left is None else [f"about {duration(left)} left"]
             bar.update(task, completed=tally.done, total=tally.total, description=", ".join(parts))
 
-        yield update
+        yield show
 
 
 def duration(seconds: float) -> str:

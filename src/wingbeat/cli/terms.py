@@ -71,20 +71,15 @@ def _print(record: dict[str, Any]) -> None:
     for head in (*_HEADS, *(f"{name}\n[W]" for name in _SPENT)):
         table.add_column(head, justify="right", no_wrap=True)
     for point in record["points"]:
-        table.add_row(*_cells(point))
+        beat, shown = point["wingbeat"], [point["status"], *("-" for _ in (*_HEADS[2:], *_SPENT))]
+        if beat is not None:
+            numbers = beat["frequency"], math.degrees(beat["flap_amplitude"]), point["mean_actuator_power"]
+            numbers += tuple(point["spent"][name] for name in _SPENT)
+            shown = [str(point["family"] + 1), *(f"{value:.3g}" for value in numbers)]
+        table.add_row(f"{point['share']:g}", *shown)
     console.print(table)
     console.print("power: mean total of all actuators; the columns to its right show what it is spent on")
     for mark in record["marks"]:
         console.print(f"share {mark['lower']:g} to {mark['upper']:g}: {mark['what']}")
     told = "one family of wingbeats is best" if record["same_family"] else "no single family of wingbeats is best"
     console.print(f"{told} from share {record['points'][0]['share']:g} to {record['points'][-1]['share']:g}")
-
-
-def _cells(point: dict[str, Any]) -> list[str]:
-    share = f"{point['share']:g}"
-    if point["wingbeat"] is None:
-        return [share, point["status"], *("-" for _ in range(len(_HEADS) + len(_SPENT) - 2))]
-    beat = point["wingbeat"]
-    numbers = (beat["frequency"], math.degrees(beat["flap_amplitude"]), point["mean_actuator_power"])
-    spent = (point["spent"][name] for name in _SPENT)
-    return [share, str(point["family"] + 1), *(f"{value:.3g}" for value in (*numbers, *spent))]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Annotated, Any
 
 from rich.console import Console
@@ -15,10 +14,7 @@ from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import print_json, progress_bar
 from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.outputs import check_quantities
-from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import named_objective
-from wingbeat.orbits.problem.quantity import Quantity
-from wingbeat.orbits.uncertainty import ErrorBar
 from wingbeat.results.orbit import solve_orbit
 from wingbeat.results.sensitivities import (
     QUANTITIES,
@@ -68,7 +64,10 @@ def uncertainty(
     faults, fit = FaultList(), model.fit()
     check_draws(faults, problem, samples, share, fit)
     faults.raise_if_any()
-    known = _known(problem, _DEFAULT if quantities is None else quantities)
+    named = map(named_objective, _DEFAULT if quantities is None else quantities)
+    known = list({quantity.name: quantity for quantity in named}.values())  # each once
+    if unknown := check_quantities(known, problem.aero.strips, problem.vehicle.drive):
+        raise InvalidInputError(unknown)
     with progress_bar(f"{problem.species.name} at {speed:g} m/s") as progress:
         orbit = solve_orbit(problem, seed=seed, progress=progress)
     if orbit.status is not Status.CONVERGED:
@@ -76,19 +75,15 @@ def uncertainty(
         return EXIT_NOT_CERTIFIED
     slopes = sensitivities(orbit, known)
     names = [quantity.name for quantity in known]
-    if not json:
-        _announce([slopes.error_bar(name, fit, share) for name in names], samples)
+    if not json:  # before the draws, so that a run that is stopped leaves an answer
+        console = Console(stderr=True)
+        console.print(f"To first order, not yet checked by {samples} draws:")
+        for name in names:
+            told = in_words(slopes.error_bar(name, fit, share))
+            console.print(f"  {told}", markup=False, highlight=False, soft_wrap=True)
+    processes = max(1, min(core_count(), samples // 200))  # one takes as long to start as some hundred draws
     with progress_bar(f"{samples} draws") as progress:
-        found = uncertainty_by_samples(
-            slopes,
-            names,
-            samples=samples,
-            seed=seed,
-            fit=fit,
-            share=share,
-            processes=_processes(samples),
-            progress=progress,
-        )
+        found = uncertainty_by_samples(slopes, names, samples, seed, fit, share, processes, progress)
     if json:
         print_json({name: _plain(one) for name, one in found.items()})
     else:
@@ -97,49 +92,25 @@ def uncertainty(
     return EXIT_GOOD
 
 
-def _announce(bars: Sequence[ErrorBar], samples: int) -> None:
-    """Print the first-order error bars before the draws, so that a run that is stopped leaves an answer."""
-    console = Console(stderr=True)
-    console.print(f"To first order, not yet checked by {samples} draws:")
-    for bar in bars:
-        console.print(f"  {in_words(bar)}", markup=False, highlight=False, soft_wrap=True)
-
-
-def _known(problem: OrbitProblem, names: Sequence[str]) -> list[Quantity]:
-    """Return the quantities of these names, each once; refuse those that the vehicle does not have."""
-    known = list({quantity.name: quantity for quantity in map(named_objective, names)}.values())
-    faults = check_quantities(known, problem.aero.strips, problem.vehicle.drive)
-    if faults:
-        raise InvalidInputError(faults)
-    return known
-
-
-def _processes(samples: int) -> int:
-    """Return how many processes are worth starting; starting one takes as long as solving some hundred draws."""
-    return max(1, min(core_count(), samples // 200))
-
-
 def _plain(one: Comparison) -> dict[str, Any]:
-    bar = one.first_order
-    told = bar._asdict() if one.first_order_holds else bar.ranked()
-    plain = one._asdict() | {"first_order": told, "first_order_holds": one.first_order_holds}
-    plain |= {"limited": one.limited._asdict()}
-    return plain | {"stable": None if one.stable is None else one.stable.record()}
+    holds = one.first_order_holds
+    told = one.first_order._asdict() if holds else one.first_order.ranked()
+    stable = None if one.stable is None else one.stable.record()
+    plain = one._asdict() | {"first_order": told, "first_order_holds": holds}
+    return plain | {"limited": one.limited._asdict(), "stable": stable}
 
 
 def _print(one: Comparison, console: Console) -> None:
     bar = one.first_order
     name = bar.quantity.replace("_", " ")
     shown = one.limited.shown(one.mean, one.deviation, bar.unit)
-    rows = [(f"{name}, {one.certified} of {one.drawn} certified", shown)]
     if one.first_order_holds and bar.ranking:
-        rows[:0] = [
-            (f"{name}, first order", in_words(bar).removeprefix(f"{name} ")),
-            ("  mean over the ranges", written(bar.value + bar.shift, bar.deviation, bar.unit)),
-        ]
+        rows = [(f"{name}, first order", in_words(bar).removeprefix(f"{name} "))]
+        rows += [("  mean over the ranges", written(bar.value + bar.shift, bar.deviation, bar.unit))]
     else:
         label = "first order (ranking only)" if bar.ranking else "of the orbit"
-        rows.insert(0, (f"{name}, {label}", ranked_in_words(bar).removeprefix(f"{name} ")))
+        rows = [(f"{name}, {label}", ranked_in_words(bar).removeprefix(f"{name} "))]
+    rows.append((f"{name}, {one.certified} of {one.drawn} certified", shown))
     if one.deviation and not one.limited.most:
         rows += [
             ("  standard error of that deviation", written(one.standard_error, unit=bar.unit, digits=2)),

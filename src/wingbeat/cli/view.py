@@ -49,21 +49,18 @@ def view(
     check_outputs(output)
     flights = [(path.stem, load_dataset(path, "orbit", "flight")) for path in (file, other) if path is not None]
     if suffix == ".html":
-        write_page(flights, output, _pushes(file, delay or 0) if push else ())
+        pushes: tuple[Push, ...] = ()
+        if push:
+            from wingbeat.stability.gust_flights import fly_pushes
+
+            orbit = saved_orbit(file)
+            try:
+                pushes = fly_pushes(orbit, delay or 0)
+            except InvalidInputError as error:  # no feedback holds the orbit
+                pushes = fly_pushes(orbit, None)  # refuses an orbit that is not certified
+                print(f"flights with feedback are left out: {error}", file=sys.stderr)
+        write_page(flights, output, pushes)
     else:
         with progress_bar("frames") as progress:
             animate(flights, output, progress)
     print(f"wrote {output}", file=sys.stderr)
-
-
-def _pushes(file: Path, delay: int) -> tuple[Push, ...]:
-    """Return the disturbed flights of a saved orbit; without feedback if no feedback holds the orbit."""
-    from wingbeat.stability.gust_flights import fly_pushes
-
-    orbit = saved_orbit(file)
-    try:
-        return fly_pushes(orbit, delay)
-    except InvalidInputError as error:
-        flown = fly_pushes(orbit, None)  # refuses an orbit that is not certified
-        print(f"flights with feedback are left out: {error}", file=sys.stderr)
-        return flown

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 from wingbeat._base import InvalidInputError, cf, for_people, harmonic_place, plain_unit
 from wingbeat.aero.blade_element import BladeElement
 from wingbeat.animal.kinematics import ANGLES, parameter, with_parameters
-from wingbeat.animal.vehicle import Tail
 from wingbeat.orbits.flight.period import LIFT, MOMENT, PATH_NAMES, THRUST
 from wingbeat.orbits.options import DEFAULTS, ChangeOptions
 from wingbeat.orbits.problem.parameters import Place, with_number
@@ -44,7 +43,8 @@ def on_and_off(problem: OrbitProblem, name: str) -> tuple[float, float, str]:
 def without_term(problem: OrbitProblem, name: str) -> OrbitProblem:
     """Return the problem without one of its terms."""
     if name == TAIL:
-        return _with_tail(problem, None)
+        vehicle = dataclasses.replace(problem.vehicle, tail=None)
+        return dataclasses.replace(problem, species=problem.species.with_record(vehicle))
     aero = dataclasses.replace(
         problem.aero,
         **{name: _OFF[name]},
@@ -63,7 +63,7 @@ def with_trace_of(problem: OrbitProblem, name: str, trace: float) -> OrbitProble
     if name == TAIL:
         tail = problem.vehicle.tail
         assert tail is not None
-        return _with_tail(problem, dataclasses.replace(tail, area=trace * tail.area))
+        return with_number(problem, ("species", "vehicle", "tail", "area"), trace * tail.area)
     if name == HAND:
         return None
     if name == UPSTROKE:
@@ -73,11 +73,6 @@ def with_trace_of(problem: OrbitProblem, name: str, trace: float) -> OrbitProble
     else:  # the share of the unsteady terms multiplies the induced factor, too
         changed = {"share": trace, "induced_factor": aero.share * aero.induced_factor / trace}
     return dataclasses.replace(problem, aero=dataclasses.replace(aero, **changed))
-
-
-def _with_tail(problem: OrbitProblem, tail: Tail | None) -> OrbitProblem:
-    vehicle = dataclasses.replace(problem.vehicle, tail=tail)
-    return dataclasses.replace(problem, species=problem.species.with_record(vehicle))
 
 
 def words_without(problem: OrbitProblem, name: str, frequency: float) -> str:

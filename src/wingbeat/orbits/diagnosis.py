@@ -6,7 +6,6 @@ this number is one more unknown.
 
 from __future__ import annotations
 
-import dataclasses
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -34,8 +33,7 @@ from wingbeat.orbits.flight.period import PATH_NAMES
 from wingbeat.orbits.nlp.newton_kkt import Corrected, certified, correct, first_certified
 from wingbeat.orbits.nlp.transcription import Candidate, Programme, Transcription, refine, search
 from wingbeat.orbits.options import SolverOptions, Status
-from wingbeat.orbits.problem.quantities import QUANTITIES, Frequency
-from wingbeat.orbits.starts import is_at_lower_bound, start_point, starts_in_words
+from wingbeat.orbits.starts import is_at_lower_bound, plainly, start_point, starts_in_words
 
 if TYPE_CHECKING:
     from wingbeat.orbits.problem.problem import OrbitProblem
@@ -359,11 +357,8 @@ def without_orbit(
         raised = from_raised_bound(programme)
         if raised is not None:
             return _below(programme, *raised)
-    plainly = programme  # with an objective that needs no epigraph variable
-    if programme.has_epigraph:
-        objective = Frequency() if "frequency" in problem.free else QUANTITIES["mean_positive_power"]
-        plainly = Transcription(dataclasses.replace(problem, minimise=objective), options)
-    changes = least_changes(plainly, near, nearest, threads, report) if advise and not nearest.closes else []
+    plain = Transcription(plainly(problem), options) if programme.has_epigraph else programme
+    changes = least_changes(plain, near, nearest, threads, report) if advise and not nearest.closes else []
     # If a negligible change suffices, the local searches missed an orbit.
     negligible = options.diagnosis.negligible_change
     leads = [near] * nearest.closes + [least.unknowns for least in changes if least.share <= negligible]
@@ -375,7 +370,7 @@ def without_orbit(
         return _uncertified(closing, len(found))
     if nearest.closes:
         return certified(programme.uncorrected(), nearest.scaled), _no_optimum("almost closed", len(found))
-    flying = certified_changes(plainly, changes)
+    flying = certified_changes(plain, changes)
     message = (
         f"no orbit within the bounds from {starts_in_words(len(found))}: {words_of(programme, nearest.deficits)}"
     )
@@ -383,7 +378,7 @@ def without_orbit(
         message += f"; the smallest single changes that give an orbit: {', or '.join(r.text for r in flying)}"
     elif advise:
         message += "; no single change of a bound, a limit, the mass, the speed or the shoulder gave an orbit"
-    without = certified_without_terms(plainly, near, threads) if advise else ()
+    without = certified_without_terms(plain, near, threads) if advise else ()
     message = "; ".join([message, *(term.text for term in without)])
     ending = Ending(Status.INFEASIBLE, message, nearest.deficits, (*flying, *without))
     return certified(programme.uncorrected(), nearest.scaled), ending

@@ -116,11 +116,16 @@ def easier(problem: OrbitProblem) -> OrbitProblem:
     frequency, or of least power if the frequency is fixed.
     """
     if minimises_map(problem):
-        objective = Frequency() if "frequency" in problem.free else QUANTITIES["mean_positive_power"]
         stable = Constraint(MAP_QUANTITIES["spectral_radius"], STABLE_RADIUS)
-        return dataclasses.replace(problem, minimise=objective, subject_to=(*problem.subject_to, stable))
+        return dataclasses.replace(plainly(problem), subject_to=(*problem.subject_to, stable))
     others = tuple(c for c in problem.subject_to if not isinstance(c.quantity, MapQuantity))
     return dataclasses.replace(problem, subject_to=others)
+
+
+def plainly(problem: OrbitProblem) -> OrbitProblem:
+    """Return the problem with an objective that is quick to minimise: the frequency, or a power if that is fixed."""
+    objective = Frequency() if "frequency" in problem.free else QUANTITIES["mean_positive_power"]
+    return dataclasses.replace(problem, minimise=objective)
 
 
 def is_at_lower_bound(problem: OrbitProblem, unknowns: np.ndarray, tolerance: float) -> bool:

@@ -26,8 +26,7 @@ from wingbeat.orbits.nlp.transcription import Transcription, certified_beat
 from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
 from wingbeat.orbits.problem.parameters import SIDES, Parameter, bound_of, limit_of
 from wingbeat.orbits.problem.problem import OrbitProblem, Unknowns
-from wingbeat.orbits.problem.quantities import Quantity
-from wingbeat.orbits.problem.quantity import MapQuantity
+from wingbeat.orbits.problem.quantity import MapQuantity, Quantity
 from wingbeat.orbits.solution import correct_guess, search_near
 from wingbeat.orbits.solve import Progress, Settings, find_orbit
 

@@ -23,9 +23,8 @@ from wingbeat._base import FaultList, in_words
 from wingbeat.aero import BladeElement, Feathered
 from wingbeat.animal.species.scaling import BODY_DRAG_AREA
 from wingbeat.animal.species.species import Species
-from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.problem import Choice, OrbitProblem, Origin
 from wingbeat.orbits.problem.quantities import named_objective
-from wingbeat.orbits.problem.words import Choice, Origin
 
 MODELS = ("paper", "animal")
 

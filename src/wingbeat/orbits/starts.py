@@ -123,7 +123,7 @@ def easier(problem: OrbitProblem) -> OrbitProblem:
 
 
 def plainly(problem: OrbitProblem) -> OrbitProblem:
-    """Return the problem with an objective that is quick to minimise: the frequency, or a power if that is fixed."""
+    """Return the problem with a smooth objective: the frequency, or a power if that is fixed."""
     objective = Frequency() if "frequency" in problem.free else QUANTITIES["mean_positive_power"]
     return dataclasses.replace(problem, minimise=objective)
 

@@ -33,10 +33,9 @@ from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Air, Body, Motor, Muscle, Springs, Tail, Vehicle, Wing
 from wingbeat.orbits.options import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.problem import OrbitProblem, origin_from
 from wingbeat.orbits.problem.quantities import Constraint, named_objective, named_quantity
 from wingbeat.orbits.problem.quantity import Quantity
-from wingbeat.orbits.problem.words import origin_from
 
 # Words before the name of a user's function, and after a function that no file can restore.
 OWN = "the user's own"

@@ -23,8 +23,8 @@ from wingbeat._base import (
     plain_unit,
     readable_limit,
 )
+from wingbeat.orbits.problem.problem import loads_in_words, model_rows, place_in_words
 from wingbeat.orbits.problem.quantity import OF_MOTOR, OF_MUSCLE
-from wingbeat.orbits.problem.words import loads_in_words, model_rows, place_in_words
 from wingbeat.records.judgements import SetBy, called, set_by_limit, statements
 
 Rows = list[tuple[str, str]]

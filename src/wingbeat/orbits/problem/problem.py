@@ -6,11 +6,21 @@ import dataclasses
 import functools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base import FaultList, InvalidInputError, Report, Reported, grouped, harmonic_place, suggest
+from wingbeat._base import (
+    NOMENCLATURE,
+    FaultList,
+    InvalidInputError,
+    Report,
+    Reported,
+    for_people,
+    grouped,
+    harmonic_place,
+    suggest,
+)
 from wingbeat.aero import SuFan
 from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, Wingbeat, parameter, with_parameters
@@ -31,7 +41,65 @@ from wingbeat.orbits.problem.quantities import (
     named_objective,
     read_limits,
 )
-from wingbeat.orbits.problem.words import TERMS, Origin, limit_in_words, loads_in_words, model_rows, place_in_words
+
+# --- What a problem says of itself: the model that made it with its choices, and its parts in words. ---
+
+
+class Choice(NamedTuple):
+    """One choice of a model: what is chosen, the choice in words or as a number with its unit, and why."""
+
+    what: str
+    value: str
+    reason: str
+
+
+class Origin(NamedTuple):
+    """The model with which a problem was made."""
+
+    name: str  # ``"paper"`` or ``"animal"``
+    choices: tuple[Choice, ...]
+    # Air loads and parameters of `OrbitProblem` that the user chose differently. Changed numbers of the species are
+    # no part of it: their sources name the change.
+    changed: tuple[str, ...] = ()
+
+    def record(self) -> dict[str, Any]:
+        """Return the origin as lists and texts, for JSON."""
+        choices = [choice._asdict() for choice in self.choices]
+        return {"name": self.name, "choices": choices, "changed": list(self.changed)}
+
+
+def origin_from(record: dict[str, Any]) -> Origin:
+    """Return the origin from `Origin.record`; any other dictionary raises `KeyError` or `TypeError`."""
+    choices = tuple(Choice(**choice) for choice in record["choices"])
+    return Origin(record["name"], choices, tuple(record["changed"]))
+
+
+TERMS = ("unsteady", "inflow")
+
+
+def place_in_words(species: str | None, speed: float | None, climb: float | None) -> str:
+    """Return which species flies, and how fast."""
+    if speed is None:
+        return str(species)
+    (factor, unit), (factor_up, unit_up) = (for_people(NOMENCLATURE[name].unit) for name in ("speed", "climb"))
+    climbing = f", climbing {climb * factor_up:.4g} {unit_up}" if climb else ""
+    return f"{species} at {speed * factor:.4g} {unit}{climbing}"
+
+
+def loads_in_words(aero: Mapping[str, Any]) -> str:
+    """Return the coefficients and the terms of the air loads, from their names in a record."""
+    named = [str(aero[name]) for name in ("coefficients", "extension", "force_point") if name in aero]
+    terms = [f"{aero[name]} {name}" for name in TERMS if name in aero]
+    return ", ".join([*named, *(["full airspeed"] if aero.get("airspeed") == "full" else []), *terms])
+
+
+def model_rows(origin: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Return the name of the model that made the problem, and the choices that the user changed."""
+    changed = [name.replace("_", "-") for name in origin["changed"]]
+    return [("model", origin["name"] + (f"; changed: {', '.join(changed)}" if changed else ""))]
+
+
+# --- The problem. ---
 
 
 @dataclass(frozen=True)
@@ -114,7 +182,10 @@ class OrbitProblem(Reported):
         faults.raise_if_any()
         self._check_asked(faults)
         if named and not faults.faults:
-            self._draw_in(faults)
+            own: Any = self.bounds  # tightened by `subject_to`
+            drawn = drawn_in(self.species, self.free or self.species.free, {**self.species.bounds, **own}, faults)
+            object.__setattr__(self, "bounds", {**own, **drawn})
+            self._limit_plausibly(self.subject_to, faults)
         faults.raise_if_any()
         aero = blade_element_of(self.aero)
         faults.faults.extend(check_quantities(self._quantities(), aero.strips, self.vehicle.drive, self.minimise))
@@ -177,14 +248,8 @@ class OrbitProblem(Reported):
         """Whether a free parameter changes where the wings go, seen from the body."""
         return any(name not in _NOT_OF_THE_STROKE for name in self.free)
 
-    def _draw_in(self, faults: FaultList) -> None:
-        """Narrow the bounds to the plausible ranges, and limit quantities of the beat to theirs."""
-        bounds = {**self.species.bounds, **self.bounds}
-        drawn = drawn_in(self.species, self.free or self.species.free, bounds, faults)
-        object.__setattr__(self, "bounds", {**self.bounds, **drawn})
-        self._limit_plausibly(self.subject_to, faults)
-
     def _limit_plausibly(self, others: Sequence[Any], faults: FaultList) -> None:
+        """Limit quantities of the beat to their plausible ranges, beside other limits."""
         limits = plausible_limits(self.species, self.speed, self.air or self.species.air, faults)
         object.__setattr__(self, "subject_to", (*others, *(one for one in limits if one not in others)))
         object.__setattr__(self, "_plausible_limits", limits)
@@ -238,15 +303,20 @@ class OrbitProblem(Reported):
         named = {"coefficients": aero.coefficients.name, "extension": aero.coefficients.extension}
         named |= {"force_point": aero.force_point, "airspeed": aero.airspeed}
         named |= {name: getattr(aero, name) for name in TERMS if getattr(aero, name) != "none"}
+        limits = []
+        for limit in self.subject_to:
+            factor, unit = for_people(limit.quantity.unit)
+            sign = "<=" if limit.at_most else ">="
+            limits.append(("limit", f"{limit.quantity.name} {sign} {limit.limit * factor:.6g} {unit}".rstrip()))
         rows = [
             ("species, mean speed", place_in_words(self.species.name, self.speed, self.climb)),
             *([] if self.origin is None else model_rows(self.origin.record())),
             ("air loads", loads_in_words(named)),
             ("minimised", self.minimise.name.replace("_", " ")),
-            *(("limit", limit_in_words(limit)) for limit in self.subject_to),
+            *limits,
         ]
         bounds = {name if name not in self.free else f"wingbeat.{name}": b for name, b in self.bounds.items()}
-        cells = [bound_cells(path, limits) for path, limits in bounds.items()]
+        cells = [bound_cells(path, pair) for path, pair in bounds.items()]
         bounded = [(name.removeprefix("wingbeat."), f"{ends} {unit}".rstrip()) for name, ends, unit in cells]
         return [grouped({"orbit problem": rows, "free parameters, and limits along the path": bounded})]
 

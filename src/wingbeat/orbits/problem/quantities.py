@@ -14,7 +14,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from wingbeat._base import NOMENCLATURE, FaultList, InvalidInputError, plain, plain_unit, suggest
+from wingbeat._base import NOMENCLATURE, Fault, FaultList, InvalidInputError, plain, plain_unit, suggest
 from wingbeat._jax.arrays import jnp
 from wingbeat.animal.kinematics import ANGLES, FREE_NAMES
 from wingbeat.orbits.flight.beat import Beat, spread
@@ -210,12 +210,10 @@ def named_quantity(name: str) -> Quantity:
         return SpringPower(*(float(number) for number in found.groups() if number is not None))
     every = QUANTITIES | MAP_QUANTITIES
     if name not in every:
-        faults = FaultList()
         known = f"known quantities are {', '.join(every)}"
         others = f"{known}; power_cost and spring_power take a number, such as power_cost(0.5)"
         fix = suggest(str(name), every, most=1, otherwise=others)
-        faults.add("quantity", name, "is not known to wingbeat", fix)
-        faults.raise_if_any()
+        raise InvalidInputError([Fault("quantity", name, "is not known to wingbeat", fix)])
     return every[name]
 
 
@@ -292,18 +290,15 @@ def parse_constraint(text: str) -> Constraint:
     >>> str(parse_constraint("peak_power <= 30"))
     'peak_power<=30'
     """
-    faults = FaultList()
     found = _EXPRESSION.fullmatch(str(text))
     if found is None:
         fix = "for example peak_power<=30 or 'body_pitch_range <= 10 deg'"
-        faults.add("constraint", text, "must be a quantity, <= or >=, and a number", fix)
-        faults.raise_if_any()
-    assert found is not None
+        raise InvalidInputError([Fault("constraint", text, "must be a quantity, <= or >=, and a number", fix)])
     name, sign, number, degrees = found.groups()
     quantity = named_quantity(name)
     if degrees and quantity.unit != "rad":
-        faults.add("constraint", text, f"gives {name} in degrees, but its unit is {quantity.unit}", "leave out deg")
-    faults.raise_if_any()
+        rule = f"gives {name} in degrees, but its unit is {quantity.unit}"
+        raise InvalidInputError([Fault("constraint", text, rule, "leave out deg")])
     limit = math.radians(float(number)) if degrees else float(number)
     return Constraint(quantity, limit, sign == "<=")
 
@@ -340,13 +335,13 @@ def read_limits(given: Sequence[Any], faults: FaultList) -> tuple[list[WingbeatL
     >>> [str(one) for one in read_limits(["peak_power<=30", "peak_power<=40", "peak_power<=30.0"], FaultList())[1]]
     ['peak_power<=30']
     """
-    parameters: dict[tuple[str, str], WingbeatLimit] = {}
-    quantities: dict[tuple[str, str], Constraint] = {}
+    parameters: dict[tuple[str, str], tuple[float, WingbeatLimit]] = {}
+    quantities: dict[tuple[str, str], tuple[float, Constraint]] = {}
     for i, one in enumerate(given):
         limit = one if isinstance(one, WingbeatLimit) else parse_wingbeat_limit(one)
         if limit is not None:
             if limit.name not in ANGLES or faults.angle(limit.name, limit.value, advice=f"write '{one} deg'"):
-                _add(parameters, (limit.name, limit.sign), limit, limit.value, faults)
+                _add(parameters, (limit.name, limit.sign), limit.value, limit, faults)
             continue
         try:
             constraint = parse_constraint(one) if isinstance(one, str) else one
@@ -355,18 +350,18 @@ def read_limits(given: Sequence[Any], faults: FaultList) -> tuple[list[WingbeatL
             continue
         if isinstance(constraint, Constraint):
             sign = "<=" if constraint.at_most else ">="
-            _add(quantities, (constraint.quantity.name, sign), constraint, constraint.limit, faults)
+            _add(quantities, (constraint.quantity.name, sign), constraint.limit, constraint, faults)
         else:
             faults.add(f"subject_to[{i}]", one, "is not a constraint", "for example 'peak_power<=30'")
-    return list(parameters.values()), list(quantities.values())
+    return [limit for _, limit in parameters.values()], [limit for _, limit in quantities.values()]
 
 
 def _add(
-    kept: dict[tuple[str, str], Any], key: tuple[str, str], limit: Any, value: float, faults: FaultList
+    kept: dict[tuple[str, str], Any], key: tuple[str, str], value: float, limit: Any, faults: FaultList
 ) -> None:
     """Keep a limit unless there is a tighter one on the same side; note one that contradicts another."""
     name, sign = key
-    values = {side: _value(kept[name, side]) for side in ("=", "<=", ">=") if (name, side) in kept}
+    values = {side: kept[name, side][0] for side in ("=", "<=", ">=") if (name, side) in kept}
     if sign == "=" and values.get("=", value) != value:
         faults.add("subject_to", f"{name}={value:g}", f"is fixed at {values['=']:g} too", "keep one of the two")
     elif sign != "=" and (other := values.get(">=" if sign == "<=" else "<=")) is not None:
@@ -375,8 +370,4 @@ def _add(
             rule = f"contradicts {name}{'>=' if sign == '<=' else '<='}{other:g}"
             faults.add("subject_to", f"{name}{sign}{value:g}", rule, "keep one of the two, or exchange the signs")
     if sign not in values or (value < values[sign] if sign == "<=" else value > values[sign]):
-        kept[key] = limit
-
-
-def _value(limit: WingbeatLimit | Constraint) -> float:
-    return limit.value if isinstance(limit, WingbeatLimit) else limit.limit
+        kept[key] = value, limit

@@ -22,8 +22,7 @@ from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.period import PATH_NAMES, SYMMETRY
 from wingbeat.orbits.options import DEFAULTS, Status
-from wingbeat.orbits.problem.plausible import judged_names
-from wingbeat.orbits.problem.quantities import QUANTITIES
+from wingbeat.orbits.problem.quantities import QUANTITIES, judged_names
 from wingbeat.orbits.problem.quantity import drive_numbers
 from wingbeat.records.forms import from_json
 from wingbeat.records.inputs import (

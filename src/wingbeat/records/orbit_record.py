@@ -15,9 +15,8 @@ from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.wing_shape import flap_angles, has_room, lateral_corners
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.options import Status
-from wingbeat.orbits.problem.plausible import judged_names
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.problem.quantities import QUANTITIES
+from wingbeat.orbits.problem.quantities import QUANTITIES, judged_names
 from wingbeat.orbits.problem.quantity import drive_numbers
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.starts import is_at_lower_bound

@@ -30,7 +30,6 @@ from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.flight.period import PATH_NAMES, PITCH_STATE
 from wingbeat.orbits.problem.outputs import check_quantities, value_count
-from wingbeat.orbits.problem.plausible import drawn_in, plausible_limits
 from wingbeat.orbits.problem.quantities import (
     FASTEST,
     FASTEST_CLIMB,
@@ -38,7 +37,9 @@ from wingbeat.orbits.problem.quantities import (
     Frequency,
     Quantity,
     WingbeatLimit,
+    drawn_in,
     named_objective,
+    plausible_limits,
     read_limits,
 )
 

@@ -1,4 +1,4 @@
-"""Quantities of a beat that can be minimised or kept within limits.
+"""Quantities of a beat that can be minimised, limits on them, and the limits of plausible problems.
 
 >>> import wingbeat as wb
 >>> cost = wb.objectives.PowerCost(returned=0.5)
@@ -10,13 +10,16 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from wingbeat._base import NOMENCLATURE, Fault, FaultList, InvalidInputError, plain, plain_unit, suggest
 from wingbeat._jax.arrays import jnp
-from wingbeat.animal.kinematics import ANGLES, FREE_NAMES
+from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, parameter
+from wingbeat.animal.species.numbers import JUDGED, Range
+from wingbeat.animal.species.species import Species
+from wingbeat.animal.vehicle import Air
 from wingbeat.orbits.flight.beat import Beat, spread
 from wingbeat.orbits.problem.quantity import MAP_QUANTITIES, OF_MOTOR, OF_MUSCLE, Quantity, SpringCost
 
@@ -362,12 +365,88 @@ def _add(
     """Keep a limit unless there is a tighter one on the same side; note one that contradicts another."""
     name, sign = key
     values = {side: kept[name, side][0] for side in ("=", "<=", ">=") if (name, side) in kept}
+    opposite = {"<=": ">=", ">=": "<="}.get(sign)
     if sign == "=" and values.get("=", value) != value:
         faults.add("subject_to", f"{name}={value:g}", f"is fixed at {values['=']:g} too", "keep one of the two")
-    elif sign != "=" and (other := values.get(">=" if sign == "<=" else "<=")) is not None:
-        lower, upper = (other, value) if sign == "<=" else (value, other)
-        if lower > upper:
-            rule = f"contradicts {name}{'>=' if sign == '<=' else '<='}{other:g}"
-            faults.add("subject_to", f"{name}{sign}{value:g}", rule, "keep one of the two, or exchange the signs")
+    elif opposite in values and (values[opposite] > value if sign == "<=" else value > values[opposite]):
+        rule = f"contradicts {name}{opposite}{values[opposite]:g}"
+        faults.add("subject_to", f"{name}{sign}{value:g}", rule, "keep one of the two, or exchange the signs")
     if sign not in values or (value < values[sign] if sign == "<=" else value > values[sign]):
         kept[key] = value, limit
+
+
+# --- Plausible problems: bounds narrowed to the species' ranges, and limits on quantities of the beat. ---
+_WAY_OUT = "leave out 'plausible', or correct the range in the species file"
+# A fixed number or the Reynolds number may exceed the end of a range by rounding.
+_ROUNDING = 1e-9
+# A limit is set inside the end of the plausible range, by this share of the end. For three orbits at such a limit
+# (bat at 5 m/s, pigeon at 10 m/s) the record exceeded the limit by a share of at most 7e-5.
+_INSET = 2e-4
+
+
+def judged_names(species: Species, free: Sequence[str]) -> list[str]:
+    """Return what is judged of an orbit: activation where there is muscle, the tail's tilt where a tail tilts."""
+    tilts = species.vehicle.tail is not None and ("tail_tilt" in free or species.wingbeat.tail_tilt != 0)
+    absent = {"peak_activation": species.vehicle.muscle is None, "tail_tilt": not tilts}
+    return [name for name in JUDGED if not absent.get(name)]
+
+
+def drawn_in(
+    species: Species, free: Sequence[str], bounds: Mapping[str, tuple[float, float]], faults: FaultList
+) -> dict[str, tuple[float, float]]:
+    """Return the bounds of free parameters (SI and radians) narrowed to their plausible ranges."""
+    drawn = {}
+    for name in free:
+        known = species.plausible_range(name, 0.0)
+        if known.low is None or known.high is None or name not in bounds:
+            continue
+        pair = max(bounds[name][0], known.low), min(bounds[name][1], known.high)
+        if pair[0] < pair[1]:
+            drawn[name] = pair
+        else:
+            rule = f"does not overlap with the plausible range ({_in_words(known)})"
+            faults.add(f"bounds.{name}", bounds[name], rule, f"widen the bounds, or {_WAY_OUT}")
+    for name in JUDGED:
+        if name in FREE_NAMES and name not in free:
+            value, known = parameter(species.wingbeat, name), species.plausible_range(name, 0.0)
+            if _outside(value, known):
+                rule = f"is fixed outside the plausible range ({_in_words(known)})"
+                faults.add(f"wingbeat.{name}", value, rule, _WAY_OUT)
+    return drawn
+
+
+def plausible_limits(species: Species, speed: float, air: Air, faults: FaultList) -> tuple[Constraint, ...]:
+    """Return the limits that keep quantities of the beat plausible at a speed [m/s]."""
+    limits = []
+    for name in judged_names(species, ()):
+        known = species.plausible_range(name, speed)
+        if name == "reynolds":  # which no wingbeat changes
+            reynolds = air.reynolds(speed, species.vehicle.wing.mean_chord)
+            if speed > 0 and _outside(reynolds, known):
+                rule = (
+                    f"gives a Reynolds number of {reynolds:.3g}, outside the plausible range ({_in_words(known)})"
+                )
+                faults.add("speed", speed, rule, _WAY_OUT)
+        elif name not in FREE_NAMES and not (name == "strouhal" and speed == 0):
+            for end, at_most in ((known.low, False), (known.high, True)):
+                if end is not None:
+                    # The record samples a certified beat at other phases than the solver.
+                    inset = _INSET * (abs(end) or QUANTITIES[name].scale)
+                    limits.append(Constraint(QUANTITIES[name], end - inset if at_most else end + inset, at_most))
+    return tuple(limits)
+
+
+def _outside(value: float, known: Range) -> bool:
+    low = -math.inf if known.low is None else known.low - _ROUNDING * abs(known.low)
+    high = math.inf if known.high is None else known.high + _ROUNDING * abs(known.high)
+    return not low <= value <= high
+
+
+def _in_words(known: Range) -> str:
+    """Return a range in words, angles in degrees: ``19 to 52 deg``."""
+    angle = known.unit == "rad"
+    unit = "" if known.unit == "1" else " deg" if angle else f" {known.unit}"
+    low, high = (None if end is None else math.degrees(end) if angle else end for end in known[:2])
+    if low is None or high is None:
+        return f"at least {low:.4g}{unit}" if high is None else f"at most {high:.4g}{unit}"
+    return f"{low:.4g} to {high:.4g}{unit}"

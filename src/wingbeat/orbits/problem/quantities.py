@@ -111,9 +111,9 @@ def SpringPower(stiffness: float, rest_angle: float | None = None) -> Quantity:
     if rest_angle is not None:
         faults.number("rest_angle", rest_angle, at_least=-math.pi, at_most=math.pi, unit=plain_unit("rest_angle"))
     faults.raise_if_any()
-    numbers = [stiffness] if rest_angle is None else [stiffness, rest_angle]
+    numbers = [float(stiffness)] if rest_angle is None else [float(stiffness), float(rest_angle)]
     name = f"spring_power({','.join(map(_exactly, numbers))})"
-    return Quantity(name, SpringCost(*map(float, numbers)), plain_unit("spring_power"))
+    return Quantity(name, SpringCost(*numbers), plain_unit("spring_power"))
 
 
 def _exactly(number: float) -> str:
@@ -183,11 +183,8 @@ QUANTITIES: dict[str, Quantity] = {
         ),
     )
 }
-
-
 # Short names on the command line.
 _SHORT = {"power": "mean_power", "positive_power": "mean_positive_power"}
-
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
 _POWER_COST = re.compile(rf"power_cost\(({NUMBER})\)")
@@ -423,9 +420,8 @@ def plausible_limits(species: Species, speed: float, air: Air, faults: FaultList
         if name == "reynolds":  # which no wingbeat changes
             reynolds = air.reynolds(speed, species.vehicle.wing.mean_chord)
             if speed > 0 and _outside(reynolds, known):
-                rule = (
-                    f"gives a Reynolds number of {reynolds:.3g}, outside the plausible range ({_in_words(known)})"
-                )
+                there = f"outside the plausible range ({_in_words(known)})"
+                rule = f"gives a Reynolds number of {reynolds:.3g}, {there}"
                 faults.add("speed", speed, rule, _WAY_OUT)
         elif name not in FREE_NAMES and not (name == "strouhal" and speed == 0):
             for end, at_most in ((known.low, False), (known.high, True)):

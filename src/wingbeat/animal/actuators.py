@@ -105,16 +105,13 @@ def best_efficiency(curvature: Any) -> Any:
 
 
 class MotorState(NamedTuple):
-    """A motor's speed [rad/s], torque [N m], current [A], voltage [V] and electrical power [W], shape (K,) each.
+    """What a motor does, shape (K,) each."""
 
-    The torque is that on gear and rotor, without friction; the power is negative where the motor returns power.
-    """
-
-    speed: Series
-    torque: Series
-    current: Series
-    voltage: Series
-    power: Series
+    speed: Series  # [rad/s]
+    torque: Series  # on gear and rotor, without friction [N m]
+    current: Series  # [A]
+    voltage: Series  # [V]
+    power: Series  # electrical [W], negative where the motor returns power
 
 
 def motor_state(motor: Motor, torque: Series, rate: Series, acceleration: Series, frequency: Any) -> MotorState:
@@ -145,14 +142,11 @@ _AHEAD = (45 / 60, -9 / 60, 1 / 60)
 
 
 class Driven(NamedTuple):
-    """Torque [N m], rate [rad/s] and acceleration [rad/s2] that the actuators must provide, shape (K,) each.
+    """What the actuators must provide: sums of both hinges, up positive, in angles of the hinge, shape (K,)."""
 
-    They are those of both hinges, up positive; the actuator's angle is counted as an angle of the flap hinge.
-    """
-
-    torque: Series
-    rate: Series
-    acceleration: Series
+    torque: Series  # [N m]
+    rate: Series  # [rad/s]
+    acceleration: Series  # [rad/s2]
 
 
 def periodic_rate(values: Series, period: Any) -> Series:

@@ -179,9 +179,7 @@ def stroke_phase(wingbeat: Wingbeat, phase: Phases) -> Phases:
 
     If phases are angles from mid-downstroke, an angle alpha becomes theta with ``tan(theta/2) = cot(pi d/2)
     tan(alpha/2)``, where d is the downstroke fraction. Phase d becomes 1/2, and 1 stays 1. This Moebius map of the
-    circle is smooth and increasing for every d.
-
-    Theory: equation ``stroke-phase``.
+    circle is smooth and increasing for every d. Theory: equation ``stroke-phase``.
     """
     if at_default(wingbeat, "downstroke_fraction"):
         return phase
@@ -272,9 +270,7 @@ def tip_twist(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
     """Return the angle that the twist law adds to the pitch at the tip [rad], None if the law is off.
 
     The whole pitch at the tip is this angle plus ``twist_ratio`` times the pitch at the root. At a span fraction
-    s/L, the law adds s/L of the angle.
-
-    Theory: equation ``twist-law``.
+    s/L, the law adds s/L of the angle. Theory: equation ``twist-law``.
     """
     if at_default(wingbeat, "twist_mean") and not wingbeat.twist_harmonics:
         return None
@@ -322,10 +318,6 @@ def _fields(wingbeat: Wingbeat, values: Mapping[str, Any]) -> dict[str, Any]:
 
 def with_parameters(wingbeat: Wingbeat, values: Mapping[str, Any]) -> Wingbeat:
     """Return the wingbeat with some of its numbers changed.
-
-    Raises
-    ------
-    InvalidInputError : numbers that `Wingbeat` refuses.
 
     >>> with_parameters(Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3), {"pitch_cos_2": 0.1}).pitch_harmonics
     (0.1, 0.0)

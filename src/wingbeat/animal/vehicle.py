@@ -106,8 +106,7 @@ class Wing:
         """Mean of the piecewise linear chord along the span [m]."""
         if not isinstance(self.chord, tuple):
             return self.chord
-        inner = sum(self.chord) - 0.5 * (self.chord[0] + self.chord[-1])
-        return inner / (len(self.chord) - 1)
+        return (sum(self.chord) - 0.5 * (self.chord[0] + self.chord[-1])) / (len(self.chord) - 1)
 
 
 @register_record
@@ -195,9 +194,8 @@ class Muscle:
         faults.number("muscle.mass", self.mass, above=0, unit="kg", fix=together)
         faults.number("muscle.elevator_share", self.elevator_share, above=0, at_most=2)
         faults.number("muscle.strain_per_angle", self.strain_per_angle, above=0, unit="1/rad")
-        faults.number(
-            "muscle.max_strain_rate", self.max_strain_rate, above=0, unit="1/s", fix="give lengths per second"
-        )
+        lengths = "give lengths per second"
+        faults.number("muscle.max_strain_rate", self.max_strain_rate, above=0, unit="1/s", fix=lengths)
         faults.number("muscle.isometric_stress", self.isometric_stress, above=0, unit="Pa")
         faults.number("muscle.curvature", self.curvature, above=0, fix="fast muscle has 0.15 to 0.4")
         faults.raise_if_any()
@@ -264,9 +262,8 @@ class Motor:
         faults.number("motor.no_load_current", self.no_load_current, at_least=0, unit="A")
         faults.number("motor.gear_efficiency", self.gear_efficiency, above=0, at_most=1)
         if self.crank not in (0, 1):
-            faults.add(
-                "motor.crank", self.crank, "must be 0 or 1", "give 1 for a crank, 0 for a motor that reverses"
-            )
+            fix = "give 1 for a crank, 0 for a motor that reverses"
+            faults.add("motor.crank", self.crank, "must be 0 or 1", fix)
         faults.raise_if_any()
 
 

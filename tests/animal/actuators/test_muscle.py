@@ -44,10 +44,7 @@ def test_the_metabolic_rate_is_that_of_minetti_and_alexander():
 
 
 @settings(deadline=None, max_examples=50, derandomize=True)
-@given(
-    torque=st.floats(-2.0, 2.0).filter(lambda value: abs(value) > 1e-3),
-    share=st.floats(-0.99, 0.94),
-)
+@given(torque=st.floats(-2.0, 2.0).filter(lambda value: abs(value) > 1e-3), share=st.floats(-0.99, 0.94))
 def test_cost_and_activation_are_those_of_the_pulling_muscle(torque, share):
     """The muscle pulls with the torque's sign; `share` is its speed of shortening over the largest."""
     rate = np.sign(torque) * share * MUSCLE.max_flap_rate

@@ -23,22 +23,7 @@ FIXED = settings(
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 
-BARE = [
-    "0",
-    "-1",
-    "1e308",
-    "5e-324",
-    "1e-320",
-    "nan",
-    "inf",
-    "-inf",
-    "1_0",
-    "0x10",
-    "9" * 400,
-    "0b1",
-    "1.0",
-    "0.3",
-]
+BARE = ["0", "-1", "1e308", "5e-324", "1e-320", "nan", "inf", "-inf", "1_0", "0x10", "9" * 400, "0b1", "1.0", "0.3"]
 ODD = [
     "true",
     '"x"',

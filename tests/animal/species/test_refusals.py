@@ -61,16 +61,8 @@ from wingbeat.animal.species.reading import parse_setting
         ("[vehicle]", "[path]\nbody_pitch_deg = [60, -60]\n[vehicle]", "path.body_pitch_deg"),
         ("[vehicle]", "[alternatives]\nx = 3\n[vehicle]", "alternatives.x"),
         ("[vehicle]", "[alternatives.x]\nwhy = 3\n[vehicle]", "alternatives.x.why"),
-        (
-            "[vehicle]",
-            "[alternatives.x.vehicle.wing]\nmass = -1\n[vehicle]",
-            "alternatives.x.vehicle.wing.mass",
-        ),
-        (
-            "[vehicle]",
-            "[alternatives.x.vehicle.wing]\nmass = 9\n[vehicle]",
-            "alternatives.x.vehicle.wing.mass",
-        ),
+        ("[vehicle]", "[alternatives.x.vehicle.wing]\nmass = -1\n[vehicle]", "alternatives.x.vehicle.wing.mass"),
+        ("[vehicle]", "[alternatives.x.vehicle.wing]\nmass = 9\n[vehicle]", "alternatives.x.vehicle.wing.mass"),
     ],
 )
 def test_one_fault_is_told_once_at_its_place(load: Any, old: str, new: str, where: str) -> None:

@@ -34,14 +34,7 @@ def test_the_two_animals_of_the_paper_and_others_are_built_in() -> None:
     [("pigeon", 0.316, 0.276, 0.279, 0.112, 0, 1.0, 0.5), ("bat", 0.068, 0.0584, 0.30, 0.10, 10, 1.6, 0.5)],
 )
 def test_what_the_paper_gives_is_given(
-    name: str,
-    mass: float,
-    body: float,
-    semi_span: float,
-    chord: float,
-    fold_deg: float,
-    twist: float,
-    wrist: float,
+    name: str, mass: float, body: float, semi_span: float, chord: float, fold_deg: float, twist: float, wrist: float
 ) -> None:
     animal = load_species(name)
     assert animal.numbers["vehicle.mass"].value == mass

@@ -53,7 +53,7 @@ _SHAPES: dict[str, Any] = {
     "cover": Literal[COVERS],
     "colour": Annotated[str, Field(pattern=f"^{COLOUR}$")],
 }
-ADAPTERS = {shape: TypeAdapter(kind, config=ConfigDict(strict=True)) for shape, kind in _SHAPES.items()}
+_ADAPTERS = {shape: TypeAdapter(kind, config=ConfigDict(strict=True)) for shape, kind in _SHAPES.items()}
 
 
 def _bare_or_table(bare: Any, table: type[BaseModel]) -> Any:
@@ -104,8 +104,7 @@ def _table(name: str, fields: dict[str, Any], required: list[str], **extra: Any)
     """
     rules = [{"oneOf": [{"required": [n]} for n in names.split()]} for names in required]
     schema: dict[str, Any] = ({"allOf": rules} if rules else {}) | extra
-    config = ConfigDict(strict=True, extra="forbid", json_schema_extra=schema)
-    return create_model(name, __config__=config, **fields)
+    return create_model(name, __config__=_STRICT | {"json_schema_extra": schema}, **fields)
 
 
 def _leaves(keys: Iterable[Key], kind_of: Callable[[Key], Any]) -> dict[str, Any]:
@@ -209,21 +208,13 @@ def check_shape(raw: dict[str, Any], faults: FaultList) -> None:
         _translate(error, "", faults)
 
 
-def check_value(key: Key, where: str, value: Any, faults: FaultList) -> bool:
-    """Note a fault unless `value` has the shape of `key`; return whether it has."""
+def has_shape(shape: str, value: Any, where: str = "", faults: FaultList | None = None) -> bool:
+    """Return whether a value has one of the shapes of a `Key`; note what is wrong with it if faults are wanted."""
     try:
-        ADAPTERS[key.shape].validate_python(value)
+        _ADAPTERS[shape].validate_python(value)
     except ValidationError as error:
-        _translate(error, where, faults)
-        return False
-    return True
-
-
-def has_shape(shape: str, value: Any) -> bool:
-    """Return whether a value has one of the shapes of a `Key`."""
-    try:
-        ADAPTERS[shape].validate_python(value)
-    except ValidationError:
+        if faults is not None:
+            _translate(error, where, faults)
         return False
     return True
 
@@ -243,40 +234,35 @@ def _translate(error: ValidationError, where: str, faults: FaultList) -> None:
         faults.add("file", Shown(f"{len(found)} faults"), "too many to list", "is it a species file?")
 
 
+_RULES = {
+    "missing": ("must be given", ""),
+    "extra_forbidden": ("is not a known key", ""),
+    "float_type": ("must be a number", ""),
+    "finite_number": ("must be finite", ""),
+    "string_type": ("must be a text", "put it in quotes"),
+    "string_pattern_mismatch": NO_COLOUR,
+    "string_too_short": ("must not be empty", ""),
+    "bool_type": ("must be true or false", ""),
+    "list_type": ("must be a list of numbers", ""),
+    "model_type": ("must be a table", ""),
+    "dict_type": ("must be a table", ""),
+}
+
+
 def rule_of(kind: str, value: Any, context: dict[str, Any]) -> tuple[str, str]:
     """Return the rule and the fix for one of pydantic's kinds of error."""
     match kind:
-        case "missing":
-            return "must be given", ""
-        case "extra_forbidden":
-            return "is not a known key", ""
         case "float_type" if isinstance(value, int) and not isinstance(value, bool):
             return "is too large a number", ""
         case "float_type" if isinstance(value, str):
             return "must be a number", "write the number without quotes; its unit goes into unit = ..."
-        case "float_type":
-            return "must be a number", ""
-        case "finite_number":
-            return "must be finite", ""
-        case "string_type":
-            return "must be a text", "put it in quotes"
-        case "string_pattern_mismatch":
-            return NO_COLOUR
-        case "string_too_short":
-            return "must not be empty", ""
-        case "bool_type":
-            return "must be true or false", ""
         case "literal_error":
             return f"must be one of {context['expected']}".replace("'", ""), ""
-        case "list_type":
-            return "must be a list of numbers", ""
-        case "too_short" | "too_long":
-            least, most = context.get("min_length"), context.get("max_length")
-            size = f"at least {least}" if kind == "too_short" else f"at most {most}"
-            return f"must hold {size} numbers", ""
-        case "model_type" | "dict_type":
-            return "must be a table", ""
-    return f"does not match the schema ({kind})", ""
+        case "too_short":
+            return f"must hold at least {context.get('min_length')} numbers", ""
+        case "too_long":
+            return f"must hold at most {context.get('max_length')} numbers", ""
+    return _RULES.get(kind, (f"does not match the schema ({kind})", ""))
 
 
 def _known_keys(loc: tuple[Any, ...]) -> list[str]:
@@ -293,5 +279,5 @@ def _known_keys(loc: tuple[Any, ...]) -> list[str]:
     paths = [path for key in (*KEYS, *SHAPE, *LOOKS, *FREE, *PLAUSIBLE, *PATH) for path in key.spellings]
     if not place:
         return list(SpeciesFile.model_fields)
-    depth = len(place)
-    return list(dict.fromkeys(p.split(".")[depth] for p in paths if p.split(".")[:depth] == place))
+    parts = [path.split(".") for path in paths]
+    return list(dict.fromkeys(part[len(place)] for part in parts if part[: len(place)] == place))

@@ -23,7 +23,7 @@ from wingbeat.animal.species.building import (
     plain,
 )
 from wingbeat.animal.species.deriving import BAT, BIRD, ROBOT, Kind, bat_beat, derive, single
-from wingbeat.animal.species.file_schema import check_value
+from wingbeat.animal.species.file_schema import has_shape
 from wingbeat.animal.species.numbers import (
     DEFAULT,
     KEYS,
@@ -290,13 +290,9 @@ def _species(
 def _check_size(size: dict[str, Any], faults: FaultList) -> None:
     mass, span, area = size.values()
     faults.number("mass", mass, at_least=1e-6, at_most=1e3, unit="kg", fix="give the whole mass in kg")
-    known = faults.number(
-        "wing_span", span, at_least=1e-3, at_most=1e2, unit="m", fix="give the span tip to tip in m"
-    )
-    if (
-        not faults.number("wing_area", area, above=0, unit="m2", fix="give the area of both wings in m2")
-        or not known
-    ):
+    tips, both = "give the span tip to tip in m", "give the area of both wings in m2"
+    known = faults.number("wing_span", span, at_least=1e-3, at_most=1e2, unit="m", fix=tips)
+    if not faults.number("wing_area", area, above=0, unit="m2", fix=both) or not known:
         return
     if area > span * span:
         faults.add("wing_area", area, f"is larger than the square of the span, {span * span:g} m2", "use m and m2")
@@ -311,7 +307,7 @@ def _put(numbers: Numbers, name: str, value: Any, size: dict[str, Any], faults: 
         faults.add(spoken(name), shown(value), "is not a number of a species", suggest(name, _MEASURED))
         return
     path, key = _MEASURED[name]
-    if not check_value(key, name, value, faults):
+    if not has_shape(key.shape, value, name, faults):
         return
     if key.path in numbers:
         faults.add(name, shown(value), f"is given as {numbers.written[key.path][0]} too", "keep one of the two")

@@ -74,11 +74,8 @@ def read_species_text(text: str, label: str, name: str, faults: FaultList) -> Sp
     """
     raw = parse_toml(text, label)
     check_shape(raw, faults)
-    result = SpeciesText(name)
-    result.name = _line(raw.get("name")) or name
-    result.common_name = _line(raw.get("common_name"))
-    result.scientific_name = _line(raw.get("scientific_name"))
-    result.kind = kind if (kind := raw.get("kind")) in KINDS else ""
+    own, common, scientific = (_line(raw.get(part)) for part in ("name", "common_name", "scientific_name"))
+    result = SpeciesText(own or name, common, scientific, raw["kind"] if raw.get("kind") in KINDS else "")
     result.numbers = _numbers(raw, (), faults)
     _note_missing(raw, faults)
     result.free = _bounds(raw, FREE, result.written, faults)
@@ -88,9 +85,8 @@ def read_species_text(text: str, label: str, name: str, faults: FaultList) -> Sp
     alternatives = raw.get("alternatives")
     for other, content in (alternatives if isinstance(alternatives, dict) else {}).items():
         if isinstance(content, dict):
-            reason = content.get("reason")
             numbers = _numbers(content, ("alternatives", other), faults)
-            result.alternatives[other] = Alternative(_line(reason), numbers)
+            result.alternatives[other] = Alternative(_line(content.get("reason")), numbers)
     return result
 
 

@@ -115,9 +115,7 @@ BIRD_WING_MASS = _law("bird_wing_mass", "0.0706 m^1.098", lambda mass: 0.0706 * 
 BAT_WING_MASS = _law("bat_wing_mass", "0.07 m", lambda mass: 0.07 * mass)
 ROBOT_WING_MASS = _law("robot_wing_mass", "0.042 m", lambda mass: 0.5 * (0.103 - 0.0943) / 0.103 * mass)
 BIRD_FLAP_INERTIA = _law(
-    "bird_flap_inertia",
-    "0.118 (m_w l^2)^1.040",
-    lambda wing_mass, length: 0.118 * (wing_mass * length**2) ** 1.040,
+    "bird_flap_inertia", "0.118 (m_w l^2)^1.040", lambda wing_mass, length: 0.118 * (wing_mass * length**2) ** 1.040
 )
 BAT_FLAP_INERTIA = _law(
     "bat_flap_inertia",
@@ -254,9 +252,7 @@ def muscle_numbers(mass: float, bat: bool = False) -> dict[str, Number]:
 _HALF = math.tan(0.5 * math.radians(60))
 TAIL_LENGTH = _law("tail_length", "0.1364 m^0.2209", lambda mass: 0.1364 * mass**0.2209)
 TAIL_AREA = _law(
-    "tail_area",
-    "l^2 tan(60 deg / 2), tail length l = 0.1364 m^0.2209",
-    lambda mass: _HALF * TAIL_LENGTH(mass) ** 2,
+    "tail_area", "l^2 tan(60 deg / 2), tail length l = 0.1364 m^0.2209", lambda mass: _HALF * TAIL_LENGTH(mass) ** 2
 )
 TAIL_ARM = _law(
     "tail_arm",

@@ -107,12 +107,19 @@ class Shape:
         object.__setattr__(self, "numbers", numbers)
 
     def _check_edges(self, faults: FaultList) -> None:
-        edges = [getattr(self, name) for name in _STAND_IN]
-        if not all([_is_edge(f"shape.{name}", getattr(self, name), faults) for name in _STAND_IN]):
+        sound, leading, trailing = True, self.leading_edge, self.trailing_edge
+        for name, edge in zip(_STAND_IN, (leading, trailing), strict=True):
+            where = f"shape.{name}"
+            if not isinstance(edge, list | tuple) or len(edge) < 2:
+                fix = "give it at equally spaced stations from root to tip"
+                faults.add(where, edge, "must hold at least 2 numbers", fix)
+                sound = False
+            elif all([faults.number(f"{where}[{i}]", p, at_least=-100, at_most=100) for i, p in enumerate(edge)]):
+                object.__setattr__(self, name, tuple(float(place) for place in edge))
+            else:
+                sound = False
+        if not sound:
             return
-        for name, edge in zip(_STAND_IN, edges, strict=True):
-            object.__setattr__(self, name, tuple(float(place) for place in edge))
-        leading, trailing = edges
         if len(leading) != len(trailing):
             rule = f"has {len(trailing)} stations, the leading edge {len(leading)}"
             faults.add("shape.trailing_edge", trailing, rule, "give both edges at the same stations")
@@ -137,14 +144,6 @@ class Shape:
         plain = {one.name: getattr(self, one.name) for one in dataclasses.fields(self) if one.name != "numbers"}
         edges = {name: list(plain[name]) for name in _STAND_IN}
         return {**plain, **edges, "colours": dict(self.colours), "schematic": self.schematic}
-
-
-def _is_edge(where: str, edge: Any, faults: FaultList) -> bool:
-    if not isinstance(edge, list | tuple) or len(edge) < 2:
-        fix = "give it at equally spaced stations from root to tip"
-        faults.add(where, edge, "must hold at least 2 numbers", fix)
-        return False
-    return all([faults.number(f"{where}[{i}]", place, at_least=-100, at_most=100) for i, place in enumerate(edge)])
 
 
 def shape_of(text: ShapeText | None, faults: FaultList) -> Shape | None:

@@ -23,7 +23,7 @@ from wingbeat.animal.species.building import (
     plain,
     settable,
 )
-from wingbeat.animal.species.file_schema import check_value
+from wingbeat.animal.species.file_schema import has_shape
 from wingbeat.animal.species.numbers import (
     KEYS,
     Alternative,
@@ -145,7 +145,7 @@ class Species(Reported):
         for path, value in values.items():
             value = plain(value)
             key = settable(path, value, faults)
-            if key is None or not check_value(key, path, value, faults):
+            if key is None or not has_shape(key.shape, value, path, faults):
                 continue
             if key.path in given:
                 other = given.written[key.path][0]

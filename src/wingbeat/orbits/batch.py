@@ -9,7 +9,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import time
-from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -222,38 +222,26 @@ def _in_order(
     processes: int,
     progress: Progress | None,
 ) -> Iterator[Solution]:
-    """Solve group by group, and yield each solution when its turn comes."""
+    """Solve first what each group solves first, then all parts; yield each solution when its turn comes."""
     work = solve if processes == 1 else functools.partial(_all_of, solve)
+    learned: list[list[Known]] = [[] for _ in groups]
+    first = [(group.first, known) for group, known in zip(groups, learned, strict=True)]
+    rest = [(part, known) for group, known in zip(groups, learned, strict=True) for part in group.parts]
     waiting: dict[int, Solution] = {}
     due = 0
-    with process_map(processes, max(len(groups), sum(len(group.parts) for group in groups))) as over:
-        for index, solution in _by_groups(functools.partial(over, work), problems, groups):
-            waiting[index] = solution
-            if progress is not None:
-                progress(due + len(waiting), len(problems))
-            while due in waiting:
-                yield waiting.pop(due)
-                due += 1
-
-
-def _by_groups(
-    solve: Callable[[list[Part]], Iterator[Iterable[Answer]]],
-    problems: Sequence[OrbitProblem],
-    groups: Sequence[Group],
-) -> Iterator[tuple[int, Solution]]:
-    """Yield index and solution of each problem: first the problems that each group solves first, then the parts."""
-    known: list[list[Known]] = [[] for _ in groups]
-    first = [Part([problems[i] for i in group.first], []) for group in groups]
-    for group, learned, answers in zip(groups, known, solve(first), strict=True):
-        for index, (solution, answer) in zip(group.first, answers, strict=True):
-            if answer is not None:
-                learned.append(answer)
-            yield index, solution
-    rest = [(part, learned) for group, learned in zip(groups, known, strict=True) for part in group.parts]
-    found = solve([Part([problems[i] for i in part], learned) for part, learned in rest])
-    for (part, _), answers in zip(rest, found, strict=True):
-        for index, (solution, _) in zip(part, answers, strict=True):
-            yield index, solution
+    with process_map(processes, max(len(first), len(rest))) as over:
+        for tasks in (first, rest):
+            parts = [Part([problems[i] for i in indices], list(known)) for indices, known in tasks]
+            for (indices, known), answers in zip(tasks, over(work, parts), strict=True):
+                for index, (solution, answer) in zip(indices, answers, strict=True):
+                    if answer is not None:
+                        known.append(answer)
+                    waiting[index] = solution
+                    if progress is not None:
+                        progress(due + len(waiting), len(problems))
+                    while due in waiting:
+                        yield waiting.pop(due)
+                        due += 1
 
 
 def _all_of(solve: Callable[[Part], Iterator[Answer]], part: Part) -> list[Answer]:

@@ -42,8 +42,7 @@ if TYPE_CHECKING:
 
 # --- what a thread of a Dask worker does; it needs no Dask ---
 
-# Packages on which the last digit of a result depends, besides the machine.
-_TOLD = ("jax", "jaxlib", "numpy", "scipy", "diffrax")
+
 # Seconds that a process without work is kept.
 _KEPT = 60.0
 
@@ -61,7 +60,8 @@ class Order(NamedTuple):
 
 def greet() -> tuple[int, dict[str, str]]:
     """Return the numerical version, and the versions of all packages that affect a result's last digits."""
-    versions = {name: importlib.metadata.version(name) for name in _TOLD}
+    packages = ("jax", "jaxlib", "numpy", "scipy", "diffrax")
+    versions = {name: importlib.metadata.version(name) for name in packages}
     return NUMERICAL_VERSION, {"wingbeat": __version__, "Python": platform.python_version(), **versions}
 
 
@@ -125,21 +125,15 @@ def solve_batch(order: bytes) -> Ended:
     try:
         with _crew.lend(asked.work, asked.timeout) as process:
             while True:
-                ended = _solve(asked, process)
+                process.submit(asked.batch, asked.units)
+                while (ended := process.wait(0.2)) is None:
+                    if asked.driver in _crew.gone:
+                        raise ClusterError("the driver has ended")
                 if not process.false_starts:  # else no point is to blame
                     return ended._replace(worker=f"{here} {ended.worker}")
     except WorkerError:
-        fix = "see the log of the Dask worker there"
-        raise ClusterError(f"on {here} no solver process can be started; {fix}") from None
-
-
-def _solve(asked: Order, process: LocalProcesses) -> Ended:
-    process.submit(asked.batch, asked.units)
-    while True:
-        if asked.driver in _crew.gone:
-            raise ClusterError("the driver has ended")
-        if (ended := process.wait(0.2)) is not None:
-            return ended
+        rule = "no solver process can be started; see the log of the Dask worker there"
+        raise ClusterError(f"on {here} {rule}") from None
 
 
 def other_numbers(who: str, theirs: int, ours: int) -> str:
@@ -160,28 +154,19 @@ _CERTIFICATES = tuple(f"DASK_DISTRIBUTED__COMM__TLS__{name}" for name in ("CA_FI
 _LOOPBACK = "127.0.0.1:0"
 
 
-def check_dask(faults: FaultList, where: str, value: Any) -> None:
-    """Note a fault unless `value` is a Dask cluster or the address of one."""
-    if isinstance(value, str):
-        known = _LOCAL.fullmatch(value) or _REMOTE.fullmatch(value)
-    else:
-        known = hasattr(value, "scheduler_address")
-    if not known:
-        fix = "give tcp://HOST:PORT, which `dask scheduler` prints, or local:N for N processes of this machine"
-        faults.add(where, value, "names no Dask cluster", fix)
-
-
 class DaskEngine:
     """The workers of a Dask cluster; each of their threads takes one batch and runs it in a separate process.
 
-    The cluster is ``tcp://HOST:PORT`` of a scheduler, ``local:N`` for one of this machine with N workers, or a Dask
-    cluster object, for example of dask-jobqueue. A process that has work and sends nothing for `timeout` [s] is
-    ended. `told` is called with notices for the user: no workers yet, other versions on the workers.
+    `told` is called with notices for the user: no workers yet, other versions on the workers.
     """
 
     def __init__(self, where: str | Cluster, timeout: float, told: Callable[[str], None]) -> None:
-        faults = FaultList()
-        check_dask(faults, "dask", where)
+        faults, known = FaultList(), hasattr(where, "scheduler_address")
+        if isinstance(where, str):
+            known = _LOCAL.fullmatch(where) or _REMOTE.fullmatch(where)
+        if not known:
+            fix = "give tcp://HOST:PORT, which `dask scheduler` prints, or local:N for N processes of this machine"
+            faults.add("dask", where, "names no Dask cluster", fix)
         faults.raise_if_any()
         self._where = where if isinstance(where, str) else where.scheduler_address
         self._timeout, self._told = timeout, told
@@ -241,7 +226,7 @@ class DaskEngine:
         return ended
 
     def _watch(self, batch: int, future: Future) -> None:
-        """Remember a future, and queue its batch as finished when the future ends; this call does not block."""
+        """Remember a future, and queue its batch as finished when the future ends."""
         self._flying[batch] = future
         future.add_done_callback(lambda _: self._done.put(batch))
 
@@ -344,14 +329,9 @@ def _connect(where: str | Cluster) -> tuple[LocalCluster | None, Client]:
         handler.setLevel(logging.CRITICAL + 1)
     if isinstance(where, str) and (local := _LOCAL.fullmatch(where)):
         # The workers are threads of this process, because each has a process of its own for the work.
-        cluster = distributed.LocalCluster(
-            n_workers=1,
-            threads_per_worker=int(local[1]),
-            processes=False,
-            dashboard_address=_LOOPBACK,
-            worker_dashboard_address=_LOOPBACK,
-            memory_limit=0,
-        )
+        settings: dict[str, Any] = {"n_workers": 1, "threads_per_worker": int(local[1]), "processes": False}
+        settings |= {"dashboard_address": _LOOPBACK, "worker_dashboard_address": _LOOPBACK, "memory_limit": 0}
+        cluster = distributed.LocalCluster(**settings)
         return cluster, distributed.Client(cluster, set_as_default=False)
     if isinstance(where, str):
         # Tried first without a client: one that cannot connect would wait for 20 s when it is deleted.

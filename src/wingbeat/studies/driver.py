@@ -25,27 +25,18 @@ _TRIES = {"crashed": 3, "timeout": 2}
 
 @dataclass
 class Tally:
-    """The progress of a run.
-
-    Parameters
-    ----------
-    total : points of the study.
-    counts : number of points by status.
-    here : number of points that this run has solved.
-    begun : when it began, in seconds of a monotonic clock.
-    first : number of the first points that ended together, and when they ended, on the same clock.
-    """
+    """The progress of a run: points of the study, how many have each status, and how many this run has solved."""
 
     total: int
     counts: dict[str, int]
     here: int = 0
     begun: float = field(default_factory=time.monotonic)
-    first: tuple[int, float] | None = None
+    first: tuple[int, float] | None = None  # how many points ended first, together, and when, on the same clock
 
     @property
     def done(self) -> int:
         """Number of points with a result."""
-        return sum(count for status, count in self.counts.items() if status != "waiting")
+        return sum(self.counts.values()) - self.count("waiting")
 
     def count(self, *statuses: str) -> int:
         """Return the number of points with one of these statuses."""
@@ -77,11 +68,11 @@ class Tally:
     def add(self, outcomes: list[Outcome]) -> None:
         """Count new outcomes of waiting points."""
         for outcome in outcomes:
-            self.counts[outcome.status] = self.counts.get(outcome.status, 0) + 1
+            self.counts[outcome.status] = self.count(outcome.status) + 1
         self.here += len(outcomes)
         if self.first is None and self.here:
             self.first = self.here, time.monotonic()
-        self.counts["waiting"] = self.counts.get("waiting", 0) - len(outcomes)
+        self.counts["waiting"] = self.count("waiting") - len(outcomes)
 
 
 Progress = Callable[[Tally], None]
@@ -100,7 +91,7 @@ class _Queue:
 
     def __init__(self, waiting: Iterator[Waiting], engine: Engine, points: int) -> None:
         self._waiting = waiting
-        self._lost: deque[_Job] = deque()
+        self.lost: deque[_Job] = deque()
         self._engine = engine
         self._left = points
         self._seconds: float | None = None
@@ -111,22 +102,17 @@ class _Queue:
             mean = seconds / points
             self._seconds = mean if self._seconds is None else 0.7 * self._seconds + 0.3 * mean
 
-    def give_back(self, jobs: list[_Job]) -> None:
-        """Put jobs whose process was lost back into the queue, to be sent one by one."""
-        self._lost.extend(jobs)
-
     def take(self) -> list[_Job]:
         """Return the next batch; it is empty if no job waits."""
-        if self._lost:
-            return [self._lost.popleft()]
+        if self.lost:
+            return [self.lost.popleft()]
         # Small batches first, to see how long a point takes; small batches last, so that all processes end
         # together.
         wanted = 1 if self._seconds is None else _BATCH_SECONDS / max(self._seconds, 1e-6)
         wanted = max(1, min(wanted, _MOST, self._left / (2 * self._engine.workers)))
         batch: list[_Job] = []
         while sum(len(job.unit.tasks) for job in batch) < int(wanted):
-            found = next(self._waiting, None)
-            if found is None:
+            if (found := next(self._waiting, None)) is None:
                 break
             batch.append(_Job(found.unit, frozenset(found.wanted)))
             self._left -= len(found.wanted)
@@ -160,7 +146,16 @@ def drive(
                 break
             ended = engine.wait(0.2)
             if ended is not None:
-                _settle(ended, flying.pop(ended.batch), store, jobs, tally, run)
+                batch = flying.pop(ended.batch)
+                jobs.learn(len(ended.outcomes), sum(outcome.seconds for outcome in ended.outcomes))
+                wanted = frozenset().union(*(job.wanted for job in batch))
+                outcomes = [outcome for outcome in ended.outcomes if outcome.key in wanted]
+                if ended.lost is not None:
+                    given_up, again = _after_loss(ended, ended.lost, batch)
+                    outcomes += given_up
+                    jobs.lost.extend(again)
+                store.save(outcomes, ended.worker, 1 + max(job.losses for job in batch), run)
+                tally.add(outcomes)
             if progress is not None:
                 progress(tally)
     finally:
@@ -169,21 +164,8 @@ def drive(
     return tally
 
 
-def _settle(ended: Ended, batch: list[_Job], store: Store, jobs: _Queue, tally: Tally, run: int) -> None:
-    """Save the outcomes of a batch; retry the rest of a lost batch, or give up points that were lost too often."""
-    jobs.learn(len(ended.outcomes), sum(outcome.seconds for outcome in ended.outcomes))
-    wanted = frozenset().union(*(job.wanted for job in batch))
-    outcomes = [outcome for outcome in ended.outcomes if outcome.key in wanted]
-    if ended.lost is not None:
-        given_up, again = _after_loss(ended, batch)
-        outcomes += given_up
-        jobs.give_back(again)
-    store.save(outcomes, ended.worker, 1 + max(job.losses for job in batch), run)
-    tally.add(outcomes)
-
-
-def _after_loss(ended: Ended, batch: list[_Job]) -> tuple[list[Outcome], list[_Job]]:
-    """Return the points to give up, and the jobs to retry.
+def _after_loss(ended: Ended, how: str, batch: list[_Job]) -> tuple[list[Outcome], list[_Job]]:
+    """Return the points to give up, because they were lost too often, and the jobs to retry.
 
     The first point without a report is blamed. If an engine reports no points before a batch ends, each unit is
     first retried in a separate process; only then is a unit blamed.
@@ -201,13 +183,11 @@ def _after_loss(ended: Ended, batch: list[_Job]) -> tuple[list[Outcome], list[_J
             again.append(job._replace(wanted=job.wanted - told))
             continue
         blamed = True
-        if job.losses + 1 < _TRIES[ended.lost or "crashed"]:
+        if job.losses + 1 < _TRIES[how]:
             again.append(job._replace(wanted=job.wanted - told, losses=job.losses + 1))
             continue
-        at_fault = left if not ended.told else left[:1]
-        given_up += [failed(key, ended.lost or "crashed", ended.text) for key in at_fault if key in job.wanted]
-        rest = job.wanted - told - set(at_fault)
-        if rest:
-            unit = job.unit._replace(skip=(*job.unit.skip, *at_fault))
-            again.append(_Job(unit, rest))
+        at_fault = left[:1] if ended.told else left
+        given_up += [failed(key, how, ended.text) for key in at_fault if key in job.wanted]
+        if rest := job.wanted - told - set(at_fault):
+            again.append(_Job(job.unit._replace(skip=(*job.unit.skip, *at_fault)), rest))
     return given_up, again

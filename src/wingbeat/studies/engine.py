@@ -13,12 +13,7 @@ from wingbeat._workers.tuning import cores_of
 from wingbeat.studies.units import Outcome, Unit
 
 # There are as many processes as cores, so each has one thread.
-_ONE_THREAD = {
-    "OMP_NUM_THREADS": "1",
-    "OPENBLAS_NUM_THREADS": "1",
-    "MKL_NUM_THREADS": "1",
-    "VECLIB_MAXIMUM_THREADS": "1",
-}
+_ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("OMP", "OPENBLAS", "MKL")} | {"VECLIB_MAXIMUM_THREADS": "1"}
 # After this many workers in a row that die before they are ready, no more are started: no point is to blame.
 _STARTS = 3
 # If the driver cannot end a worker, the worker ends itself after a silence of this many timeouts plus these
@@ -27,24 +22,14 @@ _BACKSTOP, _BACKSTOP_SECONDS = 2.0, 60.0
 
 
 class Ended(NamedTuple):
-    """How a batch ended.
-
-    Parameters
-    ----------
-    batch : its number.
-    outcomes : outcomes of its points, in order; of a lost batch, those that were reported before it was lost.
-    worker : name of the worker.
-    lost : None, or how the worker ended: ``crashed`` or ``timeout``.
-    text : what is known about the loss.
-    told : whether a worker reports each point as soon as it is solved; if so, the first unreported point of a lost
-        batch is to blame.
-    """
+    """How a batch ended: outcomes of its points, in order; of a lost batch, those that were reported before."""
 
     batch: int
     outcomes: list[Outcome]
     worker: str
-    lost: str | None = None
-    text: str = ""
+    lost: str | None = None  # how the worker ended: `crashed` or `timeout`
+    text: str = ""  # what is known about the loss
+    # Whether a worker reports each point as soon as it is solved; then the first unreported one is to blame.
     told: bool = True
 
 
@@ -63,15 +48,12 @@ class Engine(Protocol):
 
     def submit(self, batch: int, units: list[Unit]) -> None:
         """Take a batch; `wait` later returns its number and how it ended."""
-        ...
 
     def wait(self, seconds: float) -> Ended | None:
         """Return a batch that ended, or None if none ended within `seconds`."""
-        ...
 
     def close(self) -> None:
         """End every worker now, whatever it does."""
-        ...
 
 
 @dataclass(eq=False)
@@ -85,24 +67,12 @@ class _Worker:
     heard: float = 0.0
     ready: bool = False
 
-    @property
-    def name(self) -> str:
-        return f"process {self.process.pid}"
-
 
 class LocalProcesses:
     """Processes on this machine, each a new Python with one thread, which gets its work through pipes of its own.
 
-    They are started when first needed, and end when their pipe closes for any reason.
-
-    Parameters
-    ----------
-    processes : how many.
-    timeout : a worker that has work and sends nothing for this time is ended [s].
-
-    Attributes
-    ----------
-    false_starts : number of consecutive processes that died before they sent a message.
+    They are started when first needed, and end when their pipe closes for any reason. A worker that has work and
+    sends nothing for `timeout` [s] is ended.
     """
 
     # What the processes run; tests put something cheaper in its place.
@@ -115,7 +85,7 @@ class LocalProcesses:
         self._crew: list[_Worker] = []
         self._heard: queue.SimpleQueue[tuple[_Worker, Message | None]] = queue.SimpleQueue()
         self._ended: list[Ended] = []
-        self.false_starts = 0
+        self.false_starts = 0  # consecutive processes that died before they sent a message
 
     @property
     def free(self) -> int:
@@ -199,5 +169,6 @@ class LocalProcesses:
     def _end(self, worker: _Worker, lost: str | None = None, text: str = "") -> None:
         """Report how the batch of a worker ended, if it has one."""
         if worker.batch is not None:
-            self._ended.append(Ended(worker.batch, worker.outcomes, worker.name, lost, text))
+            name = f"process {worker.process.pid}"
+            self._ended.append(Ended(worker.batch, worker.outcomes, name, lost, text))
             worker.batch = None

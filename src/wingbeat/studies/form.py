@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
@@ -10,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Discriminator, Field, Tag, ValidationError
 
-from wingbeat._base import WHOLE, FaultList, is_number, read_text, suggest, toml_tables
+from wingbeat._base import WHOLE, FaultList, is_number, suggest
 from wingbeat.aero.blade_element import OF_ELEMENTS, BladeElement
 from wingbeat.animal.species.file_schema import LIST, MAX_FAULTS, TABLE, dotted, rule_of
 from wingbeat.animal.species.numbers import NOTHING, shown
@@ -47,25 +46,23 @@ _Bounds = Annotated[
 _Values = Annotated[list[Any], _Some]
 
 
+def _key(default: Any, text: str, alias: str | None = None) -> Any:
+    """Return a key that may be left out; if Python already uses its name, the field has another one."""
+    return Field(default=default, description=text, alias=alias)
+
+
 class Vary(BaseModel):
     """The values of one varied parameter, given in exactly one of five ways."""
 
     model_config = _STRICT
-    # If Python already uses a key of the file, the field has another name.
-    grid: _Values | None = Field(
-        default=None, description="these values, each combined with those of the other grids"
+    grid: _Values | None = _key(None, "these values, each combined with those of the other grids")
+    relative: Annotated[list[_Finite], _Some] | None = _key(
+        None, "multiples of the species' own value, combined in the same way as grids"
     )
-    relative: Annotated[list[_Finite], _Some] | None = Field(
-        default=None, description="multiples of the species' own value, combined in the same way as grids"
-    )
-    rows: _Values | None = Field(
-        default=None, alias="list", description="lists are combined row by row and must have equal length"
-    )
-    ends: _Pair | None = Field(
-        default=None, alias="range", description="sampled between the two ends, jointly with all other ranges"
-    )
-    relative_range: _Pair | None = Field(
-        default=None, description="sampled in the same way between two multiples of the species' own value"
+    rows: _Values | None = _key(None, "lists are combined row by row and must have equal length", alias="list")
+    ends: _Pair | None = _key(None, "sampled between the two ends, jointly with all other ranges", alias="range")
+    relative_range: _Pair | None = _key(
+        None, "sampled in the same way between two multiples of the species' own value"
     )
 
     @property
@@ -89,8 +86,8 @@ class Sample(BaseModel):
 
     model_config = _STRICT
     n: int = Field(description="number of points")
-    method: str = Field(default="sobol", description="`sobol` or `latin-hypercube`")
-    seed: int | None = Field(default=None, description="of the sample; default the seed of the study")
+    method: str = _key("sobol", "`sobol` or `latin-hypercube`")
+    seed: int | None = _key(None, "of the sample; default the seed of the study")
 
 
 class StudyForm(BaseModel):
@@ -98,73 +95,49 @@ class StudyForm(BaseModel):
 
     model_config = _STRICT
     species: _Texts = Field(description="names of species, or paths of species files beside the study")
-    model: _Texts = Field(
-        default=["paper"],
-        description="`paper` or `animal`; sets air loads and objective, unless the study gives them",
+    model: _Texts = _key(
+        ["paper"], "`paper` or `animal`; sets air loads and objective, unless the study gives them"
     )
-    aero: _Texts = Field(default=["su-fan"], description="coefficient models: names, or files beside the study")
-    extension: _Texts = Field(
-        default=["mirrored"], description="how coefficients continue outside the angles of the fit"
+    aero: _Texts = _key(["su-fan"], "coefficient models: names, or files beside the study")
+    extension: _Texts = _key(["mirrored"], "how coefficients continue outside the angles of the fit")
+    blend_width_deg: _Numbers = _key([1.0], "half width of the blends where pieces of the coefficients meet [deg]")
+    strips: _Counts = _key([BladeElement.strips], "number of strips of a wing")
+    force_point: _Texts = _key([BladeElement.force_point], "where on the chord the air load acts")
+    airspeed: _Texts = _key([BladeElement.airspeed], "airspeed that determines the loads of a strip")
+    unsteady: _Texts = _key([BladeElement.unsteady], "unsteady terms of the air loads")
+    inflow: _Texts = _key([BladeElement.inflow], "induced flow")
+    induced_factor: _Numbers = _key(
+        [BladeElement.induced_factor], "ratio of induced power to that of an ideal disc"
     )
-    blend_width_deg: _Numbers = Field(
-        default=[1.0], description="half width of the blends where pieces of the coefficients meet [deg]"
+    hand: _Texts = _key([BladeElement.hand], "coefficient models of the hand")
+    hand_from: _Numbers = _key(
+        [BladeElement.hand_from], "fraction of the span at which the hand's coefficients begin"
     )
-    strips: _Counts = Field(default=[BladeElement.strips], description="number of strips of a wing")
-    force_point: _Texts = Field(
-        default=[BladeElement.force_point], description="where on the chord the air load acts"
+    upstroke_factor: _Numbers = _key(
+        [BladeElement.upstroke_factor], "factor on lift and drag where air meets the wing from above"
     )
-    airspeed: _Texts = Field(
-        default=[BladeElement.airspeed], description="airspeed that determines the loads of a strip"
+    speed: _Numbers | None = _key(None, "mean horizontal speeds [m/s]")
+    climb: _Numbers = _key([0.0], "mean vertical speeds [m/s]")
+    payload: _Numbers = _key([0.0], "masses added at the body's centre of mass [kg]")
+    minimise: _Texts = _key(["frequency"], "objectives: names, or functions of a file, such as `mine.py:lift`")
+    subject_to: Annotated[list[list[_Text]], BeforeValidator(_twice_listed)] = _key(
+        [[]], "limits; one list is one set, a list of lists several sets"
     )
-    unsteady: _Texts = Field(default=[BladeElement.unsteady], description="unsteady terms of the air loads")
-    inflow: _Texts = Field(default=[BladeElement.inflow], description="induced flow")
-    induced_factor: _Numbers = Field(
-        default=[BladeElement.induced_factor], description="ratio of induced power to that of an ideal disc"
+    starts: _Counts | None = _key(None, "numbers of starts; default as in `wingbeat orbit`")
+    seed: _Counts = _key([0], "seeds of the random starts")
+    most_starts: _Counts | None = _key(None, "while no start leads to an orbit, more follow, up to this many")
+    free: Annotated[list[_Text], _Some] | None = _key(
+        None, "names of the free parameters; default those of the species"
     )
-    hand: _Texts = Field(default=[BladeElement.hand], description="coefficient models of the hand")
-    hand_from: _Numbers = Field(
-        default=[BladeElement.hand_from], description="fraction of the span at which the hand's coefficients begin"
+    bounds: _Bounds = _key({}, "bounds of free parameters by name, or `plausible`")
+    settings: dict[str, Any] = _key({}, "changes of numbers for all points, by path", alias="set")
+    advise: bool = _key(False, "whether points without an orbit list the changes that would give one")
+    explain: bool = _key(True, "whether points without an orbit name the balance that fails")
+    chain: str | None = _key(
+        None, "`speed`: points that differ only in speed are solved in order and start from one another"
     )
-    upstroke_factor: _Numbers = Field(
-        default=[BladeElement.upstroke_factor],
-        description="factor on lift and drag where air meets the wing from above",
-    )
-    speed: _Numbers | None = Field(default=None, description="mean horizontal speeds [m/s]")
-    climb: _Numbers = Field(default=[0.0], description="mean vertical speeds [m/s]")
-    payload: _Numbers = Field(default=[0.0], description="masses added at the body's centre of mass [kg]")
-    minimise: _Texts = Field(
-        default=["frequency"], description="objectives: names, or functions of a file, such as `mine.py:lift`"
-    )
-    subject_to: Annotated[list[list[_Text]], BeforeValidator(_twice_listed)] = Field(
-        default=[[]], description="limits; one list is one set, a list of lists several sets"
-    )
-    starts: _Counts | None = Field(default=None, description="numbers of starts; default as in `wingbeat orbit`")
-    seed: _Counts = Field(default=[0], description="seeds of the random starts")
-    most_starts: _Counts | None = Field(
-        default=None, description="while no start leads to an orbit, more follow, up to this many"
-    )
-    free: Annotated[list[_Text], _Some] | None = Field(
-        default=None, description="names of the free parameters; default those of the species"
-    )
-    bounds: _Bounds = Field(default={}, description="bounds of free parameters by name, or `plausible`")
-    settings: dict[str, Any] = Field(
-        default={}, alias="set", description="changes of numbers for all points, by path"
-    )
-    advise: bool = Field(
-        default=False, description="whether points without an orbit list the changes that would give one"
-    )
-    explain: bool = Field(default=True, description="whether points without an orbit name the balance that fails")
-    chain: str | None = Field(
-        default=None,
-        description="`speed`: points that differ only in speed are solved in order and start from one another",
-    )
-    vary: dict[str, Vary] = Field(default={}, description="values of varied numbers, by path")
-    sample: Sample | None = Field(default=None, description="how ranges are sampled")
-
-
-def read_form(source: str | os.PathLike[str]) -> tuple[StudyForm | None, FaultList]:
-    """Return the form of a study file, and the faults in its structure; the form is None if there are any."""
-    return check_form(toml_tables(read_text(source, limit=1 << 18), os.fspath(source)))
+    vary: dict[str, Vary] = _key({}, "values of varied numbers, by path")
+    sample: Sample | None = _key(None, "how ranges are sampled")
 
 
 def check_form(raw: Mapping[str, Any]) -> tuple[StudyForm | None, FaultList]:
@@ -195,15 +168,23 @@ def _translate(error: ValidationError, raw: Mapping[str, Any], faults: FaultList
     found = error.errors(include_url=False)
     for fault in found[:MAX_FAULTS]:
         loc, value = fault["loc"], fault["input"]
-        # One value in the place of a list has no index of its own.
         *place, last = loc
-        if place and isinstance(last, int) and not isinstance(_at(raw, tuple(place)), list | tuple):
+        held: Any = raw
+        try:
+            for part in place:
+                held = held[part]
+        except (LookupError, TypeError):
+            held = None
+        # One value in the place of a list has no index of its own.
+        if place and isinstance(last, int) and not isinstance(held, list | tuple):
             loc = tuple(place)
         rule, fix = rule_of(fault["type"], value, fault.get("ctx", {}))
         if fault["type"] == "missing":
             value = NOTHING
         elif fault["type"] == "extra_forbidden":
-            fix = suggest(str(loc[-1]), _known(loc[:-1]))
+            fields = (Sample if place[:1] == ["sample"] else StudyForm).model_fields
+            names = [field.alias or name for name, field in fields.items()]
+            fix = suggest(str(last), SPREADS if place[:1] == ["vary"] else names)
         elif fault["type"] == "literal_error":
             rule = "is not a known choice"
             fix = f"use {fault.get('ctx', {}).get('expected')}, or a table of [lower, upper] pairs"
@@ -213,38 +194,14 @@ def _translate(error: ValidationError, raw: Mapping[str, Any], faults: FaultList
             rule = "must be a list"
         elif fault["type"] in ("model_type", "dict_type") and loc[:1] == ("vary",) and len(loc) == 2:
             fix = "for example { grid = [6.0, 8.0] }"
-        faults.add(
-            dotted(part if isinstance(part, int) else str(part) for part in loc),
-            shown(value),
-            rule.replace("numbers", "values"),
-            fix,
-        )
+        where = dotted(part if isinstance(part, int) else str(part) for part in loc)
+        faults.add(where, shown(value), rule.replace("numbers", "values"), fix)
     if len(found) > MAX_FAULTS:
         faults.add("file", f"{len(found)} faults", "too many to list", "is it a study file?")
 
 
-def _at(raw: Any, loc: tuple[Any, ...]) -> Any:
-    for part in loc:
-        try:
-            raw = raw[part]
-        except (LookupError, TypeError):
-            return None
-    return raw
-
-
-def _known(loc: tuple[Any, ...]) -> list[str]:
-    if loc[:1] == ("vary",):
-        return list(SPREADS)
-    fields = (Sample if loc[:1] == ("sample",) else StudyForm).model_fields
-    return [field.alias or name for name, field in fields.items()]
-
-
 def _check_vary(form: StudyForm, faults: FaultList) -> None:
-    """Note faults in the values of the study form.
-
-    These are: a parameter given in more than one way, repeated values, lists of unequal length, ranges without a
-    sample or a sample without ranges, and a chain or advice that the other keys do not allow.
-    """
+    """Note faults in how the parameters are varied, and a chain or advice that the other keys do not allow."""
     ranged, rows = [], {}
     for path, vary in form.vary.items():
         where, given = dotted(("vary", path)), vary.given
@@ -252,23 +209,19 @@ def _check_vary(form: StudyForm, faults: FaultList) -> None:
             rule = f"must be given by exactly one of {', '.join(SPREADS)}"
             faults.add(where, ", ".join(given) or NOTHING, rule, "for example { grid = [6.0, 8.0] }")
             continue
-        values = vary.values
+        values, where = vary.values, f"{where}.{given[0]}"
         if given[0] == "list":
             rows[path] = len(values)
         elif "range" in given[0]:
             ranged.append(path)
             if not values[0] < values[1]:
-                faults.add(f"{where}.{given[0]}", values, "must be [lowest, highest]", "exchange them")
-        if "range" not in given[0] and len({repr(number(v)) for v in values}) < len(values) and given[0] != "list":
-            faults.add(f"{where}.{given[0]}", shown(values), "names a value twice", "keep one of them")
+                faults.add(where, values, "must be [lowest, highest]", "exchange them")
+        elif _repeats(values):
+            faults.add(where, shown(values), "names a value twice", "keep one of them")
     if len(set(rows.values())) > 1:
         lengths = ", ".join(f"{path} {count}" for path, count in rows.items())
-        faults.add(
-            "vary",
-            lengths,
-            "has lists of unequal length, but lists are combined row by row",
-            "make them equally long, or give grid instead of list",
-        )
+        rule = "has lists of unequal length, but lists are combined row by row"
+        faults.add("vary", lengths, rule, "make them equally long, or give grid instead of list")
     if ranged and form.sample is None:
         fix = 'add [sample] with method = "sobol" and n = 256'
         faults.add("sample", NOTHING, f"must be given, since {ranged[0]} has a range", fix)
@@ -285,12 +238,8 @@ def _check_vary(form: StudyForm, faults: FaultList) -> None:
         fix = f"chain along {' or '.join(gridded)}" if gridded else "leave chain out"
         faults.add("chain", form.chain, "is not a parameter varied by grid or relative", fix)
     elif form.chain is not None and form.vary[form.chain].given == ("list",):
-        faults.add(
-            "chain",
-            form.chain,
-            "is varied by a list, which is combined with other lists row by row",
-            "give it as grid",
-        )
+        rule = "is varied by a list, which is combined with other lists row by row"
+        faults.add("chain", form.chain, rule, "give it as grid")
     if form.advise and not form.explain:
         faults.add("advise", True, "cannot be combined with explain = false", "leave one of them out")
 
@@ -303,6 +252,10 @@ def number(value: Any) -> Any:
     return value
 
 
+def _repeats(values: list[Any]) -> bool:
+    return len({repr(number(value)) for value in values}) < len(values)
+
+
 def _check_numbers(form: StudyForm, faults: FaultList) -> None:
     """Note counts out of range, and keys whose list names a value twice."""
     for name, least in (("starts", 1), ("seed", 0), ("most_starts", 1)):
@@ -310,14 +263,11 @@ def _check_numbers(form: StudyForm, faults: FaultList) -> None:
             faults.whole(name, shown(count), least, 100_000)
     for name in StudyForm.model_fields:
         values = getattr(form, name)
-        listed = isinstance(values, list) and name != "free"
-        if listed and len({repr(number(value)) for value in values}) < len(values):
+        if isinstance(values, list) and name != "free" and _repeats(values):
             faults.add(name, shown(values), "names a value twice", "keep one of them")
-    both = (*("speed", "climb", "payload", "extension", "blend_width_deg"), *OF_ELEMENTS)
-    for name in both:
+    for name in ("speed", "climb", "payload", "extension", "blend_width_deg", *OF_ELEMENTS):
         if {name, f"aero.{name}"} & form.vary.keys() and name in form.model_fields_set:
             faults.add(name, shown(getattr(form, name)), "is also varied", "keep one of the two")
     if form.speed is None and "speed" not in form.vary:
-        faults.add(
-            "speed", NOTHING, "must be given", "write speed = 10.0, or under [vary] speed = { grid = [8.0, 10.0] }"
-        )
+        fix = "write speed = 10.0, or under [vary] speed = { grid = [8.0, 10.0] }"
+        faults.add("speed", NOTHING, "must be given", fix)

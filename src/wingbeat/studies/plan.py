@@ -79,6 +79,10 @@ def canonical(value: Any) -> str:
     return json.dumps(_floats(value), sort_keys=True, separators=(",", ":"), allow_nan=False)
 
 
+def _digest(value: Any) -> str:
+    return hashlib.sha256(canonical(value).encode()).hexdigest()
+
+
 def _floats(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _floats(item) for key, item in value.items()}
@@ -132,8 +136,7 @@ class Plan:
         vary = [[path, self.form.vary[path].model_dump(by_alias=True, exclude_none=True)] for path in self.paths]
         sample = self.form.sample.model_dump() if self.form.sample else None
         bases = [[base.hash, base.motion] for base in self.bases]
-        told = [NUMERICAL_VERSION, bases, vary, sample, self.form.seed[0], self.form.chain]
-        return hashlib.sha256(canonical(told).encode()).hexdigest()
+        return _digest([NUMERICAL_VERSION, bases, vary, sample, self.form.seed[0], self.form.chain])
 
     def points(self) -> Iterator[Point]:
         """Yield the points one by one, those of a chain in its order."""
@@ -170,7 +173,7 @@ def _point(
     # A value equal to the base's is no change: the point is the same as in a study that does not vary it.
     changes = base.motion | {p: v for p, v in values.items() if p in MOTION or _floats(v) != _floats(stock[p])}
     told = [NUMERICAL_VERSION, base.hash, changes, *([before] if before else [])]
-    return Point(hashlib.sha256(canonical(told).encode()).hexdigest(), index, unit, changes, list(values.values()))
+    return Point(_digest(told), index, unit, changes, list(values.values()))
 
 
 def _between(low: Any, high: Any, share: float) -> Any:
@@ -247,46 +250,47 @@ def _base(
     recipe = Recipe(made["species"], made["aero"], made["minimise"], free, made["bounds"], limits, search)
     try:
         _ = recipe.example
-        told = {name: chosen[name] for name in _TOP if name in chosen and len(getattr(form, name)) > 1}
-        return Base(recipe, hashlib.sha256(canonical(_decisive(recipe)).encode()).hexdigest(), told, motion)
+        inputs = recipe.inputs()
     except InvalidInputError as error:
         faults.faults += [_hashable(fault) for fault in error.faults]
         return None
-
-
-def _decisive(recipe: Recipe) -> dict[str, Any]:
-    """Return the inputs that results depend on; the kind of the species and how it looks are not among them."""
-    inputs = recipe.inputs()
-    kept = {key: value for key, value in inputs["species"].items() if key not in ("kind", "shape")}
-    return inputs | {"species": kept}
+    told = {name: chosen[name] for name in _TOP if name in chosen and len(getattr(form, name)) > 1}
+    # Results depend neither on the kind of the species nor on how it looks.
+    species = {key: value for key, value in inputs["species"].items() if key not in ("kind", "shape")}
+    return Base(recipe, _digest(inputs | {"species": species}), told, motion)
 
 
 def _hashable(fault: Fault) -> Fault:
     """Return a fault in a hashable form, so that each fault is reported once."""
-    value = fault.value if isinstance(fault.value, str | int | float | type(None)) else shown(fault.value)
-    return Fault(fault.where, value if isinstance(value, str | int | float) else repr(value), fault.rule, fault.fix)
+    if isinstance(fault.value, str | int | float):
+        return fault
+    return Fault(fault.where, "None" if fault.value is None else _text(fault.value), fault.rule, fault.fix)
 
 
 def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
     """Note each value that is impossible at its path, whatever the other values are."""
     names: dict[str, str] = {}
     for path, vary in form.vary.items():
-        given = vary.how
-        where = f"{dotted(('vary', path))}.{given}"
-        if not _may_vary(path, given, recipe, names, faults):
+        given, place, name = vary.how, dotted(("vary", path)), recipe.name_of(path)
+        where = f"{place}.{given}"
+        if (other := names.setdefault(name, path)) != path:
+            faults.add(place, given, f"is varied as {other} too", "keep one of the two")
             continue
-        stock = recipe.value(path)
-        if given.startswith("relative") and (isinstance(stock, str) or stock is None or not np.any(stock)):
-            known = path in MOTION or settable(path, None, FaultList()) is not None or stock is not None
-            if known:
-                rule, fix = "needs a value other than zero to be relative to", "use grid or range"
-                if isinstance(stock, str):
-                    rule, fix = "would multiply a word", "use grid"
-                faults.add(where, shown(form.vary[path].values), rule, fix)
-                continue
-        values = form.vary[path].values
-        values = values if stock is None else _scaled(form, path, stock, values)
-        for i, value in enumerate(values):
+        free = name.removeprefix("wingbeat.")
+        if name.startswith("wingbeat.") and free in recipe.example.free:
+            fix = f"vary bounds.{free}.lower or .upper, or choose other parameters in `free`"
+            faults.add(place, given, "is free: the solver would overwrite it", fix)
+            continue
+        stock, values = recipe.value(path), vary.values
+        no_number = isinstance(stock, str) or stock is None or not np.any(stock)
+        known = path in MOTION or stock is not None or settable(path, None, FaultList()) is not None
+        if given.startswith("relative") and no_number and known:
+            rule, fix = "needs a value other than zero to be relative to", "use grid or range"
+            if isinstance(stock, str):
+                rule, fix = "would multiply a word", "use grid"
+            faults.add(where, shown(values), rule, fix)
+            continue
+        for i, value in enumerate(values if stock is None else _scaled(form, path, stock, values)):
             own = FaultList()
             try:
                 recipe.check(path, value, own)
@@ -294,28 +298,15 @@ def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
                 own.faults += error.faults
             except (TypeError, ValueError, OverflowError) as error:
                 own.add(path, shown(value), f"is impossible there ({error})")
-            told = form.vary[path].values[i]
-            named = [Fault(f"{where}[{i}]", _text(told), fault.rule, fault.fix) for fault in own.faults]
-            if any(fault.rule == NO_SUCH_PATH for fault in named):
-                named = [Fault(dotted(("vary", path)), _text(told), named[0].rule, named[0].fix)]
+            told = _text(values[i])
+            named = [Fault(f"{where}[{i}]", told, fault.rule, fault.fix) for fault in own.faults]
+            if unknown := any(fault.rule == NO_SUCH_PATH for fault in named):
+                named = [Fault(place, told, named[0].rule, named[0].fix)]
             faults.faults += named
-            if len(faults.faults) >= _ENOUGH or (named and named[0].where == dotted(("vary", path))):
+            if len(faults.faults) >= _ENOUGH or unknown:
                 return
 
 
-def _may_vary(path: str, given: str, recipe: Recipe, names: dict[str, str], faults: FaultList) -> bool:
-    """Return whether a path may be varied in addition to the earlier ones in `names`; if not, note why."""
-    where, name = dotted(("vary", path)), recipe.name_of(path)
-    if (other := names.setdefault(name, path)) != path:
-        faults.add(where, given, f"is varied as {other} too", "keep one of the two")
-        return False
-    free = name.removeprefix("wingbeat.")
-    if name.startswith("wingbeat.") and free in recipe.example.free:
-        fix = f"vary bounds.{free}.lower or .upper, or choose other parameters in `free`"
-        faults.add(where, given, "is free: the solver would overwrite it", fix)
-        return False
-    return True
-
-
 def _text(value: Any) -> Any:
+    """Return a value, or its text if it is no number."""
     return value if isinstance(value := shown(value), str | int | float) else repr(value)

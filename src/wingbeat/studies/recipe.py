@@ -80,9 +80,7 @@ def named(text: str) -> str:
 
 def from_inputs(inputs: dict[str, str]) -> Quantity:
     """Return the objective that `as_inputs` described."""
-    if "code" not in inputs:
-        return named_objective(inputs["name"])
-    return _run(inputs["name"], inputs["file"], inputs["code"])
+    return _run(**inputs) if "code" in inputs else named_objective(inputs["name"])
 
 
 @functools.cache
@@ -121,13 +119,8 @@ _AT_REST = {"speed": 10.0, "climb": 0.0, "payload": 0.0}
 class Recipe:
     """An orbit problem without the values of a point: speed, climb, payload, and everything that a study varies.
 
-    Parameters
-    ----------
-    species, aero : the animal and its air loads.
-    objective : in the form of `as_inputs`.
-    free, bounds : as in `OrbitProblem`.
-    subject_to : limits as texts.
-    search : ``starts``, ``seed``, ``most_starts``, ``advise``, ``explain``; a number that is None has its default.
+    `objective` is in the form of `as_inputs`. `search` holds ``starts``, ``seed``, ``most_starts``, ``advise`` and
+    ``explain``; a number that is None has its default.
     """
 
     species: Species
@@ -139,10 +132,7 @@ class Recipe:
     search: dict[str, Any]
 
     def problem(self, changes: Mapping[str, Any]) -> OrbitProblem:
-        """Return the problem of a point.
-
-        `changes` are values by path; speed must be among them.
-        """
+        """Return the problem of a point, whose changes by path must have a speed among them."""
         numbers = {path: value for path, value in changes.items() if _key(path) is not None}
         species = self.species.with_values(numbers) if numbers else self.species
         problem = OrbitProblem(
@@ -190,9 +180,10 @@ class Recipe:
         """Return the value at a path before anything is varied; None if there is none."""
         if (key := _key(path)) is not None:
             number = self.species.numbers.get(key.path)
-            value = None if number is None else number.value
-            listed = list(value) if isinstance(value, tuple) else value
-            return _degrees(listed) if path.endswith("_deg") and not key.path.endswith("_deg") else listed
+            value: Any = None if number is None else number.value
+            if path.endswith("_deg") and not key.path.endswith("_deg"):
+                return [math.degrees(v) for v in value] if isinstance(value, tuple) else math.degrees(value)
+            return list(value) if isinstance(value, tuple) else value
         if path in MOTION:
             return None
         if path in _OF_COEFFICIENTS:
@@ -271,10 +262,6 @@ def starts_of(recipe: Recipe, problem: OrbitProblem) -> int:
 def _key(path: str) -> Key | None:
     """Return the species' key that a path names."""
     return settable(path, None, FaultList())
-
-
-def _degrees(value: Any) -> Any:
-    return [math.degrees(v) for v in value] if isinstance(value, list) else math.degrees(value)
 
 
 def _parameter(problem: OrbitProblem, path: str) -> Parameter | None:

@@ -269,41 +269,36 @@ class Store:
                 # In a chain, the points after the last wanted one are not needed.
                 with in_use(self.path):
                     tasks = tuple(Task(row[1], dict(json.loads(row[2]))) for row in found[: wanted[-1] + 1])
-                yield Waiting(Unit(self._inputs(found[0][3]), tasks), tuple(found[i][1] for i in wanted))
+                base = found[0][3]
+                if base not in self._recipes:
+                    raise refusal(self.path, "its points are not those of the study")
+                if base != self._last[0]:  # the inputs as JSON, which the next units often share
+                    self._last = base, json.dumps(self._recipes[base].inputs())
+                yield Waiting(Unit(self._last[1], tasks), tuple(found[i][1] for i in wanted))
                 last = number
-
-    def _inputs(self, base: str) -> str:
-        """Return the inputs of a base as JSON; the last text is cached, because the next units often share it."""
-        if base not in self._recipes:
-            raise refusal(self.path, "its points are not those of the study")
-        if base != self._last[0]:
-            self._last = base, json.dumps(self._recipes[base].inputs())
-        return self._last[1]
 
     def counts(self) -> dict[str, int]:
         """Return the number of the plan's points for each status; points without a status count as ``waiting``."""
+        question = (
+            "SELECT COALESCE(q.status, 'waiting'), COUNT(*) FROM plan p LEFT JOIN points q USING (key) GROUP BY 1"
+        )
         with in_words(self.path):
-            return dict(
-                self._connection.execute(
-                    "SELECT COALESCE(q.status, 'waiting'), COUNT(*) FROM plan p LEFT JOIN points q USING (key) "
-                    "GROUP BY 1"
-                ).fetchall()
-            )
+            return dict(self._connection.execute(question).fetchall())
 
     def answers(self) -> int:
         """Return the number of results, including those of points that are no longer in the study."""
-        with in_words(self.path):
-            return self._connection.execute("SELECT COUNT(*) FROM points").fetchone()[0]
+        return self._number("SELECT COUNT(*) FROM points")
 
     def seconds(self) -> float | None:
         """Return the mean time of a point in this store [s], without first points; None if there is none."""
-        with in_words(self.path):
-            return self._connection.execute(MEAN_SECONDS).fetchone()[0]
+        return self._number(MEAN_SECONDS)
 
     def spent(self) -> float:
         """Return the computing time of the results of the plan's points, on one core [s]."""
+        return self._number("SELECT TOTAL(q.run_seconds) FROM plan p JOIN points q USING (key)")
+
+    def _number(self, question: str) -> Any:
         with in_words(self.path):
-            question = "SELECT TOTAL(q.run_seconds) FROM plan p JOIN points q USING (key)"
             return self._connection.execute(question).fetchone()[0]
 
     def uncertified(self, most: int) -> list[Row]:
@@ -324,17 +319,11 @@ class Store:
             ):
                 yield Row(key, base, changes, dict(zip(paths, json.loads(told), strict=True)), *rest)
 
-    @property
-    def paths(self) -> tuple[str, ...]:
-        """The varied parameters of the plan."""
-        return tuple(json.loads(self._about.get("paths", "[]")))
-
     def bases(self) -> list[tuple[dict[str, Any], dict[str, Any]]]:
         """Return, for each base of the plan, the values that distinguish it from the others, and its inputs."""
         with in_words(self.path):
-            found = self._connection.execute(
-                "SELECT told, inputs FROM plan_bases JOIN bases USING (hash) ORDER BY base"
-            )
+            question = "SELECT told, inputs FROM plan_bases JOIN bases USING (hash) ORDER BY base"
+            found = self._connection.execute(question)
             return [(json.loads(told), json.loads(inputs)) for told, inputs in found]
 
 
@@ -344,16 +333,10 @@ _ENDS = ("", "-wal")
 
 
 class Salvaged(NamedTuple):
-    """The outcome of a salvage: the number of results kept, and the new place of the damaged store.
-
-    Parameters
-    ----------
-    kept : number of results in the new store.
-    aside : the damaged file, unchanged except for its name; None if the store was not damaged.
-    """
+    """The outcome of a salvage: the number of results in the new store, and the new name of the damaged one."""
 
     kept: int
-    aside: Path | None
+    aside: Path | None  # None if the store was not damaged
 
 
 def salvage(path: Path, plan: Plan) -> Salvaged:

@@ -1,8 +1,8 @@
 """What protects a store: one driver at a time, undamaged files before use, and the same files to the end.
 
 A store's lock is a file beside the store; the operating system releases it when its process ends, even by a crash.
-Every name of the store must lead to the same file: `real_path` follows symbolic links, and a store with hard links
-is not written to.
+Every name of the store must lead to the same file: a store's path is its real path, beside which SQLite keeps its
+log, and a store with hard links is not written to.
 """
 
 from __future__ import annotations
@@ -41,11 +41,6 @@ from wingbeat.studies.store_file import (
 _HELD = (errno.EWOULDBLOCK, errno.EAGAIN, errno.EACCES, errno.EDEADLK)
 
 
-def real_path(store: str | os.PathLike[str]) -> Path:
-    """Return the path of the file that a store's name leads to; SQLite keeps its log beside this file."""
-    return Path(os.path.realpath(store))
-
-
 def _take(descriptor: int) -> None:
     """Lock a file for this process alone; raise `OSError` if another process holds the lock."""
     if os.name == "nt":
@@ -78,10 +73,7 @@ def _beside(store: Path) -> Path:
 
 
 class Lock:
-    """The lock of a store, held by this process; made by `only_one`.
-
-    It is of the real path of a store.
-    """
+    """The lock of a store's real path, held by this process; made by `only_one`."""
 
     def __init__(self, store: Path) -> None:
         self._store, self._path = store, _beside(store)
@@ -134,10 +126,7 @@ class Lock:
 
 @contextmanager
 def only_one(store: Path) -> Iterator[Lock]:
-    """Hold the lock of a store during a block.
-
-    `store` is its real path; a store with several names (hard links) is refused.
-    """
+    """Hold the lock of a store's real path during a block; a store with several names (hard links) is refused."""
     names = 1
     with suppress(OSError):
         names = os.stat(store).st_nlink
@@ -314,10 +303,7 @@ def _rows(connection: sqlite3.Connection, table: str, order: str) -> Iterator[tu
 
 
 class Watch:
-    """A watch over the files of a store that this process writes to.
-
-    The connection is still of use if the store's name is gone.
-    """
+    """A watch over the files of a store that this process writes to."""
 
     def __init__(self, path: Path, connection: sqlite3.Connection, lock: Lock | None) -> None:
         self._path, self._connection, self._lock = path, connection, lock
@@ -328,8 +314,15 @@ class Watch:
         """Keep all results if others have deleted or replaced the store or its log, or taken its lock."""
         name = repr(str(self._path))
         if identity_of(self._path) != self._store:
-            what = "was deleted, moved or replaced while the study ran"
-            raise FileError(f"the store {name} {what}; {self._rescue()}")
+            aside = unused_name(self._path, "rescued")
+            told = f"all results so far are in {str(aside)!r}: rename it to {self._path.name!r}"
+            told += " and run the study again"
+            try:
+                with closing(sqlite3.connect(aside)) as copy:  # of the open file, which has lost its name
+                    self._connection.backup(copy)
+            except sqlite3.Error as error:
+                told = f"no copy can be written beside it ({error}); if you moved it, it holds all results so far"
+            raise FileError(f"the store {name} was deleted, moved or replaced while the study ran; {told}")
         if self._logged is not None and identity_of(self._log) != self._logged:
             with in_words(self._path):
                 self._connection.execute("PRAGMA wal_checkpoint(TRUNCATE)")
@@ -341,13 +334,3 @@ class Watch:
                 self._lock.renew()
             except FileError as error:
                 raise FileError(f"the lock of the store {name} was deleted while the study ran: {error}") from None
-
-    def _rescue(self) -> str:
-        """Copy the store from the open file, which has lost its name; return where the results are."""
-        aside = unused_name(self._path, "rescued")
-        try:
-            with closing(sqlite3.connect(aside)) as copy:
-                self._connection.backup(copy)
-        except sqlite3.Error as error:
-            return f"no copy can be written beside it ({error}); if you moved it, it holds all results so far"
-        return f"all results so far are in {str(aside)!r}: rename it to {self._path.name!r} and run the study again"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
@@ -10,7 +11,18 @@ from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from wingbeat._base import Fault, FaultList, FileError, InvalidInputError, Report, Reported, label_of, plain_unit
+from wingbeat._base import (
+    Fault,
+    FaultList,
+    FileError,
+    InvalidInputError,
+    Report,
+    Reported,
+    label_of,
+    plain_unit,
+    read_text,
+    toml_tables,
+)
 from wingbeat._workers.tuning import core_count
 from wingbeat.animal.species.numbers import shown
 from wingbeat.orbits.batch import check_processes
@@ -18,12 +30,12 @@ from wingbeat.plots.draw_study import study_page
 from wingbeat.results.orbit import Orbit
 from wingbeat.studies.driver import Progress, Tally, drive
 from wingbeat.studies.engine import Engine, LocalProcesses
-from wingbeat.studies.form import check_form, read_form
+from wingbeat.studies.form import check_form
 from wingbeat.studies.plan import Plan, make_plan
 from wingbeat.studies.recipe import MOTION, changed_code, named, starts_of
 from wingbeat.studies.stopping import Stop, listening
 from wingbeat.studies.store import Salvaged, Store, salvage
-from wingbeat.studies.store_checks import only_one, real_path
+from wingbeat.studies.store_checks import only_one
 from wingbeat.studies.summary import Summary, points_wait, study_report
 from wingbeat.studies.table import frame_of, save_table, to_dataset, varied_numbers
 
@@ -54,7 +66,7 @@ class Study(Reported):
     def __init__(self, plan: Plan, store: Path) -> None:
         self.plan = plan
         self.store = store
-        self._file = real_path(store.absolute())  # where the path leads, even if the working folder changes
+        self._file = Path(os.path.realpath(store))  # where the path leads, even if the working folder changes
 
     def __repr__(self) -> str:
         return f"<Study of {len(self)} points, store {str(self.store)!r}>"
@@ -341,7 +353,7 @@ def plan_study(
         raise InvalidInputError([Fault("source", shown(source), "is neither a path nor a dictionary", fix)])
     path = None if source is None or isinstance(source, Mapping) else Path(source)
     if path is not None:
-        found, faults = read_form(path)
+        found, faults = check_form(toml_tables(read_text(path, limit=1 << 18), str(path)))
         for key in form:
             faults.add(key, form[key], "cannot be combined with a study file", "write it into the file")
         kept = path.with_name(path.name.removesuffix(".toml") + _SUFFIX)

@@ -111,20 +111,21 @@ def to_dataset(frame: pd.DataFrame, about: dict[str, Any]) -> xr.Dataset:
     columns = {}
     for name in frame.columns:
         values = frame[name]
-        is_text = values.dtype.kind not in "fiub"
-        if is_text:
-            values = np.array(
-                ["" if value is None or value != value else str(value) for value in values], dtype=str
-            )
-        columns[name] = ("point", np.asarray(values), _attributes(frame, str(name), is_text))
-    dataset = xr.Dataset(columns)
-    return dataset.assign_attrs(wingbeat_kind=KIND, numerical_version=NUMERICAL_VERSION, **about)
+        if _is_text(values):
+            texts = ["" if value is None or value != value else str(value) for value in values]
+            values = np.array(texts, dtype=str)
+        columns[name] = ("point", np.asarray(values), _attributes(frame, str(name)))
+    return xr.Dataset(columns).assign_attrs(wingbeat_kind=KIND, numerical_version=NUMERICAL_VERSION, **about)
 
 
-def _attributes(frame: pd.DataFrame, name: str, is_text: bool) -> dict[str, str]:
+def _is_text(values: Any) -> bool:
+    return values.dtype.kind not in "fiub"
+
+
+def _attributes(frame: pd.DataFrame, name: str) -> dict[str, str]:
     """Return label and unit of a column; texts have no unit, and neither have numbers whose units differ by row."""
     label = label_of(name)
-    if is_text:
+    if _is_text(frame[name]):
         return {"long_name": label}
     units = {plain_unit(name)}
     if name == "objective_value" and "objective" in frame:
@@ -147,33 +148,24 @@ def save_table(frame: pd.DataFrame, about: dict[str, Any], path: str | PathLike[
     if suffix == ".nc":
         write_atomically(path, netcdf_bytes(to_dataset(frame, about)))
     elif suffix == ".csv":
-        write_atomically(path, _head(frame) + _rows(frame))
+        text = frame.to_csv(index=False)
+        if "#" in text:  # the character that begins a comment: texts are quoted
+            text = frame.to_csv(index=False, quoting=csv.QUOTE_NONNUMERIC)
+        write_atomically(path, _head(frame) + text)
     else:
         write_atomically(path, _parquet(frame))
-
-
-def _meanings(frame: pd.DataFrame) -> dict[str, dict[str, str]]:
-    """Return label and unit of each column."""
-    return {
-        str(name): _attributes(frame, str(name), frame[name].dtype.kind not in "fiub") for name in frame.columns
-    }
 
 
 def _head(frame: pd.DataFrame) -> str:
     """Return the header lines of a CSV file, with unit and meaning of each column, as `results.csv_table` does."""
     lines = ["# study, written by the package wingbeat; SI units, angles in radians; one row per point", "#"]
     lines.append("# columns: name [unit] meaning")
-    for name, about in _meanings(frame).items():
+    for name in frame.columns:
+        about = _attributes(frame, str(name))
         unit = f" [{about['units']}]" if "units" in about else ""
         lines.append(f"# {name}{unit} {about['long_name']}")
     # A name from the user's file may hold a line break.
     return "".join(" ".join(line.split()) + "\n" for line in lines)
-
-
-def _rows(frame: pd.DataFrame) -> str:
-    """Return the rows as CSV; texts are quoted if one of them holds the character that begins a comment."""
-    text = frame.to_csv(index=False)
-    return frame.to_csv(index=False, quoting=csv.QUOTE_NONNUMERIC) if "#" in text else text
 
 
 def _parquet(frame: pd.DataFrame) -> bytes:
@@ -185,8 +177,8 @@ def _parquet(frame: pd.DataFrame) -> bytes:
         raise WingbeatError(
             f"To write Parquet, install pyarrow: {install_extra('parquet')}. Or choose a name ending in .nc or .csv"
         ) from None
-    table, meanings = pa.Table.from_pandas(frame, preserve_index=False), _meanings(frame)
-    fields = [field.with_metadata(meanings[field.name]) for field in table.schema]
+    table = pa.Table.from_pandas(frame, preserve_index=False)
+    fields = [field.with_metadata(_attributes(frame, field.name)) for field in table.schema]
     held = io.BytesIO()
     pq.write_table(table.cast(pa.schema(fields, table.schema.metadata)), held)
     return held.getvalue()

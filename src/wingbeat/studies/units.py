@@ -21,18 +21,11 @@ class Task(NamedTuple):
 
 
 class Unit(NamedTuple):
-    """Points that are solved together: one point, or a chain in order, in which earlier results help later points.
+    """Points that are solved together: one, or a chain in order, in which earlier results help later points."""
 
-    Parameters
-    ----------
-    recipe : the base's inputs as JSON.
-    tasks : the points.
-    skip : keys of points of a chain that are left out, because they crash their process.
-    """
-
-    recipe: str
+    recipe: str  # the base's inputs as JSON
     tasks: tuple[Task, ...]
-    skip: tuple[str, ...] = ()
+    skip: tuple[str, ...] = ()  # keys of points of a chain that are left out, because they crash their process
 
 
 class Waiting(NamedTuple):
@@ -43,25 +36,15 @@ class Waiting(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """How one point ended.
-
-    Parameters
-    ----------
-    key : of the point.
-    status : one of `STATUSES`.
-    record : the orbit record as JSON without its computing time; None if there is none.
-    certificate : largest residual of the certifier's flight (m, rad, m/s, rad/s); None if nothing was flown or the
-        flight diverged.
-    text : the search's message if nothing is certified, or the error.
-    seconds : computing time of the point [s].
-    """
+    """How one point ended, with one of `STATUSES`."""
 
     key: str
     status: str
-    record: str | None
+    record: str | None  # as JSON, without its computing time
+    # Largest residual of the certifier's flight (m, rad, m/s, rad/s); None if nothing was flown or it diverged.
     certificate: float | None
-    text: str
-    seconds: float
+    text: str  # the search's message if nothing is certified, or the error
+    seconds: float  # computing time [s]
 
 
 def failed(key: str, status: str, text: str, seconds: float = 0.0) -> Outcome:

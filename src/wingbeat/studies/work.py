@@ -49,12 +49,11 @@ def solve_unit(unit: Unit) -> Iterator[Outcome]:
             misses = record["closure"].values()
             certificate = None if None in misses else max(map(abs, misses))
             told = json.dumps(record, separators=(",", ":"), allow_nan=False)
-            status, text = record["status"], "" if found.status is Status.CONVERGED else record["message"]
-            outcome = Outcome(task.key, status, told, certificate, text, time.perf_counter() - begun)
+            text = "" if found.status is Status.CONVERGED else record["message"]
+            outcome = Outcome(task.key, record["status"], told, certificate, text, time.perf_counter() - begun)
         except Exception as error:  # whatever a user's numbers or functions raise is told beside the point
             text = f"{type(error).__name__}: {error}"
-            yield failed(task.key, "error", text, time.perf_counter() - begun)
-            continue
+            outcome = failed(task.key, "error", text, time.perf_counter() - begun)
         yield outcome
 
 

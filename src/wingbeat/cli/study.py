@@ -68,8 +68,7 @@ def run(
     wingbeat study run designs.toml --dask tcp://login1:8786
     """
     from wingbeat.studies.stopping import listening
-    from wingbeat.studies.study import check_run, engine_for
-    from wingbeat.studies.summary import points_wait
+    from wingbeat.studies.study import check_run, engine_for, points_wait
     from wingbeat.studies.units import FAILED
 
     check_run(processes, timeout, dask)

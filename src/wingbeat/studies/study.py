@@ -7,17 +7,22 @@ import os
 import warnings
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import closing, contextmanager
+from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from wingbeat._base import (
+    Block,
     Fault,
     FaultList,
     FileError,
     InvalidInputError,
+    Line,
     Report,
     Reported,
+    Row,
+    Table,
     label_of,
     plain_unit,
     read_text,
@@ -36,8 +41,8 @@ from wingbeat.studies.recipe import MOTION, changed_code, named, starts_of
 from wingbeat.studies.stopping import Stop, listening
 from wingbeat.studies.store import Salvaged, Store, salvage
 from wingbeat.studies.store_checks import only_one
-from wingbeat.studies.summary import Summary, points_wait, study_report
 from wingbeat.studies.table import frame_of, save_table, to_dataset, varied_numbers
+from wingbeat.studies.units import STATUSES
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -282,7 +287,20 @@ class Study(Reported):
         return frame, varied, quantity or "objective_value", label, [plain_unit(path) for path in varied]
 
     def _report(self) -> Report:
-        return study_report(self.status(), self.store, self.uncertified)
+        summary, most = self.status(), 10  # so many points without a certified orbit are listed
+        rows = [(name, summary.count(name)) for name in (*STATUSES, "waiting")]
+        counts = tuple(Row((f"  {name:<14}", f"{count:>7}")) for name, count in rows if count)
+        blocks: list[Block] = [Line(f"{summary.total} points in {self.store}"), Table(counts, align="lr")]
+        if summary.kept:
+            blocks.append(Line(f"  {summary.kept} results of points that are no longer in the study are kept"))
+        if summary.changed:
+            changed = "the study has changed since its last run: this summary is of the previous points"
+            blocks.append(Line(f"  {changed}", tone="warning"))
+        troubled = summary.count(*STATUSES[1:])
+        blocks += [Line(_in_words(row)) for row in (self.uncertified(most) if troubled else [])]
+        if troubled > most:
+            blocks.append(Line(f"... and {troubled - most} more; `wingbeat study export` lists all"))
+        return blocks
 
     def plot(self, quantity: str | None = None) -> Figure:
         """Return a figure of a result against the varied parameters.
@@ -365,3 +383,54 @@ def plan_study(
             faults.add("store", None, "must be given", f"for example store='mine{_SUFFIX}'")
     plan = make_plan(found, faults, path.parent if path else Path.cwd())
     return Study(plan, Path(store) if store is not None else kept or Path(_SUFFIX))
+
+
+@dataclass(frozen=True)
+class Summary:
+    """The progress of a study.
+
+    Parameters
+    ----------
+    total : points of the study.
+    counts : number of points by status; ``waiting`` are those without a result.
+    kept : number of results of points that are no longer in the study.
+    changed : whether the study was changed and not yet run again, so that the store holds the previous points.
+    seconds : computing time of the results, on one core [s].
+    """
+
+    total: int
+    counts: dict[str, int]
+    kept: int = 0
+    changed: bool = False
+    seconds: float = 0.0
+
+    def count(self, *statuses: str) -> int:
+        """Return the number of points with one of these statuses."""
+        return sum(self.counts.get(status, 0) for status in statuses)
+
+    @property
+    def waiting(self) -> int:
+        """Number of points without a result."""
+        return self.count("waiting")
+
+
+def points_wait(summary: Summary) -> str:
+    """Return the words for how many points of a study wait for a result.
+
+    >>> points_wait(Summary(3, {"converged": 1, "waiting": 2})), points_wait(Summary(1, {"waiting": 1}))
+    ('2 of 3 points wait', 'the only point waits')
+    """
+    if summary.total == 1:
+        return "the only point waits" if summary.waiting else "no point waits"
+    return f"{summary.waiting} of {summary.total} points wait{'s' if summary.waiting == 1 else ''}"
+
+
+def _in_words(row: dict[str, Any]) -> str:
+    """Return status, varied values and reason of a point."""
+    where = ", ".join(
+        f"{name} = {value:.5g}" if isinstance(value, float) else f"{name} = {value}"
+        for name, value in row.items()
+        if name not in ("status", "reason")
+    )
+    text = ": ".join(part for part in (row["status"], where, row["reason"]) if part)
+    return "".join(sign if sign.isprintable() else repr(sign)[1:-1] for sign in text)

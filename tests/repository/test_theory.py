@@ -8,7 +8,7 @@ import re
 import pytest
 
 from tests.helpers.places import ROOT
-from wingbeat.aero.wing_estimates import WING_ESTIMATES
+from wingbeat.aero.library import WING_ESTIMATES
 
 PAGES = sorted((ROOT / "docs" / "theory").glob("*.md"))
 ORACLE = [

@@ -40,10 +40,8 @@ def register_record(
 ) -> Any:
     """Make a frozen dataclass a pytree; the copies that JAX makes of a record skip the constructor's checks.
 
-    The checks apply to user input. Inside compiled functions, JAX rebuilds the records from tracers, and a check
-    cannot evaluate a tracer. Fields named in `static` (names, counts) are part of the compiled function; all others
-    are data. A field named in `optional` is data only if it differs from its default, so a term that is off adds
-    nothing to the program.
+    Fields named in `static` (names, counts) are part of the compiled function; all others are data. A field named
+    in `optional` is data only if it differs from its default, so a term that is off adds nothing to the program.
     """
     if cls is None:
         return functools.partial(register_record, static=static, optional=optional)
@@ -145,11 +143,10 @@ def _cos_jvp(primals: Any, tangents: Any) -> Any:
 def atan2(y: Any, x: Any) -> Any:
     """Return the angle of the vector (x, y) in (-pi, pi] [rad]; 0, with derivative 0, for the null vector.
 
-    Two half-angle steps reduce the argument to less than tan(pi/8), where the polynomial is accurate.
-
     >>> float(abs(atan2(1.0, -1.0) - 0.75 * math.pi)) < 1e-15
     True
     """
+    # Two half-angle steps reduce the argument to less than tan(pi/8), where the polynomial is accurate.
     half = jnp.abs(y) / (jnp.sqrt(x * x + y * y) + jnp.abs(x) + _TINY)
     quarter = half / (1.0 + jnp.sqrt(1.0 + half * half))
     acute = 4.0 * quarter * horner(_ATAN, quarter * quarter)
@@ -177,11 +174,8 @@ def fusion_barrier(tree: T) -> T:
 
 @jax.custom_jvp
 def computed_once(tree: Any) -> Any:
-    """Return the arrays of `tree` so that XLA computes them, and each directional derivative of them, only once.
-
-    The division of `fusion_barrier` alone does not protect derivatives: all directions share the divisor, so XLA
-    turns the division into a product.
-    """
+    """Return the arrays of `tree` so that XLA computes them, and each directional derivative of them, only once."""
+    # The barrier alone does not protect derivatives: all directions share the divisor, so XLA makes it a product.
     return fusion_barrier(tree)
 
 
@@ -191,9 +185,7 @@ def _computed_once_jvp(primals: Any, tangents: Any) -> tuple[Any, Any]:
 
 
 def elementwise_jvp(function: Callable[..., T]) -> Callable[..., T]:
-    """Return the function with a derivative that computes its slope by each array once, for all directions.
-
-    The function is elementwise. It takes parameters and arrays of one shape. Parameters and result may be pytrees.
+    """Return an elementwise function of parameters and arrays with a derivative that computes each slope once.
 
     >>> line = elementwise_jvp(lambda slope, x: slope * x)
     >>> float(jax.jvp(lambda x: line(3.0, x), (2.0,), (1.0,))[1])

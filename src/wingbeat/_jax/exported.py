@@ -69,8 +69,6 @@ class _Ready(NamedTuple):
 class StoredFunction:
     """A function of pytrees of float64 arrays that is traced at most once on this machine for given shapes.
 
-    The compiled program returns its results as one array, because each returned array costs some microseconds.
-
     Inside another JAX transformation, where its arguments are tracers, it acts as the plain function. Arguments
     named in `static` must be given by keyword, and different values must have different `repr`s.
     """
@@ -79,9 +77,7 @@ class StoredFunction:
         self, function: Callable[..., Any], static: tuple[str, ...] = (), hot: bool = False, kept: bool = True
     ) -> None:
         functools.update_wrapper(self, function)
-        self._function = function
-        self._hot = hot
-        self._kept = kept
+        self._function, self._hot, self._kept = function, hot, kept
         self._inlined = jax.jit(function, static_argnames=static)
         self._lock = threading.Lock()
         self._ready: dict[Any, _Ready] = {}
@@ -101,15 +97,14 @@ class StoredFunction:
             return self._run(self._program(tree, (), more, static), _NOTHING, more)
 
     def bind(self, *first: Any, **static: Any) -> Callable[..., Any]:
-        """Return the function with its first arguments fixed; these are flattened only once.
-
-        The remaining arguments must be float64 arrays or floats, with the same shapes in every call.
-        """
+        """Return the function with its first arguments fixed; the others are of the same shapes in every call."""
         leaves, tree = jax.tree_util.tree_flatten(first)
         arrays = [np.asarray(leaf, dtype=float) for leaf in leaves]
         shapes = tuple(array.shape for array in arrays)
-        with own_settings():
-            held = _moved(arrays)
+        if _cannot_run:
+            _refuse_fork()
+        with own_settings(), jax.ensure_compile_time_eval():
+            held = jnp.asarray(_packed(arrays))
         ready: _Ready | None = None
 
         def call(*rest: Any) -> Any:
@@ -160,10 +155,10 @@ class StoredFunction:
         def flat(held: Any, more: Any) -> Any:
             arrays = [*_unpacked(held, shapes), *_unpacked(more, rest)]
             first = jax.tree_util.tree_unflatten(tree, arrays[: tree.num_leaves])
-            leaves, out_tree = jax.tree_util.tree_flatten(
-                self._function(*first, *arrays[tree.num_leaves :], **static)
-            )
+            found = self._function(*first, *arrays[tree.num_leaves :], **static)
+            leaves, out_tree = jax.tree_util.tree_flatten(found)
             outcome.append((out_tree, tuple(leaf.shape for leaf in leaves)))
+            # One array, because each returned array costs some microseconds.
             return jnp.concatenate([leaf.ravel() for leaf in leaves])
 
         if not self._kept:
@@ -187,10 +182,7 @@ class StoredFunction:
 
 
 def _compiled(program: Callable[..., Any], arguments: list[jax.ShapeDtypeStruct], hot: bool) -> Callable[..., Any]:
-    """Compile a program, or read it from JAX's cache, before its first call.
-
-    If the first call compiled it, JAX would keep two copies in memory.
-    """
+    """Compile a program, or read it from JAX's cache; a first call would keep two copies in memory."""
     lowered = jax.jit(program).lower(*arguments)
     if jax.default_backend() == "cpu" and not hot:
         with suppress(jax.errors.JaxRuntimeError):  # from an XLA without this option
@@ -199,17 +191,14 @@ def _compiled(program: Callable[..., Any], arguments: list[jax.ShapeDtypeStruct]
 
 
 def jit_soon(function: Callable[..., Any], **options: Any) -> Callable[..., Any]:
-    """Return what `jax.jit` returns with these options, but compiled in two thirds of the time on a CPU.
-
-    Inside another JAX transformation, which chooses how to compile, it is exactly what `jax.jit` returns.
-    """
+    """Return what `jax.jit` returns with these options, but compiled in two thirds of the time on a CPU."""
     plain = jax.jit(function, **options)
     soon = jax.jit(function, **options, compiler_options=dict(_SOON_ON_CPU))
 
     @functools.wraps(function)
     @in_own_settings
     def call(*args: Any) -> Any:
-        if jax.default_backend() == "cpu" and trace_state_clean():
+        if jax.default_backend() == "cpu" and trace_state_clean():  # not in a transformation, which chooses how
             with suppress(jax.errors.JaxRuntimeError):  # from an XLA without this option
                 return soon(*args)
         return plain(*args)
@@ -227,14 +216,6 @@ def _refuse_fork() -> None:
 
 def _packed(arrays: list[np.ndarray]) -> np.ndarray:
     return np.concatenate([array.ravel() for array in arrays]) if arrays else np.zeros(0)
-
-
-def _moved(arrays: list[np.ndarray]) -> Any:
-    """Return the arrays joined into one JAX array."""
-    if _cannot_run:
-        _refuse_fork()
-    with jax.ensure_compile_time_eval():
-        return jnp.asarray(_packed(arrays))
 
 
 def _unpacked(held: Any, shapes: tuple[Any, ...]) -> list[Any]:
@@ -261,10 +242,9 @@ def exported(
     hot: bool = False,
     kept: bool = True,
 ) -> Any:
-    """Turn a function of float64 arrays (in pytrees) into a `StoredFunction`.
+    """Turn a function of float64 arrays (in pytrees) into a `StoredFunction`; a `hot` one runs faster.
 
-    A `hot` function takes longer to compile and then runs faster. A function that is not `kept` is traced in each
-    process; functions that take a user's function as an argument need this.
+    A function that is not `kept` is traced in each process; those that take a user's function need this.
 
     >>> @exported
     ... def double(values):

@@ -61,25 +61,19 @@ def without_repeats(program: jax.export.Exported) -> jax.export.Exported:
 
 
 def _merge_calls(module: ir.Module) -> bool:
-    """Merge calls of one function with the same arguments; return whether there were any.
-
-    The compiler pass does not merge calls. Merging them is safe here: functions of a traced program have no side
-    effects.
-    """
-    return any([_merge_calls_of(block) for block in _blocks(module.operation)])
-
-
-def _merge_calls_of(block: ir.Block) -> bool:
-    first: dict[Any, Any] = {}
+    """Merge calls of one function with the same arguments; return whether there were any."""
+    # The compiler pass does not merge calls. It is safe: functions of a traced program have no side effects.
     found = False
-    for operation in [o.operation for o in block.operations if o.operation.name == "func.call"]:
-        key = (str(operation.attributes["callee"]), *operation.operands)
-        same = first.setdefault(key, operation)
-        if same is not operation:
-            for result, kept in zip(operation.results, same.results, strict=True):
-                result.replace_all_uses_with(kept)
-            operation.erase()
-            found = True
+    for block in _blocks(module.operation):
+        first: dict[Any, Any] = {}
+        for operation in [o.operation for o in block.operations if o.operation.name == "func.call"]:
+            key = (str(operation.attributes["callee"]), *operation.operands)
+            same = first.setdefault(key, operation)
+            if same is not operation:
+                for result, kept in zip(operation.results, same.results, strict=True):
+                    result.replace_all_uses_with(kept)
+                operation.erase()
+                found = True
     return found
 
 

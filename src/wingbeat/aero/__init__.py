@@ -15,8 +15,10 @@ from wingbeat.aero.formula_terms import CamberedTerms, CentreTerms, FormulaTerms
 from wingbeat.aero.function import FunctionCoefficients
 from wingbeat.aero.library import (
     LIBRARY,
+    WING_ESTIMATES,
     Byl,
     Dickinson,
+    Estimate,
     Feathered,
     FeatheredFlapping,
     FeatheredRevolving,
@@ -31,7 +33,6 @@ from wingbeat.aero.library import (
 )
 from wingbeat.aero.model_file import load_model
 from wingbeat.aero.table import TableCoefficients, load_table
-from wingbeat.aero.wing_estimates import WING_ESTIMATES, Estimate
 
 __all__ = [
     "AIRSPEEDS",

@@ -54,19 +54,15 @@ def coefficients_of(given: Any) -> CoefficientModel:
     """
     if isinstance(given, str | PathLike):
         return load_coefficients(Path(given) if isinstance(given, PathLike) else given)
-    faults = FaultList()
     if isinstance(given, type) or any(given is maker for maker in LIBRARY.values()):
-        name = getattr(given, "__name__", "?")
-        faults.add("aero.coefficients", name, "is a class of coefficient models, not a model", f"call it: {name}()")
-    elif hasattr(given, "kernel"):
+        name, rule = getattr(given, "__name__", "?"), "is a class of coefficient models, not a model"
+        raise InvalidInputError([Fault("aero.coefficients", name, rule, f"call it: {name}()")])
+    if hasattr(given, "kernel"):
         return _possible(given)
-    elif callable(given):
+    if callable(given):
         return FunctionCoefficients(given)
-    else:
-        fix = "give SuFan(), a name such as su-fan, the path of a model file, or a function alpha -> (C_L, C_D)"
-        faults.add("aero.coefficients", given, "is not a coefficient model", fix)
-    faults.raise_if_any()
-    raise AssertionError("a fault was noted")
+    fix = "give SuFan(), a name such as su-fan, the path of a model file, or a function alpha -> (C_L, C_D)"
+    raise InvalidInputError([Fault("aero.coefficients", given, "is not a coefficient model", fix)])
 
 
 def load_coefficients(
@@ -94,29 +90,20 @@ def load_coefficients(
     if name.lower().endswith(".toml"):
         return _possible(load_model(name, extension, blend_width_deg))
     if name not in LIBRARY:
-        guess = suggest(name.lower(), LIBRARY, most=2, otherwise="")
-        faults = FaultList()
-        if name and Path(name).is_file():
-            words = seems_to_be(read_text(name)) or "a file"
-            rule = f"seems to be {words}"
-            faults.add(
-                "coefficients", name, rule, "the name of a table ends in .csv, that of a fitted model in .toml"
-            )
-            faults.raise_if_any()
+        rule, guess = "is not a known coefficient model", suggest(name.lower(), LIBRARY, most=2, otherwise="")
         known = f"The models are {', '.join(LIBRARY)}; a table's path ends in .csv, a fitted model's in .toml"
-        faults.add("coefficients", name, "is not a known coefficient model", f"{guess} {known}".lstrip())
-        faults.raise_if_any()
+        fix = f"{guess} {known}".lstrip()
+        if name and Path(name).is_file():
+            rule = f"seems to be {seems_to_be(read_text(name)) or 'a file'}"
+            fix = "the name of a table ends in .csv, that of a fitted model in .toml"
+        raise InvalidInputError([Fault("coefficients", name, rule, fix)])
     return LIBRARY[name](extension, blend_width_deg)
 
 
 def load_hand(
     name_or_path: str, extension: str = "mirrored", blend_width_deg: float = 1.0
 ) -> CoefficientModel | str:
-    """Return the coefficient model of a hand, from `load_coefficients`; if "none" is given, return "none".
-
-    >>> load_hand("none"), load_hand("membrane").name
-    ('none', 'membrane')
-    """
+    """Return the coefficient model of a hand, from `load_coefficients`; if "none" is given, return "none"."""
     return name_or_path if name_or_path == "none" else load_coefficients(name_or_path, extension, blend_width_deg)
 
 
@@ -125,9 +112,8 @@ def _possible(model: CoefficientModel) -> CoefficientModel:
     if isinstance(model, FormulaCoefficients | CamberedCoefficients):
         # Under JAX's transformations a model holds tracers, which have no hash.
         with contextlib.suppress(TypeError):
-            faults = FaultList()
-            faults.faults.extend(_curve_faults(model))
-            faults.raise_if_any()
+            if faults := _curve_faults(model):
+                raise InvalidInputError(list(faults))
     return model
 
 
@@ -143,18 +129,11 @@ def _curve_faults(model: FormulaCoefficients | CamberedCoefficients) -> tuple[Fa
 
 
 class SpanPart(NamedTuple):
-    """A part of the wing with coefficients of its own.
+    """A part of the wing with coefficients of its own."""
 
-    Attributes
-    ----------
-    name : "wing" for the whole of it, "arm" or "hand".
-    coefficients : its coefficient model.
-    strips : the strips that belong to it.
-    """
-
-    name: str
+    name: str  # "wing" for the whole of it, "arm" or "hand"
     coefficients: CoefficientModel
-    strips: slice
+    strips: slice  # those that belong to it
 
 
 FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
@@ -224,45 +203,37 @@ class BladeElement:
 
     def __post_init__(self) -> None:
         faults = FaultList()
-        for name in ("coefficients", "hand"):
-            given = getattr(self, name)
-            if name == "hand" and self.hand == "none":
-                continue
+        for name in ("coefficients",) if self.hand == "none" else ("coefficients", "hand"):
             try:
-                object.__setattr__(self, name, coefficients_of(given))
+                object.__setattr__(self, name, coefficients_of(getattr(self, name)))
             except InvalidInputError as error:
                 faults.faults.extend(error.faults)
+
+        def check_number(name: str, fix: str) -> None:
+            faults.number(f"aero.{name}", getattr(self, name), **ELEMENT_LIMITS[name], fix=fix)
+
         faults.whole("aero.strips", self.strips, 1, 1000, "Su et al. use 10")
         for name, words in ELEMENT_WORDS.items():
             faults.choice(f"aero.{name}", getattr(self, name), words)
-        self._check_number(faults, "induced_factor", fix="1 is an ideal disc")
-        self._check_number(faults, "share", fix="1 applies each term in full")
+        check_number("induced_factor", fix="1 is an ideal disc")
+        check_number("share", fix="1 applies each term in full")
         if self.share != 1 and self.unsteady == self.inflow == "none":
             rule = "has no effect without unsteady terms or inflow"
             faults.add("aero.share", self.share, rule, "set unsteady or inflow, or leave share out")
-        self._check_number(faults, "hand_from", fix="a fraction of the span")
+        check_number("hand_from", fix="a fraction of the span")
         if self.hand == "none" and self.hand_from != type(self).hand_from:
             rule = "has no effect without a hand"
             faults.add("aero.hand_from", self.hand_from, rule, "set hand to the coefficients of the hand")
-        self._check_number(faults, "upstroke_factor", fix="1 is off")
+        check_number("upstroke_factor", fix="1 is off")
         faults.raise_if_any()
-        for part in self.parts:
-            self._check_part(part.coefficients, faults)
+        for _, coefficients, _ in self.parts:
+            if self.inflow != "none":
+                sectional_kernel(coefficients)  # refuses a model that it cannot make sectional
+            if self.force_point == "centre-of-pressure" and not coefficients.has_centre_of_pressure:
+                rule = f"needs a centre of pressure, and {coefficients.name} has none"
+                fix = "use quarter-chord, or a model that has one"
+                faults.add("aero.force_point", self.force_point, rule, fix)
         faults.raise_if_any()
-
-    def _check_number(self, faults: FaultList, name: str, fix: str) -> None:
-        faults.number(f"aero.{name}", getattr(self, name), **ELEMENT_LIMITS[name], fix=fix)
-
-    def _check_part(self, coefficients: CoefficientModel, faults: FaultList) -> None:
-        if self.inflow != "none":
-            sectional_kernel(coefficients)  # refuses a model that it cannot make sectional
-        if self.force_point == "centre-of-pressure" and not coefficients.has_centre_of_pressure:
-            faults.add(
-                "aero.force_point",
-                self.force_point,
-                f"needs a centre of pressure, and {coefficients.name} has none",
-                "use quarter-chord, or a model that has one",
-            )
 
     @property
     def parts(self) -> tuple[SpanPart, ...]:
@@ -289,30 +260,24 @@ OF_ELEMENTS = tuple(field.name for field in fields(BladeElement) if field.name n
 
 
 def blade_element_of(aero: Any) -> BladeElement:
-    """Return the model of the air loads for ``aero``: a `BladeElement`, or anything that `coefficients_of` takes.
-
-    >>> blade_element_of("dickinson").strips
-    10
-    """
+    """Return the model of the air loads for ``aero``: a `BladeElement`, or what `coefficients_of` takes."""
     return aero if isinstance(aero, BladeElement) else BladeElement(aero)
 
 
 class StripForces(NamedTuple):
     """Air load of each strip of one wing: the forces [N], and the speed and angle that determine them, as arrays.
 
-    `chordwise` and `normal` are the force components along the two axes in which the speeds were given. These axes
-    are those of the pitched or of the unpitched chord. `speed` is the airspeed V that determines the loads. `lift`
-    and `drag` come from the coefficients alone. `couple` [N m], leading edge up, is None unless unsteady loads of
-    turning strips are included.
+    `chordwise` and `normal` are along the two axes in which the speeds were given, of the pitched or the unpitched
+    chord.
     """
 
     chordwise: PerStrip
     normal: PerStrip
     alpha: PerStrip
-    speed: PerStrip
-    lift: PerStrip
+    speed: PerStrip  # the airspeed V that determines the loads
+    lift: PerStrip  # from the coefficients alone
     drag: PerStrip
-    couple: PerStrip | None = None
+    couple: PerStrip | None = None  # [N m], leading edge up; None without unsteady loads of turning strips
 
 
 def strip_forces(
@@ -327,24 +292,16 @@ def strip_forces(
     """Return the air loads of strips of given areas [m2] moving at given speeds along two axes [m/s].
 
     The chord is pitched by `pitch` from the first axis towards the second, so ``alpha = pitch - gamma`` where
-    ``gamma = atan2(v_n, v_c)`` is the direction of the motion. The loads are ``F_c = -L sin(gamma) - D cos(gamma)``
-    and ``F_n = L cos(gamma) - D sin(gamma)``; the code replaces sine and cosine of gamma by the speeds. If a speed
-    along the span [m/s] is given, V is the magnitude of all three components. A strip that moves only along its
-    span has no angle of attack and no load.
+    ``gamma = atan2(v_n, v_c)`` is the direction of the motion. If a speed along the span is given, V is the
+    magnitude of all three components. A strip that moves only along its span has no angle of attack and no load.
 
     Theory: equations ``angle-of-attack``, ``lift-drag`` and ``strip-force``.
     """
     along_span = () if span_speed is None else (span_speed,)
     unit = _unit_forces(kernel, chord_speed, normal_speed, pitch, *along_span)
     pressure_area = 0.5 * density * area
-    return StripForces(
-        chordwise=pressure_area * unit.chordwise,
-        normal=pressure_area * unit.normal,
-        alpha=unit.alpha,
-        speed=unit.speed,
-        lift=pressure_area * unit.lift,
-        drag=pressure_area * unit.drag,
-    )
+    forces = {name: pressure_area * getattr(unit, name) for name in ("chordwise", "normal", "lift", "drag")}
+    return unit._replace(**forces)
 
 
 def with_turning(
@@ -356,10 +313,7 @@ def with_turning(
     chord_speed: PerStrip,
     normal_speed: PerStrip,
 ) -> StripForces:
-    """Return the loads with those of a turning chord added: rotational force, and couple that resists the turning.
-
-    `turning` is that of the chord about the span, leading edge up.
-    """
+    """Return the loads with those of a turning chord added: rotational force, and couple against the turning."""
     along, across = rotation_force(density, chord, width, turning, chord_speed, normal_speed)
     return forces._replace(
         chordwise=forces.chordwise + along,
@@ -382,7 +336,8 @@ def _unit_forces(
     # The square root has no derivative at rest; there the loads vanish with the speed.
     moving = squared > 0.0
     speed = jnp.where(moving, jnp.sqrt(jnp.where(moving, squared, 1.0)), 0.0)
-    alpha = _wrapped(pitch - atan2(normal_speed, chord_speed))
+    angle = pitch - atan2(normal_speed, chord_speed)
+    alpha = angle - 2 * math.pi * jnp.round(angle * (0.5 / math.pi))  # whole turns bring it into [-pi, pi]
     c_l, c_d = _coefficients(kernel, alpha)
     planar, share = speed, speed  # V^2 over the planar speed; times a velocity in the plane, it is a force
     if span_speed:
@@ -398,8 +353,3 @@ def _unit_forces(
         lift=lift * planar,
         drag=drag * planar,
     )
-
-
-def _wrapped(angle: Angles) -> Angles:
-    """Return an angle brought into [-pi, pi] by whole turns."""
-    return angle - 2 * math.pi * jnp.round(angle * (0.5 / math.pi))

@@ -46,12 +46,10 @@ def disc_area(semi_span: Scalar) -> Scalar:
 def induced_flow(
     density: Scalar, area: Scalar, factor: Scalar, force: Pair, velocity: Pair, xp: Any = np
 ) -> tuple[Any, Any]:
-    """Return the induced velocity of the air at the wings, forward and up [m/s].
+    """Return the induced velocity of the air at the wings, forward and up [m/s]. Theory: equation ``induced-flow``.
 
     `factor` is k, 0 for no induced flow; `force` is the mean force of both wings and `velocity` that of the animal,
     both forward and up; `xp` is the array module that computes, numpy or jax.numpy.
-
-    Theory: equation ``induced-flow``.
 
     >>> forward, up = induced_flow(1.225, disc_area(0.279), 1.0, (0.0, 0.316 * 9.81), (0.0, 0.0))
     >>> round(float(-up), 3)
@@ -73,14 +71,12 @@ def induced_flow(
 def check_descent(
     faults: FaultList, density: float, area: float, factor: float, weight: float, velocity: tuple[float, float]
 ) -> None:
-    """Note a fault if the animal descends into its own wake (vortex ring), where momentum theory does not hold.
+    """Note a fault if the animal descends into its own wake. Theory: equation ``vortex-ring``.
 
     In vertical descent, the vortex ring exists at speeds from 0 to twice the induced speed of hover (Leishman 2006,
     Principles of Helicopter Aerodynamics, section 2.13). With forward speed this range narrows; it ends at a
     forward speed of about the induced speed of hover (Johnson 2005, NASA TP-2005-213477). Here the range is the
     inside of the circle through these points.
-
-    Theory: equation ``vortex-ring``.
     """
     hover = math.sqrt(factor * weight / (2.0 * density * area))
     speed, climb = velocity
@@ -96,10 +92,7 @@ UNSTEADY = ("none", "thin-aerofoil")
 
 
 def rotation_lift(density: Scalar, chord: PerStripBroadcast, width: Phases, turning: PerStrip) -> PerStrip:
-    """Return the force normal to a turning strip's velocity, per speed [N s/m]: ``rho pi/2 c^2 omega dr``.
-
-    `chord` and `width` are c and dr; `turning` is omega.
-    """
+    """Return the force normal to a turning strip's velocity, per speed [N s/m]: ``rho pi/2 c^2 omega dr``."""
     return 0.5 * math.pi * density * chord * chord * width * turning
 
 
@@ -111,12 +104,10 @@ def rotation_force(
     chord_speed: PerStrip,
     normal_speed: PerStrip,
 ) -> Pair:
-    """Return the force of a turning strip at its quarter chord [N], along chord and normal.
+    """Return the force of a turning strip at its quarter chord [N], along chord and normal, where it does no work.
 
-    `chord` and `width` are c and dr; the speeds, v_c and v_n, are those of the quarter chord through the air.
-
-    ``(F_c, F_n) = rho G dr (-v_n, v_c)`` with the circulation ``G = pi/2 c^2 omega``. It does no work at the
-    quarter chord. The formula holds in any axes in the plane of chord and normal, such as the unpitched strip's.
+    ``(F_c, F_n) = rho G dr (-v_n, v_c)`` with the circulation ``G = pi/2 c^2 omega`` and the velocity v of the
+    quarter chord, in any axes in the plane of chord and normal, such as the unpitched strip's.
 
     Theory: equation ``rotation-force``.
     """
@@ -139,12 +130,7 @@ def added_mass(density: Scalar, chord: PerStripBroadcast, width: Phases) -> PerS
 
 
 def added_inertia(density: Scalar, chord: PerStripBroadcast, width: Phases) -> PerStrip:
-    """Return the added moment of inertia of strips about mid-chord, ``pi/128 rho c^4 dr`` [kg m2].
-
-    It resists the turning of the chord: couple ``-I d(omega)/dt``.
-
-    Theory: equation ``unsteady-couple``.
-    """
+    """Return the added inertia of strips about mid-chord [kg m2]. Theory: equation ``unsteady-couple``."""
     squared = chord * chord
     return math.pi / 128 * density * squared * squared * width
 
@@ -152,12 +138,7 @@ def added_inertia(density: Scalar, chord: PerStripBroadcast, width: Phases) -> P
 def damping_couple(
     density: Scalar, chord: PerStripBroadcast, width: Phases, turning: PerStrip, speed: PerStrip
 ) -> PerStrip:
-    """Return the couple that opposes the turning of strips, ``-pi/16 rho c^3 |V| omega dr`` [N m].
-
-    `speed` is the airspeed of the quarter chord that determines the loads, planar or full.
-
-    Theory: equation ``unsteady-couple``.
-    """
+    """Return the couple that opposes the turning of strips [N m]. Theory: equation ``unsteady-couple``."""
     return -math.pi / 16 * density * chord * chord * chord * width * speed * turning
 
 
@@ -183,13 +164,10 @@ def tail_force(
     velocity: tuple[Phases, Phases],
     xp: Any = np,
 ) -> Pair:
-    """Return the force on a tail [N], in the axes in which its velocity is given.
-
-    `lift_slope` is a [1/rad], `drag_coefficient` C_D0, `normal` n the unit vector to the upper side, and `velocity`
-    v that of the tail's aerodynamic centre through the air.
+    """Return the force on a tail [N], in the axes in which the velocity of its aerodynamic centre is given.
 
     Lift and drag add up to ``-1/2 rho S |v| (k v + a (v.n) n)`` with ``k = C_D0 + (C_B - a) sin^4(alpha)``, where n
-    is the unit normal of the surface.
+    is the unit vector normal to the upper side.
 
     Theory: equations ``tail-coefficients`` and ``tail-force``.
 
@@ -209,10 +187,7 @@ def tail_force(
 
 
 def body_drag(drag_area: Scalar, density: Scalar, velocity: Pair, xp: Any = np) -> Pair:
-    """Return the drag of the body at its centre of mass, ``-1/2 rho S |v| v`` [N], in the axes of `velocity`.
-
-    Theory: equation ``body-drag``.
-    """
+    """Return the drag of the body [N], in the axes of `velocity`. Theory: equation ``body-drag``."""
     squared = velocity[0] * velocity[0] + velocity[1] * velocity[1]
     moving = squared > 0.0
     speed = xp.where(moving, xp.sqrt(xp.where(moving, squared, 1.0)), 0.0)

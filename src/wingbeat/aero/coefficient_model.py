@@ -23,6 +23,8 @@ MAX_LIFT, MAX_DRAG, CENTRE_RANGE = 5.0, 5.0, (-1.0, 2.0)
 # state it, and a drag of 0; tables, which are measurements, may not.
 IDEAL_LIFT = 2 * math.pi
 _ROUNDING = 1e-9
+# How far a model is to be trusted, and what its name then says.
+GRADES = {"A": "", "B": ", cited second-hand", "C": ", in part a guess"}
 
 
 class Kernel(Protocol):
@@ -53,6 +55,14 @@ def check_aspect_ratio(faults: FaultList, where: str, given: Any) -> None:
         faults.number(where, given, above=0, fix="give span over mean chord, inf for a section, or none if unknown")
 
 
+def check_about(faults: FaultList, model: Any) -> None:
+    """Note faults of what a model of formulas states about itself."""
+    check_aspect_ratio(faults, "aspect_ratio", model.aspect_ratio)
+    faults.choice("grade", model.grade, tuple(GRADES))
+    if model.reynolds_range is not None:
+        check_range(faults, "reynolds_range", model.reynolds_range)
+
+
 def check_range(faults: FaultList, where: str, limits: Any) -> None:
     """Note a fault unless `limits` are two numbers that do not decrease."""
     if not isinstance(limits, tuple) or len(limits) != 2:
@@ -62,11 +72,7 @@ def check_range(faults: FaultList, where: str, limits: Any) -> None:
 
 
 def check_possible(faults: FaultList, quantity: str, values: Sequence[float], where: Callable[[int], str]) -> None:
-    """Note one fault, at the worst row, if a column holds coefficients that no wing has.
-
-    `quantity` is "c_l", "c_d" or "x_cp" in either case; others have no limits. Values that are not finite are left
-    to other checks; `where` names a row.
-    """
+    """Note one fault, at the worst row, if a column holds finite coefficients that no wing has."""
     name = quantity.lower()
     limits = {"c_l": (-MAX_LIFT, MAX_LIFT), "c_d": (0.0, MAX_DRAG), "x_cp": CENTRE_RANGE}
     if name not in limits:
@@ -126,10 +132,7 @@ def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:
 
 @in_own_settings
 def at_angles(function: Any, numbers: Any, angles: NDArray[np.float64]) -> Any:
-    """Return the values of a compiled function of `numbers` and angles, as NumPy arrays; angles have any shape.
-
-    A scalar angle gives scalars, as in NumPy.
-    """
+    """Return the values of a compiled function of `numbers` and angles of any shape, as NumPy arrays."""
     # Padded to a power of two: XLA compiles anew for each length it has not met.
     padded = np.zeros(1 << max(angles.size - 1, 0).bit_length())
     padded[: angles.size] = angles.ravel()
@@ -170,6 +173,9 @@ class CoefficientModel:
     alpha_range_deg: tuple[float, float]
     aspect_ratio: float | None
 
+    def __str__(self) -> str:
+        return f"{self.name} ({self.citation or 'no source given'}{GRADES[getattr(self, 'grade', 'A')]})"
+
     @property
     def used_range_deg(self) -> tuple[float, float]:
         """Lowest and highest angle [deg] where the measured coefficients are used; beyond, the extension applies.
@@ -185,7 +191,7 @@ class CoefficientModel:
     @property
     def has_centre_of_pressure(self) -> bool:
         """Whether the model has a centre of pressure."""
-        raise NotImplementedError
+        return False
 
     def kernel(self) -> Kernel:
         """Return the JAX pytree that evaluates this model."""

@@ -56,10 +56,7 @@ class SectionalKernel(NamedTuple):
 # A problem asks twice for the kernel, at 0.03 s each, and an answer of the explorer sets up its problem five times.
 @functools.lru_cache(maxsize=32)
 def sectional_kernel(model: CoefficientModel) -> Kernel:
-    """Return the kernel of the sectional coefficients that follow from those of a wing of finite aspect ratio.
-
-    Theory: equation ``section-coefficients``.
-    """
+    """Return the kernel of a finite wing's sectional coefficients. Theory: equation ``section-coefficients``."""
     if model.aspect_ratio is None:
         rule = f"needs the aspect ratio of the wing that was measured, and {model.name} states none"
         fix = "use a model that has one, state aspect_ratio in the table or model, or leave the inflow out"
@@ -82,10 +79,7 @@ def sectional_kernel(model: CoefficientModel) -> Kernel:
 
 
 def _wing_angles(model: CoefficientModel, aspect_ratio: float, section: np.ndarray) -> np.ndarray:
-    """Return the angles of attack of a wing [rad] at which its sections have the angles `section`.
-
-    Theory: equation ``section-angle``.
-    """
+    """Return a wing's angles at which its sections have these [rad]. Theory: equation ``section-angle``."""
 
     def turned(alpha: np.ndarray) -> np.ndarray:
         return model.lift(alpha) / (math.pi * aspect_ratio)
@@ -129,13 +123,7 @@ def count_arm_strips(strips: int, hand_from: float) -> int:
 @register_record(static=("arm_strips",))
 @dataclass(frozen=True)
 class ArmHandKernel:
-    """The kernel of a wing whose inner and outer strips have different coefficients; a JAX pytree.
-
-    Parameters
-    ----------
-    arm, hand : kernels of the two parts.
-    arm_strips : number of strips that belong to the arm.
-    """
+    """The kernel of a wing whose inner and outer strips have different coefficients; a JAX pytree."""
 
     arm: Kernel
     hand: Kernel
@@ -163,10 +151,7 @@ class UpstrokeKernel(NamedTuple):
     factor: Scalar
 
     def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
-        """Return C_L and C_D at `alpha` [rad], shape (N, ...).
-
-        Theory: equation ``upstroke-factor``.
-        """
+        """Return C_L and C_D at `alpha` [rad], shape (N, ...). Theory: equation ``upstroke-factor``."""
         lift, drag = self.kernel.lift_drag(alpha)
         below = jnp.clip(0.5 + 0.5 * sin(alpha) / math.sin(math.radians(_CHANGE_DEG)), 0.0, 1.0)
         smooth = below * below * below * horner((10.0, -15.0, 6.0), below)

@@ -47,11 +47,11 @@ class Jet(NamedTuple):
 
     def mirrored(self) -> Jet:
         """Return the jet of the curve with its argument's sign reversed."""
-        return Jet(self.value, -self.slope, self.curvature)
+        return self._replace(slope=-self.slope)
 
     def negated(self) -> Jet:
         """Return the jet of the negative of the curve."""
-        return Jet(-self.value, -self.slope, -self.curvature)
+        return Jet(*(-part for part in self))
 
 
 # A curve by its jets: the angle in, the jet there out.
@@ -61,34 +61,21 @@ Jets = Callable[[Any], Jet]
 def jet_of(function: Function, at: Scalar) -> Jet:
     """Return value, slope and curvature of a function, by automatic differentiation."""
     one = jnp.ones_like(at)
-
-    def value_and_slope(x: Scalar) -> tuple[Scalar, Scalar]:
-        return jax.jvp(function, (x,), (one,))
-
-    (value, slope), (_, curvature) = jax.jvp(value_and_slope, (at,), (one,))
+    (value, slope), (_, curvature) = jax.jvp(lambda x: jax.jvp(function, (x,), (one,)), (at,), (one,))
     return Jet(value, slope, curvature)
 
 
 def even_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
-    """Return the coefficients of the even polynomial that has `jet` at `width`, by powers of distance squared.
-
-    Theory: equation ``even-blend``.
-    """
+    """Return the even polynomial with `jet` at `width`, in distance squared. Theory: equation ``even-blend``."""
     f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
     return f - (5 * s - k) / 8, (3 * s - k) / (4 * width**2), (k - s) / (8 * width**4)
 
 
 def odd_blend(jet: Jet, width: Scalar) -> tuple[Scalar, ...]:
-    """Return the same for the odd polynomial that has `jet` at `width`, after division by the distance.
-
-    Theory: equation ``odd-blend``.
-    """
+    """Return the odd polynomial with `jet` at `width`, over the distance. Theory: equation ``odd-blend``."""
     f, s, k = jet.value, jet.slope * width, jet.curvature * width**2
-    return (
-        (15 * f - 7 * s + k) / (8 * width),
-        (5 * (s - f) - k) / (4 * width**3),
-        (k - 3 * (s - f)) / (8 * width**5),
-    )
+    first, third = (15 * f - 7 * s + k) / (8 * width), (5 * (s - f) - k) / (4 * width**3)
+    return first, third, (k - 3 * (s - f)) / (8 * width**5)
 
 
 class Blend(NamedTuple):
@@ -99,10 +86,7 @@ class Blend(NamedTuple):
 
     @classmethod
     def between(cls, left: Jet, right: Jet, width: Scalar) -> Blend:
-        """Return the blend that has `left` at distance -width and `right` at +width.
-
-        Theory: equation ``join-blend``.
-        """
+        """Return the blend with `left` at -width and `right` at +width. Theory: equation ``join-blend``."""
         mirror = left.mirrored()
         even = Jet(*((r + m) / 2 for r, m in zip(right, mirror, strict=True)))
         odd = Jet(*((r - m) / 2 for r, m in zip(right, mirror, strict=True)))
@@ -163,10 +147,7 @@ class SignedPatch(NamedTuple):
     at_minus_right: Blend
 
     def over(self, value: Angles, piece: Function, alpha: Angles, width: Scalar) -> Angles:
-        """Return the patched coefficient; it needs no blend at 0, because one formula holds on both sides.
-
-        Theory: equation ``signed-extensions``.
-        """
+        """Return the patched coefficient, which needs no blend at 0. Theory: equation ``signed-extensions``."""
         inside = (alpha > -RIGHT_ANGLE) & (alpha < width)
         value = jnp.where(inside, piece(jnp.where(inside, alpha, 0.0)), value)
         return self.at_minus_right.over(value, alpha + RIGHT_ANGLE, width)
@@ -180,10 +161,7 @@ class ClippedPatch(NamedTuple):
     at_half_turn: Blend
 
     def over(self, value: Angles, piece: Function, alpha: Angles, width: Scalar) -> Angles:
-        """Return the patched coefficient.
-
-        Theory: equation ``signed-extensions``.
-        """
+        """Return the patched coefficient. Theory: equation ``signed-extensions``."""
         value = self.at_zero.over(jnp.where(alpha < 0, self.level, value), alpha, width)
         return self.at_half_turn.over(value, alpha - jnp.where(alpha < 0, -math.pi, math.pi), width)
 
@@ -197,10 +175,7 @@ class Ends(NamedTuple):
 
 
 def _fold(alpha: Angles) -> tuple[Angles, Angles]:
-    """Return the angle minus whole half turns, in [-90, 90] degrees, and the number of half turns.
-
-    Theory: equation ``folded-angle``.
-    """
+    """Return the angle minus whole half turns, and the number of these. Theory: equation ``folded-angle``."""
     turns = jnp.round(alpha * (1 / math.pi))
     return alpha - turns * math.pi, turns
 
@@ -218,10 +193,7 @@ class ExtendedKernel(NamedTuple):
     centre: Ends
 
     def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
-        """Return C_L and C_D at `alpha` [rad], any shape.
-
-        Theory: equation ``mirrored-extension``.
-        """
+        """Return C_L and C_D at `alpha` [rad], any shape. Theory: equation ``mirrored-extension``."""
         # One fold serves both: mirrored, C_L and C_D repeat every half turn.
         folded, _ = _fold(alpha)
         sign = jnp.where(folded < 0, -1.0, 1.0)
@@ -241,10 +213,7 @@ class ExtendedKernel(NamedTuple):
         return lift, drag
 
     def centre_of_pressure(self, alpha: Angles) -> Angles:
-        """Return x_cp at `alpha` [rad], any shape, in chords from the leading edge; NaN if there is none.
-
-        Theory: equation ``mirrored-extension``.
-        """
+        """Return x_cp at `alpha` [rad], NaN if there is none. Theory: equation ``mirrored-extension``."""
         folded, turns = _fold(alpha)
         acute = jnp.where(folded < 0, -1.0, 1.0) * folded
         short = acute - RIGHT_ANGLE
@@ -261,24 +230,8 @@ class ExtendedKernel(NamedTuple):
         return centre
 
 
-def _patch(jet: Jets, behind: Jet, width: Scalar, extension: str, name: str, signed: tuple[str, ...]) -> Any:
-    """Return the patch of `extension` for a mirrored coefficient; its jet beyond -90 degrees is `behind`."""
-    if name in signed and (extension == "signed" or (extension == "signed-drag" and name == "drag")):
-        return SignedPatch(Blend.between(behind, jet(width - RIGHT_ANGLE), width))
-    if extension == "clipped-drag" and name == "drag":
-        zero = 0.0 * width
-        level = Jet(jet(zero).value, zero, zero)
-        front = jet(width)
-        joins = Blend.between(level, front, width), Blend.between(front.mirrored(), level, width)
-        return ClippedPatch(level.value, *joins)
-    return None
-
-
 def _ends(jet: Jets, width: Scalar, extension: str, name: str, signed: tuple[str, ...]) -> Ends:
-    """Return the blends of the coefficient `name`, whose value, slope and curvature at an angle are ``jet(angle)``.
-
-    Theory: equation ``mirrored-blends``.
-    """
+    """Return the blends of the coefficient `name`. Theory: equation ``mirrored-blends``."""
     zero, right = jet(width), jet(RIGHT_ANGLE - width)
     backwards = right.mirrored()
     blend_zero, blend_right, behind = even_blend(zero, width), even_blend(backwards, width), right
@@ -289,25 +242,30 @@ def _ends(jet: Jets, width: Scalar, extension: str, name: str, signed: tuple[str
         about_half = backwards.negated()
         blend_right = odd_blend(about_half._replace(value=about_half.value + 0.5), width)
         behind = right.negated()._replace(value=1.0 - right.value)
-    return Ends(blend_zero, blend_right, _patch(jet, behind, width, extension, name, signed))
+    patch = None
+    if name in signed and (extension == "signed" or (extension == "signed-drag" and name == "drag")):
+        patch = SignedPatch(Blend.between(behind, jet(width - RIGHT_ANGLE), width))
+    elif extension == "clipped-drag" and name == "drag":
+        zero = 0.0 * width
+        level = Jet(jet(zero).value, zero, zero)
+        front = jet(width)
+        joins = Blend.between(level, front, width), Blend.between(front.mirrored(), level, width)
+        patch = ClippedPatch(level.value, *joins)
+    return Ends(blend_zero, blend_right, patch)
 
 
 def check_drag_of_joins(
     faults: FaultList, what: str, jet: Jets, blend_width_deg: float, extension: str, signed: tuple[str, ...]
 ) -> None:
-    """Note a fault for each join in whose blend C_D is not positive.
-
-    `what` names C_D in the faults; `jet` gives its value, slope and curvature at an angle [rad].
-
-    A blend keeps slope and curvature at its ends, so it can fall below both where drag is steep there.
-    """
+    """Note a fault for each join in whose blend C_D is not positive; `what` names C_D in the faults."""
+    # A blend keeps slope and curvature at its ends, so it can fall below both where drag is steep there.
     width = blend_width_deg * (math.pi / 180)
     ends = _ends(jet, width, extension, "drag", signed)
     blends = {90: Blend(ends.at_right, (0.0,))}
-    if not isinstance(ends.patch, SignedPatch):
-        blends[0] = Blend(ends.at_zero, (0.0,))
     if isinstance(ends.patch, SignedPatch):
         blends[-90] = ends.patch.at_minus_right
+    else:
+        blends[0] = Blend(ends.at_zero, (0.0,))
     if isinstance(ends.patch, ClippedPatch):
         blends |= {0: ends.patch.at_zero, 180: ends.patch.at_half_turn}
     distances = np.linspace(-width, width, _SAMPLES)
@@ -322,18 +280,13 @@ def check_drag_of_joins(
 @exported(static=("extension", "signed"))
 def _extended(pieces: Pieces, width: Scalar, *, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
     """Return the kernel with its blends."""
-
-    def ends(name: str) -> Ends:
-        return _ends(lambda at: jet_of(getattr(pieces, name), at), width, extension, name, signed)
-
-    return ExtendedKernel(pieces, width, ends("lift"), ends("drag"), ends("centre"))
+    ends = [
+        _ends(lambda at, name=name: jet_of(getattr(pieces, name), at), width, extension, name, signed)
+        for name in ("lift", "drag", "centre")
+    ]
+    return ExtendedKernel(pieces, width, *ends)
 
 
 def extend(pieces: Pieces, blend_width_deg: Scalar, extension: str, signed: tuple[str, ...]) -> ExtendedKernel:
-    """Return the kernel of coefficients extended to every angle.
-
-    `signed` names which of "lift", "drag", "centre" are also valid from -90 to 0 degrees; the leaves of `pieces`
-    and the width may be traced.
-    """
-    width = blend_width_deg * (math.pi / 180)
-    return _extended(pieces, width, extension=extension, signed=signed)
+    """Return the kernel of coefficients extended to every angle; those in `signed` are valid from -90 degrees."""
+    return _extended(pieces, blend_width_deg * (math.pi / 180), extension=extension, signed=signed)

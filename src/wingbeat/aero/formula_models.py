@@ -14,19 +14,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from wingbeat._base import FaultList
 from wingbeat._jax.arrays import jnp, register_record
 from wingbeat._jax.exported import exported
-from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspect_ratio, check_range
+from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_about, check_range
 from wingbeat.aero.extension import Blend, ExtendedKernel, check_extension, extend, jet_of
 from wingbeat.aero.formula_terms import CamberedCurves, CamberedTerms, CentreTerms, FormulaTerms, PowerLaw, Wave
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import Angles, Scalar
-
-# How far a model is to be trusted, and what its name then says.
-GRADES = {"A": "", "B": ", cited second-hand", "C": ", in part a guess"}
-
-
-# Replaces the centre of pressure in a model without one: the pytree stays the same, and every value is NaN.
-_NO_CENTRE = PowerLaw(math.nan, 0.0, 1.0, 0.0, 0.0)
 
 
 class FormulaPieces(NamedTuple):
@@ -82,19 +75,13 @@ class FormulaCoefficients(CoefficientModel):
 
     def __post_init__(self) -> None:
         faults = FaultList()
-        check_aspect_ratio(faults, "aspect_ratio", self.aspect_ratio)
-        faults.choice("grade", self.grade, tuple(GRADES))
-        if self.reynolds_range is not None:
-            check_range(faults, "reynolds_range", self.reynolds_range)
+        check_about(faults, self)
         check_range(faults, "alpha_range_deg", self.alpha_range_deg)
         check_extension(faults, self.extension, self.blend_width_deg)
         if self.extension in ("signed", "signed-drag") and self.drag_terms.decays:
             rule = "evaluates the drag formula at negative angles, where its exponential term diverges"
             faults.add("extension", self.extension, rule, "use mirrored")
         faults.raise_if_any()
-
-    def __str__(self) -> str:
-        return f"{self.name} ({self.citation or 'no source given'}{GRADES[self.grade]})"
 
     @property
     def has_centre_of_pressure(self) -> bool:
@@ -103,7 +90,10 @@ class FormulaCoefficients(CoefficientModel):
 
     def kernel(self) -> ExtendedKernel:
         """Return the JAX pytree that evaluates this model; it is differentiable with respect to its parameters."""
-        centre = self.centre_terms.in_radians() if self.centre_terms is not None else _NO_CENTRE
+        # Without a centre of pressure the pytree stays the same, and every value is NaN.
+        centre = PowerLaw(math.nan, 0.0, 1.0, 0.0, 0.0)
+        if self.centre_terms is not None:
+            centre = self.centre_terms.in_radians()
         # The lift always carries its exponential, so that Su-Fan and Dickinson are one compiled function.
         lift = self.lift_terms.in_radians(with_decay=True)
         drag = self.drag_terms.in_radians(with_decay=self.drag_terms.decays)
@@ -143,10 +133,7 @@ class CamberedKernel(NamedTuple):
     high: Join
 
     def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
-        """Return C_L and C_D at `alpha` [rad], any shape.
-
-        Theory: equation ``cambered-join``.
-        """
+        """Return C_L and C_D at `alpha` [rad], any shape. Theory: equation ``cambered-join``."""
         inside = (alpha > self.low.centre) & (alpha < self.high.centre)
         plate_lift, plate_drag = self.plate.lift_drag(alpha)
         lift = jnp.where(inside, self.curves.lift(alpha), plate_lift)
@@ -171,10 +158,7 @@ def _joined(curves: CamberedCurves, plate: Kernel, joins: tuple[Any, ...]) -> Ca
 
     def join(left: list[Any], start: Scalar, right: list[Any], end: Scalar) -> Join:
         width = 0.5 * (end - start)
-        blends = [
-            Blend.between(jet_of(one, start), jet_of(other, end), width)
-            for one, other in zip(left, right, strict=True)
-        ]
+        blends = (Blend.between(jet_of(a, start), jet_of(b, end), width) for a, b in zip(left, right, strict=True))
         return Join(0.5 * (start + end), width, *blends)
 
     low, high = join(from_plate, first, of_wing, second), join(of_wing, third, from_plate, fourth)
@@ -228,13 +212,10 @@ class CamberedCoefficients(CoefficientModel):
 
     def __post_init__(self) -> None:
         faults = FaultList()
-        check_aspect_ratio(faults, "aspect_ratio", self.aspect_ratio)
-        faults.choice("grade", self.grade, tuple(GRADES))
-        if self.reynolds_range is not None:
-            check_range(faults, "reynolds_range", self.reynolds_range)
+        check_about(faults, self)
         check_extension(faults, self.extension, self.blend_width_deg)
-        for name in ("low_join_deg", "high_join_deg"):
-            check_range(faults, name, getattr(self, name))
+        check_range(faults, "low_join_deg", self.low_join_deg)
+        check_range(faults, "high_join_deg", self.high_join_deg)
         faults.raise_if_any()
         rising = (-90.0, *self.low_join_deg, self.terms.zero_lift_deg, *self.high_join_deg, 90.0)
         if any(first >= then for first, then in itertools.pairwise(rising)):
@@ -243,23 +224,14 @@ class CamberedCoefficients(CoefficientModel):
             faults.add("low_join_deg, high_join_deg", joins, rule, "give each as (lower, upper)")
         faults.raise_if_any()
 
-    def __str__(self) -> str:
-        return f"{self.name} ({self.citation or 'no source given'}{GRADES[self.grade]})"
-
     @property
     def alpha_range_deg(self) -> tuple[float, float]:  # type: ignore[override]
         """Lowest and highest angle at which only the wing's formulas apply [deg]."""
         return self.low_join_deg[1], self.high_join_deg[0]
 
-    @property
-    def has_centre_of_pressure(self) -> bool:
-        """Whether the model has a centre of pressure: it has none."""
-        return False
-
     def kernel(self) -> CamberedKernel:
         """Return the JAX pytree that evaluates this model; it is differentiable with respect to its parameters."""
         radians = math.pi / 180
         joins = tuple((start * radians, end * radians) for start, end in (self.low_join_deg, self.high_join_deg))
-        return _joined(
-            self.terms.in_radians(), replace(PLATE, blend_width_deg=self.blend_width_deg).kernel(), joins
-        )
+        plate = replace(PLATE, blend_width_deg=self.blend_width_deg)
+        return _joined(self.terms.in_radians(), plate.kernel(), joins)

@@ -27,10 +27,7 @@ _DEG = 180 / math.pi
 
 
 class Wave(NamedTuple):
-    """``constant + amplitude sin(rate a + phase) + decay_amplitude exp(-decay_rate a)``, a in radians.
-
-    Theory: equation ``formula-terms``.
-    """
+    """The formula of `FormulaTerms` with angles in radians. Theory: equation ``formula-terms``."""
 
     constant: Scalar
     amplitude: Scalar
@@ -48,10 +45,7 @@ class Wave(NamedTuple):
 
 
 class PowerLaw(NamedTuple):
-    """``constant + power_amplitude a^exponent + decay_amplitude a exp(-decay_rate a)``, a in radians > 0.
-
-    Theory: equation ``formula-terms``.
-    """
+    """The formula of `CentreTerms` with angles in radians. Theory: equation ``formula-terms``."""
 
     constant: Scalar
     power_amplitude: Scalar
@@ -97,11 +91,9 @@ class FormulaTerms:
         for name in ("constant", "amplitude", "rate", "phase_deg"):
             faults.number(f"terms.{name}", getattr(self, name))
         if self.decay_amplitude is not None or self.decay_rate is not None:
-            faults.number(
-                "terms.decay_amplitude", self.decay_amplitude, fix="give decay_amplitude and decay_rate, or neither"
-            )
-            term = "decay_amplitude exp(-decay_rate a), with the angle of attack a in degrees"
-            fix = f"give decay_amplitude and decay_rate, or neither; the term is {term}"
+            fix = "give decay_amplitude and decay_rate, or neither"
+            faults.number("terms.decay_amplitude", self.decay_amplitude, fix=fix)
+            fix += "; the term is decay_amplitude exp(-decay_rate a), with the angle of attack a in degrees"
             faults.number("terms.decay_rate", self.decay_rate, at_least=0, unit="1/deg", fix=fix)
         faults.raise_if_any()
         if self.decay_amplitude == 0:
@@ -132,12 +124,10 @@ class FormulaTerms:
         ----------
         with_decay : add an exponential term of amplitude 0 if it has none.
         """
-        decay_amplitude, decay_rate = self.decay_amplitude, self.decay_rate
-        if decay_amplitude is None or decay_rate is None:
-            decay_amplitude = decay_rate = 0.0 if with_decay else None
-        else:
-            decay_rate = decay_rate * _DEG
-        return Wave(self.constant, self.amplitude, self.rate, self.phase_deg / _DEG, decay_amplitude, decay_rate)
+        decay = (0.0, 0.0) if with_decay else (None, None)
+        if self.decay_amplitude is not None and self.decay_rate is not None:
+            decay = self.decay_amplitude, self.decay_rate * _DEG
+        return Wave(self.constant, self.amplitude, self.rate, self.phase_deg / _DEG, *decay)
 
 
 @register_record
@@ -189,16 +179,12 @@ class CentreTerms:
     def in_radians(self) -> PowerLaw:
         """Return the same formula with the angle in radians."""
         power_amplitude = self.power_amplitude * _DEG**self.exponent
-        return PowerLaw(
-            self.constant, power_amplitude, self.exponent, self.decay_amplitude * _DEG, self.decay_rate * _DEG
-        )
+        decay = self.decay_amplitude * _DEG, self.decay_rate * _DEG
+        return PowerLaw(self.constant, power_amplitude, self.exponent, *decay)
 
 
 def _ramp(x: Angles, width: Scalar) -> Angles:
-    """Return ``max(x, 0)`` with the corner rounded over about `width`.
-
-    Theory: equation ``ramp``.
-    """
+    """Return ``max(x, 0)`` with the corner rounded over about `width`. Theory: equation ``ramp``."""
     return 0.5 * (x + jnp.sqrt(x * x + width * width))
 
 
@@ -219,10 +205,7 @@ class CamberedCurves(NamedTuple):
     onset_rounding: Scalar
 
     def lift(self, alpha: Angles) -> Angles:
-        """Return C_L at `alpha` [rad].
-
-        Theory: equation ``cambered-lift``.
-        """
+        """Return C_L at `alpha` [rad]. Theory: equation ``cambered-lift``."""
         line = self.slope * (alpha - self.zero_lift)
         above, beyond = _ramp(line - self.lowest, self.rounding), _ramp(line - self.highest, self.rounding)
         return self.lowest + above - beyond
@@ -234,10 +217,7 @@ class CamberedCurves(NamedTuple):
         return self.low_rise * low + self.high_rise * high
 
     def drag(self, alpha: Angles) -> Angles:
-        """Return C_D at `alpha` [rad].
-
-        Theory: equation ``cambered-drag``.
-        """
+        """Return C_D at `alpha` [rad]. Theory: equation ``cambered-drag``."""
         lift = self.lift(alpha)
         return self.least + self.induced * lift * lift + self.separation_drag(alpha)
 
@@ -283,15 +263,13 @@ class CamberedTerms:
         faults.number("terms.zero_lift_deg", self.zero_lift_deg, above=-45, below=45, unit="deg")
         for name in ("lift_slope", "lift_rounding", "lift_highest", "onset_rounding_deg", "drag_least"):
             faults.number(f"terms.{name}", getattr(self, name), above=0)
-        faults.number(
-            "terms.lift_lowest", self.lift_lowest, below=0, fix="it is C_L beyond the stall at negative lift"
-        )
+        fix = "it is C_L beyond the stall at negative lift"
+        faults.number("terms.lift_lowest", self.lift_lowest, below=0, fix=fix)
         for name in ("drag_induced", "low_rise", "high_rise"):
             faults.number(f"terms.{name}", getattr(self, name), at_least=0)
-        onsets = [
-            faults.number(f"terms.{name}", getattr(self, name)) for name in ("low_onset_deg", "high_onset_deg")
-        ]
-        if all(onsets) and self.low_onset_deg >= self.high_onset_deg:
+        low = faults.number("terms.low_onset_deg", self.low_onset_deg)
+        high = faults.number("terms.high_onset_deg", self.high_onset_deg)
+        if low and high and self.low_onset_deg >= self.high_onset_deg:
             faults.add("terms.low_onset_deg", self.low_onset_deg, "must be below high_onset_deg", "exchange them")
         faults.raise_if_any()
 
@@ -299,20 +277,11 @@ class CamberedTerms:
         """Return the formulas with their angles in radians."""
         radians = math.pi / 180
         zero = self.zero_lift_deg * radians
-        return CamberedCurves(
-            zero_lift=zero,
-            slope=self.lift_slope,
-            lowest=self.lift_lowest,
-            highest=self.lift_highest,
-            rounding=self.lift_rounding,
-            least=self.drag_least,
-            induced=self.drag_induced,
-            low_onset=zero + self.low_onset_deg * radians,
-            low_rise=self.low_rise,
-            high_onset=zero + self.high_onset_deg * radians,
-            high_rise=self.high_rise,
-            onset_rounding=self.onset_rounding_deg * radians,
-        )
+        lift = self.lift_slope, self.lift_lowest, self.lift_highest, self.lift_rounding
+        low = zero + self.low_onset_deg * radians, self.low_rise
+        high = zero + self.high_onset_deg * radians, self.high_rise
+        rounding = self.onset_rounding_deg * radians
+        return CamberedCurves(zero, *lift, self.drag_least, self.drag_induced, *low, *high, rounding)
 
     def lift_at(self, alpha_deg: Any) -> Any:
         """Return C_L at angles [deg] by the formula alone: no join, no plate.

@@ -140,14 +140,6 @@ class FunctionCoefficients(CoefficientModel):
         object.__setattr__(self, "name", name)
         object.__setattr__(self, "program", _checked(self.function, name))
 
-    def __str__(self) -> str:
-        return f"{self.name} ({self.citation})"
-
-    @property
-    def has_centre_of_pressure(self) -> bool:
-        """Whether the model has a centre of pressure: a function does not."""
-        return False
-
     def kernel(self) -> FunctionKernel:
         """Return the JAX pytree that evaluates this function."""
         return FunctionKernel(self.program)

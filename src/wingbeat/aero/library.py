@@ -1,15 +1,19 @@
 """The coefficient models that a user can choose by name: one table of their numbers and sources.
 
 Angles a of published formulas are in degrees. Models of grade B are cited second-hand: their constants come from
-other people's code and papers.
+other people's code and papers. The terms of animals' wings are in ``wing_estimates.csv``.
+``validation/animal_wings.py`` computes those of `Feathered` from measurements that are not part of this project. It
+writes ``docs/evidence/animal_wings.md``, which shows how well the model agrees with measured wings.
 """
 
 from __future__ import annotations
 
+import csv
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any, TypeVar
+from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,9 +22,30 @@ from wingbeat._base import FaultList
 from wingbeat.aero.extension import check_extension
 from wingbeat.aero.formula_models import PLATE, CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.formula_terms import CamberedTerms, FormulaTerms
-from wingbeat.aero.wing_estimates import WING_ESTIMATES
 
 T = TypeVar("T", FormulaCoefficients, CamberedCoefficients)
+
+
+class Estimate(NamedTuple):
+    """A term of a coefficient model, with its interval and basis.
+
+    Attributes
+    ----------
+    value : in degrees if the term's name ends in _deg; otherwise a pure number, slopes and rises per radian.
+    low, high : ends of its interval, in the unit of the value.
+    basis : the measurement that the value comes from, or the word guess.
+    """
+
+    value: float
+    low: float
+    high: float
+    basis: str
+
+
+WING_ESTIMATES: dict[str, dict[str, Estimate]] = {}
+with Path(__file__).with_name("wing_estimates.csv").open(encoding="utf-8", newline="") as _file:
+    for _model, _term, *_numbers, _basis in list(csv.reader(_file))[1:]:
+        WING_ESTIMATES.setdefault(_model, {})[_term] = Estimate(*map(float, _numbers), _basis)
 
 
 def _sine_cosine(name: str, lift: float, mean: float, swing: float, **about: Any) -> FormulaCoefficients:

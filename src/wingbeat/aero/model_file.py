@@ -18,21 +18,15 @@ from wingbeat.aero.formula_terms import CamberedTerms, CentreTerms, FormulaTerms
 
 
 class FittedCurve(NamedTuple):
-    """Terms of one coefficient, or all terms of a cambered wing, with the uncertainty of the fit.
-
-    The covariance, shape (k, k), is that of the k fitted terms that `free` names.
-    """
+    """Terms of one coefficient, or all terms of a cambered wing, with the uncertainty of the fit."""
 
     terms: FormulaTerms | CentreTerms | CamberedTerms
-    free: tuple[str, ...]
-    covariance: NDArray[np.float64]
+    free: tuple[str, ...]  # names of the k fitted terms
+    covariance: NDArray[np.float64]  # theirs, shape (k, k)
 
 
 class FittedModel(NamedTuple):
-    """A fit of formulas to one side of a wing; `centre` is None if no centre of pressure was measured.
-
-    `notes` are the warnings of the fit.
-    """
+    """A fit of formulas to one side of a wing; `centre` is None if no centre of pressure was measured."""
 
     name: str
     citation: str
@@ -42,7 +36,7 @@ class FittedModel(NamedTuple):
     drag: FittedCurve
     centre: FittedCurve | None
     aspect_ratio: float | None = None
-    notes: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()  # warnings of the fit
 
     @property
     def curves(self) -> dict[str, FittedCurve]:
@@ -68,10 +62,7 @@ class FittedModel(NamedTuple):
 
 
 class FittedWing(NamedTuple):
-    """A fit of a cambered wing; `wing` holds all its terms and the joint covariance of lift and drag.
-
-    `notes` are the warnings of the fit.
-    """
+    """A fit of a cambered wing; `wing` holds all its terms and the joint covariance of lift and drag."""
 
     name: str
     citation: str
@@ -90,19 +81,16 @@ class FittedWing(NamedTuple):
     def coefficients(
         self, extension: str = "mirrored", blend_width_deg: float = 1.0, **terms: Any
     ) -> CamberedCoefficients:
-        """Return the coefficient model; terms that are given (terms=...) replace those of the file.
-
-        The model covers all angles, so the extension has no effect.
-        """
+        """Return the coefficient model; terms that are given (terms=...) replace those of the file."""
+        # The model covers all angles, so the extension has no effect.
         faults = FaultList()
         check_extension(faults, extension, blend_width_deg)
         faults.raise_if_any()
-        own: dict[str, Any] = {"terms": self.wing.terms}
         return CamberedCoefficients(
             self.name,
-            **(own | terms),
-            low_join_deg=self.low_join_deg,
-            high_join_deg=self.high_join_deg,
+            terms.get("terms", self.wing.terms),
+            self.low_join_deg,
+            self.high_join_deg,
             citation=self.citation,
             reynolds_range=self.reynolds_range,
             blend_width_deg=blend_width_deg,
@@ -131,18 +119,13 @@ _FIT = ("free", "covariance", "r_squared", "aicc", "points")
 
 
 def read_model(path: str | Path) -> Fitted:
-    """Read a model file with the covariance of its terms; where the file states none, the covariance is empty.
-
-    A file with the table ``[wing]`` describes a cambered wing. Wrong, missing and unknown keys are raised all at
-    once.
-    """
+    """Read a model file, of a cambered wing if it has the table ``[wing]``, with the covariance of its terms."""
     path = Path(path)
     file, faults = path.name, FaultList()
     raw = toml_tables(read_text(path, limit=MAX_BYTES), str(path))
     if raw.get("kind") != KIND:
         fix = "is it a species file? `wingbeat fit -o NAME.toml` writes model files"
-        faults.add(f"{file}: kind", raw.get("kind"), f"must be {KIND!r}", fix)
-        faults.raise_if_any()
+        raise InvalidInputError([Fault(f"{file}: kind", raw.get("kind"), f"must be {KIND!r}", fix)])
     cambered = "wing" in raw
     _known(faults, file, raw, _TWO_SIDES if cambered else _ONE_SIDE)
     texts = {key: _text(faults, file, raw, key) for key in ("name", "citation", "form", "made_by")}
@@ -160,17 +143,11 @@ def read_model(path: str | Path) -> Fitted:
         low, high = (_pair(faults, file, raw, key, -90.0, 90.0) for key in ("low_join_deg", "high_join_deg"))
         wing = _curve(faults, file, raw, "wing")
         faults.raise_if_any()
-        assert low is not None  # or a fault was noted
-        assert high is not None
-        assert wing is not None
         return FittedWing(*named, low, high, reynolds, wing, aspect_ratio, tuple(notes))
     alpha = _pair(faults, file, raw, "alpha_range_deg", -180.0, 180.0)
     lift, drag = (_curve(faults, file, raw, key) for key in ("lift", "drag"))
     centre = _curve(faults, file, raw, "centre") if "centre" in raw else None
     faults.raise_if_any()
-    assert alpha is not None  # or a fault was noted
-    assert lift is not None
-    assert drag is not None
     return FittedModel(*named, alpha, reynolds, lift, drag, centre, aspect_ratio, tuple(notes))
 
 
@@ -216,9 +193,8 @@ def _text(faults: FaultList, file: str, raw: dict[str, Any], key: str) -> str:
     return value
 
 
-def _pair(
-    faults: FaultList, file: str, raw: dict[str, Any], key: str, low: float, high: float
-) -> tuple[float, float] | None:
+def _pair(faults: FaultList, file: str, raw: dict[str, Any], key: str, low: float, high: float) -> Any:
+    """Return two numbers, or None with its faults noted."""
     pair = raw.get(key)
     if not isinstance(pair, list) or len(pair) != 2:
         faults.add(f"{file}: {key}", pair, "must be a list of two numbers", "write [lowest, highest]")
@@ -230,8 +206,8 @@ def _pair(
     return float(pair[0]), float(pair[1])
 
 
-def _curve(faults: FaultList, file: str, raw: dict[str, Any], key: str) -> FittedCurve | None:
-    """Return one curve, or None with its faults noted."""
+def _curve(faults: FaultList, file: str, raw: dict[str, Any], key: str) -> Any:
+    """Return one `FittedCurve`, or None with its faults noted."""
     table, where = raw.get(key), f"{file}: {key}"
     if not isinstance(table, dict):
         faults.add(where, table, "must be a table", f"write [{key}] with its terms below")
@@ -267,9 +243,8 @@ def _covariance(
     _known(faults, where, fit, _FIT)
     free, rows = fit.get("free", []), fit.get("covariance", [])
     if not isinstance(free, list) or not all(name in names for name in free) or len(set(free)) != len(free):
-        faults.add(
-            f"{where}.free", free, "must name terms of the formula, each once", f"they are {', '.join(names)}"
-        )
+        fix = f"they are {', '.join(names)}"
+        faults.add(f"{where}.free", free, "must name terms of the formula, each once", fix)
         return nothing
     size = len(free)
     if not isinstance(rows, list) or [len(row) if isinstance(row, list) else -1 for row in rows] != [size] * size:
@@ -281,12 +256,10 @@ def _covariance(
     matrix = np.array(rows, dtype=np.float64).reshape(size, size)
     spread = np.sqrt(np.maximum(np.diag(matrix), 0.0))
     scale = np.outer(spread, spread)
-    # Check the correlations, because the variances of a phase in degrees and of a rate differ by many powers of
-    # ten.
+    # Check the correlations, because the variances of a phase in degrees and of a rate differ by powers of ten.
     correlation = np.divide(matrix, scale, out=np.zeros_like(matrix), where=scale > 0)
     invalid = not np.allclose(correlation, correlation.T, rtol=0, atol=1e-9) or (np.diag(matrix) < 0).any()
     if size and (invalid or np.linalg.eigvalsh(correlation).min() < -1e-6):
-        faults.add(
-            f"{where}.covariance", "", "must be symmetric and positive semidefinite", "copy the matrix of the fit"
-        )
+        rule = "must be symmetric and positive semidefinite"
+        faults.add(f"{where}.covariance", "", rule, "copy the matrix of the fit")
     return tuple(free), matrix

@@ -44,20 +44,12 @@ _LISTED = 8
 
 
 class PolarSheet(NamedTuple):
-    """A table of coefficients as numbers.
+    """A table of coefficients as numbers."""
 
-    Attributes
-    ----------
-    sheet : the parts of the file.
-    headings : the file's own names of the columns that are read, by our names.
-    columns : numbers by our names, each of shape (rows,); NaN where an optional cell is empty.
-    notes : what a reader should know: columns that are not read.
-    """
-
-    sheet: Sheet
-    headings: dict[str, str]
-    columns: dict[str, NDArray[np.float64]]
-    notes: tuple[str, ...]
+    sheet: Sheet  # the parts of the file
+    headings: dict[str, str]  # the file's own names of the columns that are read, by our names
+    columns: dict[str, NDArray[np.float64]]  # numbers by our names; NaN where an optional cell is empty
+    notes: tuple[str, ...]  # what a reader should know: columns that are not read
 
     def where(self, row: int, name: str) -> str:
         """Return the place of a cell in the file, in the file's own words."""
@@ -68,8 +60,7 @@ class PolarSheet(NamedTuple):
 def read_polar(path: str | Path, faults: FaultList) -> PolarSheet:
     """Read a table of coefficients from CSV, with the columns in any order and in any usual spelling.
 
-    Faults of cells and values are noted in `faults`; a file that is no table, and columns that are missing, given
-    twice or in other units, are raised.
+    Faults of cells and values are noted in `faults`; those of the file and its head are raised.
     """
     sheet = read_sheet(path)
     names, notes = _names(faults, sheet)
@@ -103,8 +94,7 @@ def _names(faults: FaultList, sheet: Sheet) -> tuple[list[str], list[str]]:
         else:
             check_unit(faults, where, split_unit(cell).unit, "deg" if name == "alpha_deg" else "")
         names.append(name)
-    missing = [name for name in REQUIRED if name not in names]
-    for name in missing:
+    for name in [name for name in REQUIRED if name not in names]:
         near = suggest(name, unread, most=1, otherwise="")
         fix = f"needed are {', '.join(REQUIRED)}" + (f"; {near}" if near else "")
         where = f"{sheet.file} row {sheet.header_row}, column {name}"
@@ -112,23 +102,20 @@ def _names(faults: FaultList, sheet: Sheet) -> tuple[list[str], list[str]]:
     if len(faults.faults) > earlier:
         faults.raise_if_any()
     shown = [name or "(without a name)" for name in unread]
-    notes = [f"columns that are not used: {', '.join(shown[:_LISTED])}{', ...' * (len(shown) > _LISTED)}"] * bool(
-        shown
-    )
-    errors = [name for name in unread if _ERROR_LIKE.match(same_name(name))]
-    if errors:
+    notes = []
+    if shown:
+        notes.append(f"columns that are not used: {', '.join(shown[:_LISTED])}{', ...' * (len(shown) > _LISTED)}")
+    if errors := [name for name in unread if _ERROR_LIKE.match(same_name(name))]:
         rule = "named C_L_se (standard error of the mean) or C_L_sd (standard deviation), and so on"
-        notes.append(
-            f"{', '.join(errors)}: if these are errors, they are not used; errors are read from columns {rule}"
-        )
+        told = "if these are errors, they are not used; errors are read from columns"
+        notes.append(f"{', '.join(errors)}: {told} {rule}")
     return names, notes
 
 
 def _check_values(faults: FaultList, polar: PolarSheet) -> None:
     """Note what no table of a wing can hold: one fault for each column, at its worst row."""
-    columns = polar.columns
     per_cent = _check_per_cent(faults, polar)
-    for name, column in columns.items():
+    for name, column in polar.columns.items():
         if name == "C_D" and per_cent:
             continue
         if name in QUANTITIES:
@@ -295,10 +282,7 @@ def reynolds_groups(reynolds: NDArray[np.float64] | None) -> list[tuple[float, f
 def fitting(
     path: str | Path, polar: PolarSheet, rows: NDArray[np.bool_] | slice = slice(None), more: str = ""
 ) -> str:
-    """Return the command that fits a model of all angles to a table, or what to measure if no form can be fitted.
-
-    `path` is as the user gave it; `rows` are those that are fitted, and `more` the options that choose them.
-    """
+    """Return the command that fits a model to `rows` with the options `more`, or what to measure for it."""
     alpha, lift = polar.columns["alpha_deg"][rows], polar.columns["C_L"][rows]
     low, high = float(alpha.min()), float(alpha.max())
     sides = [len(np.unique(alpha[sign * lift > 0])) >= 3 for sign in (-1, 1)]

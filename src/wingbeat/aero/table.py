@@ -25,7 +25,6 @@ from wingbeat.aero.extension import Jet, check_drag_of_joins, check_extension, e
 from wingbeat.aero.polar_sheet import REQUIRED, PolarSheet, doubtful_drag, fitting, read_polar, refuse_several
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
     from scipy.interpolate import PPoly
 
     from wingbeat._jax.arrays import Angles, Cells, Knots, PieceColumns, Scalar
@@ -33,8 +32,6 @@ if TYPE_CHECKING:
 
 def monotone_curve(knots: Knots, values: Knots, *, periodic: bool = False) -> Any:
     """Return SciPy's `PPoly` of the quintics through `values` at rising `knots`, monotone between any two of them.
-
-    `knots` are four or more; of a periodic curve the last value is the first.
 
     Theory: equations ``table-slope``, ``table-curvature`` and ``table-monotone``.
     """
@@ -83,7 +80,6 @@ def monotone_curve(knots: Knots, values: Knots, *, periodic: bool = False) -> An
 
 
 COLUMNS = ("alpha_deg", "c_l", "c_d")
-OPTIONAL = ("x_cp",)
 MIN_ROWS = 4
 # No instrument sets angles more finely, and a curve through closer rows would be a step.
 CLOSEST_DEG = 1e-3
@@ -96,17 +92,17 @@ def numbers(faults: FaultList, cells: Sequence[Any], where: Callable[[int], str]
     """Return the cells as floats; a cell that is not a number becomes NaN and is noted as a fault."""
     values = []
     for i, cell in enumerate(cells):
+        values.append(math.nan)
         try:
             number = float(cell)
         except (TypeError, ValueError):
             rule = "is empty" if isinstance(cell, str) and not cell.strip() else "is not a number"
             faults.add(where(i), cell, rule, "write one number with a decimal point")
-            number = math.nan
+            continue
+        if math.isfinite(number):
+            values[-1] = number
         else:
-            if not math.isfinite(number):
-                faults.add(where(i), number, "must be finite", "drop the row or give a value")
-                number = math.nan
-        values.append(number)
+            faults.add(where(i), number, "must be finite", "drop the row or give a value")
     return values
 
 
@@ -129,8 +125,7 @@ def check_columns(faults: FaultList, columns: dict[str, list[float]], where: Whe
     for name, column in columns.items():
         check_possible(faults, name, column, lambda i, name=name: where(i, name))
     if len(angles) < MIN_ROWS:
-        rule = f"must be at least {MIN_ROWS} for a curve"
-        faults.add("rows", len(angles), rule, "measure at more angles")
+        faults.add("rows", len(angles), f"must be at least {MIN_ROWS} for a curve", "measure at more angles")
 
 
 def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension: str, where: Where) -> None:
@@ -165,8 +160,7 @@ def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension
         faults.add(at_first, first, rule, f"{drop}, or {more}")
     elif first > -90 and extension.startswith("signed"):
         rule = "the extension signed needs the table to begin at -90 degrees or below"
-        if extension == "signed-drag":
-            rule = "the extension signed-drag has no effect on a table"
+        rule = "the extension signed-drag has no effect on a table" if extension == "signed-drag" else rule
         fix = "use mirrored" if first >= 0 else "add rows down to -90, or drop the negative rows and use mirrored"
         faults.add(at_first, first, rule, fix)
 
@@ -194,19 +188,6 @@ class TablePieces(NamedTuple):
     centres: PieceColumns
     cells: Cells
     cell: Scalar
-
-    @classmethod
-    def of(cls, knots: NDArray[np.float64], lift: PPoly, drag: PPoly, centre: PPoly | None) -> TablePieces:
-        """Return the pieces of the curves through the columns of a table."""
-        count, span = _LOOKUP_CELLS, knots[-1] - knots[0]
-        while span / count > np.diff(knots).min():
-            count *= 2
-        starts = knots[0] + np.arange(count) * (span / count)
-        cells = np.searchsorted(knots[:-1], starts, side="right") - 1.0
-        none = np.full((_ORDER, len(knots) - 1), np.nan)
-        loads = np.vstack([knots[:-1], lift.c[::-1], drag.c[::-1]])
-        centres = np.vstack([knots[:-1], none if centre is None else centre.c[::-1]])
-        return cls(loads, centres, cells, span / count)
 
     def _value(self, pieces: PieceColumns, first: int, alpha: Angles) -> Angles:
         pieces, cells = jnp.asarray(pieces), jnp.asarray(self.cells)
@@ -295,7 +276,7 @@ class TableCoefficients(CoefficientModel):
         faults = FaultList()
         check_aspect_ratio(faults, "aspect_ratio", self.aspect_ratio)
         check_extension(faults, self.extension, self.blend_width_deg)
-        raw = {name: getattr(self, name) for name in (*COLUMNS, *OPTIONAL) if getattr(self, name) is not None}
+        raw = {name: getattr(self, name) for name in (*COLUMNS, "x_cp") if getattr(self, name) is not None}
         columns = {name: numbers(faults, list(raw[name]), lambda i, name=name: f"{name}[{i}]") for name in raw}
         for name, column in columns.items():
             if len(column) != len(columns["alpha_deg"]):
@@ -319,9 +300,6 @@ class TableCoefficients(CoefficientModel):
         check_drag_of_joins(faults, f"{self.name}, c_d", jet, self.blend_width_deg, *self._how)
         faults.raise_if_any()
 
-    def __str__(self) -> str:
-        return f"{self.name} ({self.citation or 'no source given'})"
-
     @property
     def alpha_range_deg(self) -> tuple[float, float]:  # type: ignore[override]
         """Lowest and highest angle of the table [deg]."""
@@ -337,9 +315,15 @@ class TableCoefficients(CoefficientModel):
 
         Theory: equation ``table-spline``.
         """
-        centre = None if self.x_cp is None else self._curve(self.x_cp)
-        knots = np.deg2rad(self.alpha_deg)
-        pieces = TablePieces.of(knots, self._curve(self.c_l), self._curve(self.c_d), centre)
+        knots, count = np.deg2rad(self.alpha_deg), _LOOKUP_CELLS
+        span = knots[-1] - knots[0]
+        while span / count > np.diff(knots).min():
+            count *= 2
+        starts = knots[0] + np.arange(count) * (span / count)
+        cells = np.searchsorted(knots[:-1], starts, side="right") - 1.0
+        centre = np.full((_ORDER, len(knots) - 1), np.nan) if self.x_cp is None else self._curve(self.x_cp).c[::-1]
+        loads = np.vstack([knots[:-1], self._curve(self.c_l).c[::-1], self._curve(self.c_d).c[::-1]])
+        pieces = TablePieces(loads, np.vstack([knots[:-1], centre]), cells, span / count)
         if is_whole_turn(self.alpha_deg):
             return WholeTurnKernel(jax.tree.map(jnp.asarray, pieces))
         return extend(pieces, self.blend_width_deg, *self._how)
@@ -372,12 +356,11 @@ def _whole_centre(polar: PolarSheet) -> tuple[list[float] | None, tuple[str, ...
     given = polar.columns.get("x_cp")
     if given is None:
         return None, ()
-    known = np.isfinite(given)
+    known, alpha = np.isfinite(given), polar.columns["alpha_deg"]
     if known.sum() < 2:
         return None, ("x_cp: no two rows have a value, so the model has no centre of pressure",)
     if known.all():
         return given.tolist(), ()
-    alpha = polar.columns["alpha_deg"]
     filled = np.interp(alpha, alpha[known], given[known])
     angles = ", ".join(f"{angle:g}" for angle in alpha[~known][:8]) + ", ..." * bool((~known).sum() > 8)
     return filled.tolist(), (f"x_cp is empty at {angles} degrees and is filled from the neighbouring rows",)
@@ -421,10 +404,8 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
     check_columns(shape, columns, where)
     if not (faults.faults or shape.faults):
         if columns["alpha_deg"][-1] < 90:
-            rule = "the table must reach at least 90 degrees"
-            last = len(polar.sheet.rows) - 1
-            fix = f"a fit completes it: {fitting(path, polar)}"
-            faults.add(where(last, "alpha_deg"), columns["alpha_deg"][last], rule, fix)
+            at, rule = where(len(polar.sheet.rows) - 1, "alpha_deg"), "the table must reach at least 90 degrees"
+            faults.add(at, columns["alpha_deg"][-1], rule, f"a fit completes it: {fitting(path, polar)}")
         else:
             check_coverage(shape, columns, extension, where)
     noted = {fault.where for fault in faults.faults}

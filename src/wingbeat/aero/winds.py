@@ -136,17 +136,15 @@ class DrydenTurbulence:
     def _waves(self) -> tuple[np.ndarray, np.ndarray]:
         """Angular frequencies [rad/s] and phases [rad] of the waves of both components, shape (2, waves) each."""
         below = (np.arange(_WAVES) + 0.5) / _WAVES
-        numbers = np.stack([np.tan(0.5 * math.pi * below), _inverse(_below_upward, below)])
+        numbers = np.stack([np.tan(0.5 * math.pi * below), _upward_numbers(below)])
         rates = numbers * self.airspeed / np.array(self.scales)[:, None]
         return rates, 2 * math.pi * np.random.default_rng(self.seed).random((2, _WAVES))
 
 
 def _sum_of_waves(times: np.ndarray, rates: np.ndarray, phases: np.ndarray) -> np.ndarray:
-    """Return the sum of cosines ``cos(rate t + phase)`` at times of any shape.
-
-    Equal steps of time are cut into rows of equal length. A product of two matrices of complex waves, one of the
-    rows' first times and one of the steps within a row, then takes a few of the cosines of all waves at all times.
-    """
+    """Return the sum of cosines ``cos(rate t + phase)`` at times of any shape."""
+    # Equal steps of time are cut into rows of equal length. A product of two matrices of complex waves, one of the
+    # rows' first times and one of the steps within a row, then takes a few of the cosines of all waves and times.
     if times.ndim == 1 and len(times) > _WAVES:
         even = np.linspace(times[0], times[-1], len(times))
         if np.abs(times - even).max() <= 8.0 * np.spacing(np.abs(times).max()):
@@ -157,16 +155,12 @@ def _sum_of_waves(times: np.ndarray, rates: np.ndarray, phases: np.ndarray) -> n
     return np.cos(np.multiply.outer(times, rates) + phases).sum(-1)
 
 
-def _below_upward(number: np.ndarray) -> np.ndarray:
-    """Return the share of the upward component's variance at wave numbers below `number` [1/L_w]."""
-    return (2.0 * np.arctan(number) - number / (1.0 + number**2)) / math.pi
-
-
-def _inverse(function: Callable[[np.ndarray], np.ndarray], values: np.ndarray) -> np.ndarray:
-    """Return the arguments at which an increasing function has these values, by bisection of the logarithm."""
-    low, high = np.full(values.shape, -20.0), np.full(values.shape, 20.0)
-    for _ in range(60):
+def _upward_numbers(shares: np.ndarray) -> np.ndarray:
+    """Return the wave numbers [1/L_w] below which the upward component has these shares of its variance."""
+    low, high = np.full(shares.shape, -20.0), np.full(shares.shape, 20.0)
+    for _ in range(60):  # bisection of the logarithm
         middle = 0.5 * (low + high)
-        under = function(np.exp(middle)) < values
+        number = np.exp(middle)
+        under = (2.0 * np.arctan(number) - number / (1.0 + number**2)) / math.pi < shares
         low, high = np.where(under, middle, low), np.where(under, high, middle)
     return np.exp(0.5 * (low + high))

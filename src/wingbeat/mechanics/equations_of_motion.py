@@ -38,7 +38,6 @@ if TYPE_CHECKING:
         Integrated,
         MassPoints,
         Pair,
-        PerStrip,
         Phases,
         Samples,
         Scalar,
@@ -68,16 +67,8 @@ class EquationsOfMotion(NamedTuple):
     gravity_force: Coordinates
 
 
-def _point_masses(model: FlightModel) -> PerStrip:
-    """Return the mass of each point, counted for both wings [kg], shape (N,): half a strip's mass, twice."""
-    return strips_of(model.vehicle.wing, model.strips).mass
-
-
 def drift_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
-    """Return ``dr/dt`` of all wing points at fixed q [m/s]: their velocity due to span, fold, sweep and twist.
-
-    Theory: equation ``drift``.
-    """
+    """Return ``dr/dt`` of all wing points at fixed q [m/s]. Theory: equation ``drift``."""
     return jax.jvp(lambda t: wing_points(model, wingbeat, q, t), (time,), (jnp.ones_like(time),))[1]
 
 
@@ -105,11 +96,9 @@ def bias_accelerations(
 def _terms(
     model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases
 ) -> EquationsOfMotion:
-    """Return the terms at one instant.
-
-    Theory: equations ``mass-matrix``, ``velocity-matrix`` and ``gravity-force``.
-    """
-    body, mass = model.vehicle.body, _point_masses(model)
+    """Return them at one instant. Theory: equations ``mass-matrix``, ``velocity-matrix`` and ``gravity-force``."""
+    # A point has half a strip's mass, and there are two wings.
+    body, mass = model.vehicle.body, strips_of(model.vehicle.wing, model.strips).mass
     partial = partial_velocities(model, wingbeat, q, time).mass
     partial_rate, drift_rate = bias_accelerations(model, wingbeat, q, q_dot, time)
     own = jnp.diag(jnp.asarray([body.mass, body.mass, body.pitch_inertia, 0.0, 0.0]))
@@ -125,20 +114,14 @@ def _terms(
 def accelerations_from_torques(
     model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Phases, torques: Pair
 ) -> Coordinates:
-    """Return q'' of a vehicle whose hinges are driven by torques, at one instant, shape (5,) [m/s2, rad/s2].
-
-    Theory: equation ``torque-driven``.
-    """
+    """Return q'' of a vehicle whose hinges are driven by torques. Theory: equation ``torque-driven``."""
     terms = _terms(model, wingbeat, q, q_dot, time)
     air = _air_forces(model, wingbeat, q, q_dot, time)
     tau = jnp.concatenate([jnp.zeros(3), jnp.asarray(torques)])
     inertia = terms.mass_matrix + air.added_mass if is_unsteady(model) else terms.mass_matrix
-    return jnp.linalg.solve(inertia, tau + air.generalised - resistance(terms, q_dot))
-
-
-def resistance(terms: EquationsOfMotion, q_dot: Coordinates) -> Coordinates:
-    """Return ``C q' + h + g``, shape (5,) [N, N m]."""
-    return terms.velocity_matrix @ q_dot + terms.time_force + terms.gravity_force
+    applied = tau + air.generalised
+    resistance = terms.velocity_matrix @ q_dot + terms.time_force + terms.gravity_force
+    return jnp.linalg.solve(inertia, applied - resistance)
 
 
 def _air_forces(
@@ -163,7 +146,9 @@ def _torque(
 ) -> Coordinates:
     terms = _terms(model, wingbeat, q, q_dot, time)
     air = _air_forces(model, wingbeat, q, q_dot, time, q_acceleration).generalised
-    return terms.mass_matrix @ q_acceleration + resistance(terms, q_dot) - air
+    inertial = terms.mass_matrix @ q_acceleration
+    resistance = terms.velocity_matrix @ q_dot + terms.time_force + terms.gravity_force
+    return inertial + resistance - air
 
 
 @functools.partial(jit_soon, static_argnums=0)

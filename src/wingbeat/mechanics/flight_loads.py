@@ -133,32 +133,18 @@ def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Ph
 
 
 class MissingLoads(NamedTuple):
-    """The loads, in world axes, that a prescribed body motion needs in addition to air loads and weight.
+    """The loads, in world axes, that a prescribed body motion needs in addition to air loads and weight."""
 
-    Attributes
-    ----------
-    force_x, force_z : forward and up [N].
-    moment : about the body's centre of mass, nose-up positive [N m].
-    """
-
-    force_x: Phases
-    force_z: Phases
-    moment: Phases
+    force_x: Phases  # [N]
+    force_z: Phases  # [N]
+    moment: Phases  # about the body's centre of mass, nose-up positive [N m]
 
 
 @exported
 def carried_loads(
     model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases, acceleration: PhasesAcceleration
 ) -> tuple[Loads, MissingLoads]:
-    """Evaluate a flight with prescribed body motion: `flight_loads`, and the loads missing for that motion.
-
-    Parameters
-    ----------
-    model, wingbeat : as in `flight_loads`.
-    state : body state, fields of shape (K,) [m, rad, m/s, rad/s].
-    phase : phases, shape (K,).
-    acceleration : (x'', z'', psi'') of the body, shape (K, 3) [m/s2, m/s2, rad/s2].
-    """
+    """Evaluate a flight with prescribed body motion: `flight_loads`, and the loads missing for that motion."""
 
     def at(here: tuple[State, Phases, PhasesAcceleration]) -> tuple[Loads, MissingLoads]:
         body, when, given = here
@@ -184,7 +170,6 @@ def _loads(
     q = jnp.stack([state.x, state.z, state.body_pitch, flap, pitch])
     q_dot = jnp.stack([state.u, state.w, state.pitch_rate, moved.flap_rate, moved.pitch_rate])
     time = phase / wingbeat.frequency
-
     points = point_motion(model, wingbeat, q, q_dot, time)
     q_acceleration = None
     if is_unsteady(model):
@@ -195,8 +180,7 @@ def _loads(
         q_acceleration = jnp.concatenate([body, jnp.stack([flap_acceleration, pitch_acceleration])])
     air = air_forces_on(model, wingbeat, q, q_dot, time, points, q_acceleration)
     strips = strips_of(model.vehicle.wing, model.strips)
-    mass = strips.mass
-    whole = _whole_body(model, q, q_dot, points.position.mass, points.velocity.mass, mass)
+    whole = _whole_body(model, q, q_dot, points.position.mass, points.velocity.mass, strips.mass)
     return Loads(
         flap=flap,
         flap_rate=moved.flap_rate,
@@ -225,13 +209,8 @@ def _loads(
 def _whole_body(
     model: FlightModel, q: Coordinates, q_dot: Coordinates, points: MassPoints, velocity: MassPoints, mass: PerStrip
 ) -> dict[str, Any]:
-    """Return centre of mass, momenta and energies of body and both wings.
-
-    Theory: equation ``centre-of-mass``.
-    """
-    body = model.vehicle.body
-    plane = jnp.asarray([0, 2])
-    total = model.vehicle.mass
+    """Return centre of mass, momenta and energies of body and both wings. Theory: equation ``centre-of-mass``."""
+    body, total, plane = model.vehicle.body, model.vehicle.mass, jnp.asarray([0, 2])
     centre = (body.mass * q[:2] + jnp.einsum("n,kna->a", mass, points[..., plane])) / total
     momentum = body.mass * q_dot[:2] + jnp.einsum("n,kna->a", mass, velocity[..., plane])
 
@@ -267,13 +246,8 @@ def missing_loads(
     pitch_rate: Phases,
     acceleration: PhasesAcceleration,
 ) -> MissingLoads:
-    """Return what must act, in addition to the air loads and gravity, to give x'', z'' and psi'' of the body.
-
-    Each is the left side minus the right side of an equation of `accelerations`; `loads` are the air loads that act
-    at this acceleration.
-
-    Theory: equation ``missing-loads``.
-    """
+    """Return what must act, besides loads and gravity, to accelerate so. Theory: equation ``missing-loads``."""
+    # Each is the left side minus the right side of an equation of `accelerations`.
     mass, force_forward, force_up, turn, arm, inertia = balance(
         model.vehicle, model.air.gravity, motion, loads, attitude, pitch_rate
     )

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base import FaultList
+from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat._jax.arrays import (
     at_default,
     computed_once,
@@ -137,9 +137,7 @@ def _checked_flow(
     faults = FaultList()
     if velocity is None:
         rule, fix = "is needed for the inflow", "give the mean velocity (forward, up) of the flight [m/s]"
-        faults.add("velocity", velocity, rule, fix)
-        faults.raise_if_any()
-        return None
+        raise InvalidInputError([Fault("velocity", velocity, rule, fix)])
     area, weight = disc_area(vehicle.wing.semi_span), vehicle.mass * air.gravity
     factor = aero.share * aero.induced_factor
     check_descent(faults, air.density, area, factor, weight, velocity)
@@ -157,14 +155,10 @@ def at_velocity(model: FlightModel, velocity: Pair) -> FlightModel:
 
 
 def flow_at(vehicle: Vehicle, air: Air, factor: Scalar, velocity: Pair, xp: Any = np) -> Pair:
-    """Return the induced flow at the wings in steady flight, forward and up [m/s].
-
-    `xp` is the array module that computes, numpy or jax.numpy.
+    """Return the induced flow at the wings in steady flight, forward and up [m/s]. Theory: equation ``mean-force``.
 
     The wings carry the weight and balance the body's drag at the mean velocity. The tail's lift and drag are left
     out: they depend on the attitude, which is not known beforehand, and they are a small share of the weight.
-
-    Theory: equation ``mean-force``.
     """
     drag = body_drag(vehicle.body.drag_area, air.density, velocity, xp)
     force = -drag[0], vehicle.mass * air.gravity - drag[1]
@@ -184,27 +178,19 @@ def is_unsteady(model: FlightModel) -> bool:
 
 
 class BodyLoads(NamedTuple):
-    """Air loads on the whole vehicle, wings and body, in stroke axes.
+    """Air loads on the whole vehicle, wings and body, in stroke axes."""
 
-    Attributes
-    ----------
-    force : forward and up [N].
-    moment : about the body's centre of mass, nose-up positive [N m].
-    """
-
-    force: Pair
-    moment: Phases
+    force: Pair  # forward and up [N]
+    moment: Phases  # about the body's centre of mass, nose-up positive [N m]
 
 
 def strip_loads(
     kernel: Kernel, density: Scalar, motion: WingMotion, velocity: Pair, pitch_rate: Phases
 ) -> StripForces:
-    """Return the quasi-steady loads on the strips of one wing, from the coefficients.
+    """Return the quasi-steady loads on the strips of one wing, along chord and normal of the unpitched strip.
 
-    `velocity` is that of the body relative to the air at the wings, in stroke axes.
-
-    The velocity of the quarter chord determines the angle of attack, wherever the force acts. The loads are along
-    the chord and the normal of the unpitched strip.
+    `velocity` is that of the body relative to the air at the wings, in stroke axes. The velocity of the quarter
+    chord determines the angle of attack, wherever the force acts.
 
     Theory: equations ``strip-velocity`` and ``strip-velocity-stroke``.
     """
@@ -220,19 +206,13 @@ def strip_loads(
 
 
 def strip_moments(kernel: Kernel, motion: WingMotion, strips: StripForces) -> PerStrip:
-    """Return the moments of the strips' loads about their quarter chords, leading edge up [N m].
-
-    The loads act at the centre of pressure.
-    """
+    """Return the moments of loads at the centre of pressure about the quarter chords, leading edge up [N m]."""
     across = strips.normal * cos(motion.pitch) - strips.chordwise * sin(motion.pitch)
     return pressure_offset(kernel, strips.alpha, motion.area / motion.width) * across
 
 
 def wing_loads(model: FlightModel, motion: WingMotion, velocity: Pair, pitch_rate: Phases) -> BodyLoads:
-    """Return the air loads on both wings, in stroke axes, for a body that does not accelerate.
-
-    Theory: equation ``wing-loads``.
-    """
+    """Return the air loads on both wings of a body that does not accelerate. Theory: equation ``wing-loads``."""
     strips = strip_loads(model.kernel, model.air.density, motion, velocity, pitch_rate)
     forward, up = strips.chordwise, strips.normal * motion.flap_cosine
     across = motion.flap_cosine  # share of a moment about the span that pitches the body
@@ -251,10 +231,7 @@ def wing_loads(model: FlightModel, motion: WingMotion, velocity: Pair, pitch_rat
 
 
 def pressure_offset(kernel: Kernel, alpha: PerStrip, chord: PerStrip) -> PerStrip:
-    """Return how far the centre of pressure lies ahead of the quarter chord [m].
-
-    Theory: equation ``force-point``.
-    """
+    """Return how far the centre of pressure is ahead of the quarter chord [m]. Theory: equation ``force-point``."""
     return chord * (0.25 - kernel.centre_of_pressure(alpha))
 
 
@@ -269,10 +246,7 @@ def body_air(
     """Return force and moment of the air on the body and its tail; without a tail the moment is None.
 
     `axes` is the nose-up pitch of the velocity's axes relative to body axes; `tilt` is added to the tail's
-    incidence.
-
-    All forces on the body other than those of the wings are added here. The tail's velocity relative to the air
-    comes from the body's velocity and pitch rate; the flow that the wings induce does not reach the tail.
+    incidence. The flow that the wings induce does not reach the tail.
 
     Theory: equation ``tail-velocity``.
     """
@@ -296,8 +270,7 @@ def _air_loads(
 ) -> BodyLoads:
     """Return the air loads on a vehicle that does not accelerate, in stroke axes.
 
-    `forward` and `up` are the body's velocity relative to the air at the wings [m/s]; `body` is its velocity
-    relative to the undisturbed air, if that differs.
+    The velocity is relative to the air at the wings; `body` is that relative to the undisturbed air, if it differs.
     """
     model, motion = model_and_motion
     wings = wing_loads(model, motion, (forward, up), pitch_rate)
@@ -325,11 +298,7 @@ def air_loads(
     pitch_rate: Phases,
     acceleration: BodyAcceleration | None = None,
 ) -> BodyLoads:
-    """Return the air loads on the whole vehicle in stroke axes.
-
-    `attitude` is the pitch of the stroke axes from the world's. `acceleration` is (x'', z'', psi'') of the body,
-    shape (3, ...), for the added mass; None for a body that does not accelerate.
-    """
+    """Return the air loads on the whole vehicle in stroke axes; without `acceleration`, without added mass."""
     velocity = velocity_at_wings(model, attitude, u, w)
     body = () if model.induced_flow is None else from_world(attitude, u, w)
     loads = _air_loads((model, motion), *velocity, pitch_rate, *body)
@@ -375,8 +344,6 @@ def accelerations(
 ) -> Triple:
     """Return the body's accelerations x'' and z'' in the world [m/s2] and psi'' [rad/s2].
 
-    `unsteady_density` is the density of the air times the share of unsteady loads [kg/m3].
-
     The three equations are linear in psi'' and the acceleration a in stroke axes: ``M a + psi'' E S = F + M g +
     psi'^2 S - 2 psi' E S' - S''`` and ``(E S) . a + I psi'' = moment + (E S) . g - psi' I' - K``. S is the wings'
     first moment, I the pitch inertia of body and wings, K the wings' acceleration moment.
@@ -404,13 +371,9 @@ def accelerations(
 
 
 def _solve_symmetric(rows: tuple[tuple[Phases, ...], ...], right: Triple) -> Triple:
-    """Solve three linear equations; the symmetric matrix is given by the rows of its upper triangle.
-
-    Cofactors need only one division. The barriers make XLA compute matrix and right side once for all directions of
-    a derivative; without them a flight takes 1.2 times as long.
-
-    Theory: equation ``body-inertia``.
-    """
+    """Solve three linear equations, given the upper triangle's rows. Theory: equation ``body-inertia``."""
+    # Cofactors need only one division. The barriers make XLA compute matrix and right side once for all directions
+    # of a derivative; without them a flight takes 1.2 times as long.
     (a, b, c), (d, e), (f,) = fusion_barrier(rows)
     x, y, z = fusion_barrier(right)
     first, second, third = d * f - e * e, c * e - b * f, b * e - c * d
@@ -425,14 +388,7 @@ def _solve_symmetric(rows: tuple[tuple[Phases, ...], ...], right: Triple) -> Tri
 
 
 def body_rates(model: FlightModel, motion: WingMotion, pitch_state: PitchState) -> PitchState:
-    """Return d/dt of (body_pitch, u, w, pitch_rate), shape (4, ...) [rad/s, m/s2, m/s2, rad/s2].
-
-    `pitch_state` is (body_pitch, u, w, pitch_rate), shape (4, ...).
-
-    The position of the body has no effect.
-
-    Theory: equation ``state-rates``.
-    """
+    """Return d/dt of (body_pitch, u, w, pitch_rate), shape (4, ...). Theory: equation ``state-rates``."""
     body_pitch, u, w, pitch_rate = pitch_state
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
     # Without inflow, the air loads depend on the pitch state through three numbers only: the velocity in stroke

@@ -34,8 +34,8 @@ if TYPE_CHECKING:
 
 # Absolute tolerance divided by the relative one; states are in SI units and of order one.
 _ATOL = 1e-2
-# The integrator steps onto every fourth of the times asked for (_BETWEEN) and may take _IN_A_BEAT further steps in
-# a beat. The polynomials of all steps are kept.
+# The integrator may take so many steps in a beat, besides those onto every fourth of the times. The polynomials of
+# all steps are kept.
 _BETWEEN = 4
 _IN_A_BEAT = 1024
 # The air's velocity is tabulated at this many equal phases of a beat. Between two of them, it is a cubic that
@@ -47,10 +47,7 @@ _VECTOR = 8
 
 
 def state_rates(model: FlightModel, wingbeat: Wingbeat, phase: Scalar, state: StateVector) -> StateVector:
-    """Return d/dt of (x, z, body_pitch, u, w, pitch_rate), with the wing's motion evaluated exactly at this phase.
-
-    Theory: equation ``state-rates``.
-    """
+    """Return d/dt of (x, z, body_pitch, u, w, pitch_rate) at a phase. Theory: equation ``state-rates``."""
     motion = motion_table(model, wingbeat, phase, _VECTOR)
     return jnp.concatenate([state[3:5], body_rates(model, motion, state[2:])])
 
@@ -58,18 +55,16 @@ def state_rates(model: FlightModel, wingbeat: Wingbeat, phase: Scalar, state: St
 def integrate(
     rates: Callable[..., Any], start: StartState, times: Samples, args: Any, most_steps: int, rtol: Scalar = RTOL
 ) -> Integrated:
-    """Integrate with Dopri8.
+    """Integrate with Dopri8; `rates` takes (time, state, args).
 
-    `rates` takes (time, state, args); the absolute tolerance is a hundredth of `rtol`; `most_steps` does not count
-    steps that end at a given time. Returns the states at `times`, NaN after the integrator gave up, then times and
-    states of its own steps, in arrays of the largest length, filled with infinity after the last step.
-
-    A step ends exactly at every fourth of the times; the integrator's own polynomials give the states at the times
-    between. Steps that end at every time would take a third longer, and longer steps fail at kinks of the loads.
+    Returns the states at `times`, NaN after the integrator gave up, then times and states of its own steps, in
+    arrays of the largest length, filled with infinity after the last step.
     """
     import diffrax  # half a second to import, and not needed where the traced program is on disk
 
     rates = jax.jit(rates)  # traced once, however often diffrax asks for its shape
+    # A step ends exactly at every fourth of the times; its own polynomials give the states between. Steps that
+    # end at every time would take a third longer, and longer steps fail at kinks of the loads.
     controller = diffrax.ClipStepSizeController(
         diffrax.PIDController(rtol=rtol, atol=_ATOL * rtol), step_ts=times[::_BETWEEN], store_rejected_steps=None
     )
@@ -92,16 +87,10 @@ def integrate(
 
 
 class Steps(NamedTuple):
-    """Where an integrator stepped.
+    """Where an integrator stepped."""
 
-    Attributes
-    ----------
-    phase : phases, shape (M,).
-    states : the states there, shape (M, 6), in the order and units of `State`.
-    """
-
-    phase: np.ndarray
-    states: np.ndarray
+    phase: np.ndarray  # shape (M,)
+    states: np.ndarray  # shape (M, 6), in the order and units of `State`
 
 
 @exported
@@ -135,8 +124,6 @@ def air_between(table: AirTable, place: Scalar) -> AirVelocity:
 
     `table` holds velocities at equal steps, from one step before place 0 to one step after the last place; `place`
     counts steps from place 0; the first and last cubics go on beyond the ends.
-
-    The slope of the cubics at a place is half the difference of the velocities at the two neighbouring places.
     """
     first = jnp.clip(jnp.floor(place), 0, table.shape[0] - 4)
     before, here, there, behind = jax.lax.dynamic_slice_in_dim(table, first.astype(int), 4)
@@ -154,11 +141,9 @@ def fly_through(
     rtol: float = RTOL,
     air: np.ndarray | None = None,
 ) -> tuple[np.ndarray, Steps]:
-    """Fly an initial state with prescribed wings.
+    """Fly `state`, at phase 0, to phases that increase from 0; `air` is its velocity at the `air_phases`.
 
-    `state` is at phase 0; `phases` increase from 0, and equal ones are allowed; `air` is its velocity at the phases
-    of `air_phases`, None for still air. Returns the states, shape (K, 6), NaN after the integrator gave up, and the
-    integrator's steps.
+    Returns the states, shape (K, 6), NaN after the integrator gave up, and the integrator's steps.
     """
     given = model, wingbeat, np.array(state, dtype=float), phases, rtol
     states, at, there = _fly(*given) if air is None else _fly_in_wind(*given, air)
@@ -173,16 +158,7 @@ def air_phases() -> np.ndarray:
 
 
 def state_of(given: Any) -> State:
-    """Return a state that was given as a `State` or as its six numbers.
-
-    Parameters
-    ----------
-    given : a `State`, or x, z [m], body_pitch [rad], u, w [m/s] and pitch_rate [rad/s] in a list, a tuple or an
-        array, shape (6,).
-
-    Raises
-    ------
-    InvalidInputError : not six numbers, some number is not finite, a body pitch above pi.
+    """Return a state that was given as a `State` or as its six numbers; refuse what is neither.
 
     >>> state_of(np.array([0.0, 0.0, 0.1, 10.0, 0.0, 0.0])).u
     10.0
@@ -220,8 +196,7 @@ def fly_beat_in_steps(
 ) -> tuple[FlightStates, Flights]:
     """Fly one beat of many flights, or a part of it, with the classical Runge-Kutta method of order 4.
 
-    `start` holds the states at phase `first`, shape (6, flights), `begun` the time at phase 0 of each flight. `air`
-    holds tables of the air's velocity, shape (flights, places, 2), `spacing` seconds apart. Returns the states at
+    `begun` is the time at phase 0 of each flight, `spacing` [s] that of the places in `air`. Returns the states at
     phase `last`, and the largest deviation of the body pitch from `pitch`, that of the undisturbed orbit at the
     ends of all steps.
     """
@@ -260,20 +235,12 @@ Controller = Callable[[int, State], Wingbeat]
 
 
 class FlownBeats(NamedTuple):
-    """A flight of several beats.
+    """A flight of several beats."""
 
-    Attributes
-    ----------
-    phase : beats since the start, shape (K,).
-    states : (x, z, body_pitch, u, w, pitch_rate) there, shape (K, 6), NaN after the integrator gave up.
-    wingbeats : the wingbeat of each beat.
-    air : velocity of the air there, forward and up [m/s], shape (K, 2); None for still air.
-    """
-
-    phase: np.ndarray
-    states: np.ndarray
-    wingbeats: tuple[Wingbeat, ...]
-    air: np.ndarray | None
+    phase: np.ndarray  # beats since the start, shape (K,)
+    states: np.ndarray  # (x, z, body_pitch, u, w, pitch_rate) there, NaN after the integrator gave up
+    wingbeats: tuple[Wingbeat, ...]  # of each beat
+    air: np.ndarray | None  # its velocity there, forward and up [m/s], shape (K, 2); None for still air
 
 
 def check_samples(faults: FaultList, beats: int, samples: int) -> None:
@@ -303,10 +270,7 @@ def fly_beats(
     wind: Wind | tuple[float, float] | None = None,
     controller: Controller | None = None,
 ) -> FlownBeats:
-    """Fly several beats with prescribed wings, ``beats * samples + 1`` samples in all.
-
-    `wind` is two numbers or a function of times, None for still air; `controller` gives the wingbeat of each beat.
-    """
+    """Fly several beats with prescribed wings, ``beats * samples + 1`` samples in all; None is still air."""
     one_beat, current, begun = np.linspace(0.0, 1.0, samples + 1), state, 0.0
     pieces, wingbeats, airs = [np.array([state], dtype=float)], [], []
     for beat in range(beats):

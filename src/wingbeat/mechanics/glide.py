@@ -34,62 +34,36 @@ _STEPS = 12
 
 
 class Posture(NamedTuple):
-    """What defines a steady glide.
+    """What defines a steady glide."""
 
-    Attributes
-    ----------
-    speed : along the path [m/s].
-    glide_angle : of the path below the horizontal [rad].
-    body_above_path : angle of the body above the path [rad].
-    flap : flap angle [rad].
-    angle_of_attack : angle of attack of the root chord at zero flap angle [rad].
-    tail_tilt : added to the tail's incidence [rad].
-    """
-
-    speed: Scalar
-    glide_angle: Scalar
-    body_above_path: Scalar
-    flap: Scalar
-    angle_of_attack: Scalar
-    tail_tilt: Scalar = 0.0
+    speed: Scalar  # along the path [m/s]
+    glide_angle: Scalar  # of the path below the horizontal [rad]
+    body_above_path: Scalar  # angle of the body above the path [rad]
+    flap: Scalar  # [rad]
+    angle_of_attack: Scalar  # of the root chord at zero flap angle [rad]
+    tail_tilt: Scalar = 0.0  # added to the tail's incidence [rad]
 
 
 class Glide(NamedTuple):
-    """One steady glide; torques are of both wings together.
+    """One steady glide; torques are of both wings together."""
 
-    Attributes
-    ----------
-    angle_of_attack : angle of attack of the root chord at zero flap angle [rad].
-    speed, sink : along the path, and downwards [m/s].
-    glide_angle : of the path below the horizontal [rad].
-    glide_ratio : distance over height lost.
-    body_pitch, wing_pitch, flap : [rad].
-    tail_tilt : added to the tail's incidence [rad]; 0 without a tail.
-    tail_moment : moment that a tail would need to supply, in addition to the moment of an existing tail [N m];
-        nose-up positive, 0 if the glide is trimmed.
-    flap_torque, pitch_torque : torques that hold the wings [N m].
-    trimmed : whether the pitching moment vanishes.
-    """
-
-    angle_of_attack: float
-    speed: float
-    sink: float
-    glide_angle: float
-    glide_ratio: float
-    body_pitch: float
-    wing_pitch: float
-    flap: float
-    tail_tilt: float
-    tail_moment: float
-    flap_torque: float
+    angle_of_attack: float  # of the root chord at zero flap angle [rad]
+    speed: float  # along the path [m/s]
+    sink: float  # downwards [m/s]
+    glide_angle: float  # of the path below the horizontal [rad]
+    glide_ratio: float  # distance over height lost
+    body_pitch: float  # [rad]
+    wing_pitch: float  # [rad]
+    flap: float  # [rad]
+    tail_tilt: float  # added to the tail's incidence [rad]; 0 without a tail
+    tail_moment: float  # what a tail, or a further tail, would need to supply [N m]; 0 if the glide is trimmed
+    flap_torque: float  # that holds the wings [N m]
     pitch_torque: float
-    trimmed: bool
+    trimmed: bool  # whether the pitching moment vanishes
 
 
 # The number of a posture that each trim turns.
 _COLUMNS = {"body-pitch": 2, "flap": 3, "tail": 5}
-# Stands for the posture where no balance was found.
-_NO_POSTURE = Posture(*[math.nan] * 6)
 
 
 def held_still(wingbeat: Wingbeat) -> Wingbeat:
@@ -109,10 +83,7 @@ def _angles(model: FlightModel, posture: Posture) -> tuple[Scalar, Scalar]:
 
 @exported
 def _required(model: FlightModel, wingbeat: Wingbeat, numbers: Coordinates) -> Coordinates:
-    """Return what must act on the five coordinates in a posture [N, N, N m, N m, N m].
-
-    Without a tail, the posture has no last number (the tail's tilt).
-    """
+    """Return what must act on the five coordinates in a posture; without a tail, it has no last number."""
     posture = Posture(*numbers)
     if model.vehicle.tail is not None:
         wingbeat = unpack(("tail_tilt",), wingbeat, numbers[5:])
@@ -127,21 +98,11 @@ def _required(model: FlightModel, wingbeat: Wingbeat, numbers: Coordinates) -> C
 
 
 class GlideSolver:
-    """Finds steady glides of one vehicle at given angles of attack.
+    """Finds steady glides of one vehicle at given angles of attack; its wings are held at one flap angle [rad].
 
-    Parameters
-    ----------
-    model : the flight model.
-    wingbeat : gives the twist.
-    flap : angle at which the wings are held [rad].
-    trim : what turns until the pitching moment vanishes. With ``"body-pitch"``, the wings keep their angle of
-        attack; with ``"flap"`` or ``"tail"``, the body stays along the path. Without a tail, ``"tail"`` turns
-        nothing.
-    reach : lowest and highest value of the angle that is turned (body pitch, flap or tilt of the tail) [rad].
-
-    Attributes
-    ----------
-    model : the flight model.
+    `trim` turns until the pitching moment vanishes, within `reach` [rad]. With ``"body-pitch"``, the wings keep
+    their angle of attack; with ``"flap"`` or ``"tail"``, the body stays along the path. Without a tail, ``"tail"``
+    turns nothing.
     """
 
     def __init__(
@@ -153,14 +114,12 @@ class GlideSolver:
         self._scale = np.array([weight, weight, weight * model.vehicle.wing.mean_chord])
 
     def at(self, angle_of_attack: float) -> Glide:
-        """Return the glide at an angle of attack; all its numbers are NaN if the forces cannot balance.
-
-        If nothing trims the glide, the body stays along the path, and `tail_moment` is the missing moment.
-        """
+        """Return the glide at an angle of attack; all its numbers are NaN if the forces cannot balance."""
         start = Posture(*self._closed_form(angle_of_attack), 0.0, self._flap, angle_of_attack, self._tilt)
         posture = self._solve(start, rows=2, free=[0, 1])
         if posture is None:
-            return self._glide_of(_NO_POSTURE._replace(angle_of_attack=angle_of_attack), trimmed=False)
+            nowhere = Posture(*[math.nan] * 6)._replace(angle_of_attack=angle_of_attack)
+            return self._glide_of(nowhere, trimmed=False)
         no_tail = self._trim == "tail" and self.model.vehicle.tail is None
         turned = None if no_tail else self._trimmed(posture)
         return self._glide_of(turned or posture, trimmed=turned is not None)
@@ -176,13 +135,19 @@ class GlideSolver:
                 if end is None:
                     continue
                 angle = untrimmed[column] + step / _STEPS * (reach[side] - untrimmed[column])
-                there = self._solve(_with_angle(end[0], column, angle), rows=2, free=[0, 1])
-                moment = 0.0 if there is None else self._moment(there)
-                if there is not None and moment * end[1] <= 0.0:
-                    found = self._solve(_between(end, (there, moment)), rows=3, free=[0, 1, column])
+                turned = Posture(*(angle if i == column else value for i, value in enumerate(end[0])))
+                there = self._solve(turned, rows=2, free=[0, 1])
+                if there is None:
+                    ends[side] = None
+                    continue
+                (last, opposite), moment = end, self._moment(there)
+                if moment * opposite <= 0.0:  # between the two, to where a straight line has no moment
+                    share = opposite / (opposite - moment) if opposite != moment else 0.0
+                    between = Posture(*(a + share * (b - a) for a, b in zip(last, there, strict=True)))
+                    found = self._solve(between, rows=3, free=[0, 1, column])
                     if found is not None and reach[0] <= found[column] <= reach[1]:
                         return found
-                ends[side] = None if there is None else (there, moment)
+                ends[side] = there, moment
         return None
 
     def _evaluate(self, numbers: np.ndarray) -> np.ndarray:
@@ -244,14 +209,3 @@ class GlideSolver:
             float(required[4]),
             trimmed,
         )
-
-
-def _with_angle(posture: Posture, column: int, angle: float) -> Posture:
-    return Posture(*(angle if i == column else value for i, value in enumerate(posture)))
-
-
-def _between(one: tuple[Posture, float], other: tuple[Posture, float]) -> Posture:
-    """Interpolate linearly between two postures with moments of opposite signs, to where the moment is zero."""
-    (first, moment), (last, opposite) = one, other
-    share = moment / (moment - opposite) if moment != opposite else 0.0
-    return Posture(*(a + share * (b - a) for a, b in zip(first, last, strict=True)))

@@ -48,7 +48,7 @@ from wingbeat.mechanics.wing_shape import (
 )
 
 if TYPE_CHECKING:
-    from wingbeat._jax.arrays import BodyAcceleration, Pair, PerStrip, PerStripBroadcast, Phases, PitchState, Triple
+    from wingbeat._jax.arrays import BodyAcceleration, Pair, PerStrip, Phases, PitchState, Triple
 
 
 class PartialMotion(NamedTuple):
@@ -57,87 +57,39 @@ class PartialMotion(NamedTuple):
     For the turn of a hinge, v is in m/rad; for the whole motion, it is in m/s. The sums are over the mass points of
     both wings and may have axes of times. In stroke axes, r is the position of a mass point, and E rotates by a
     right angle.
-
-    Attributes
-    ----------
-    normal_lever : component of the quarter chord's v along the unpitched strip's normal, by strip.
-    chord_rotation : turn of the chord, by strip.
-    first_moment : ``sum m v``, forward and up.
-    euler : ``sum m v . E r``, to be multiplied by the body's pitch acceleration.
-    centrifugal : ``sum m v . r``, to be multiplied by the pitch rate squared.
-    coriolis : ``sum m v . E r'``, to be multiplied by the pitch rate.
-    own_acceleration : ``sum m v . r''``.
-    chordwise_lever : component of the quarter chord's v along the unpitched chord, by strip; None unless the wing
-        sweeps.
-    unsteady : generalised load of the unsteady terms; None without them.
     """
 
-    normal_lever: PerStrip
-    chord_rotation: PerStrip
-    first_moment: Pair
-    euler: Phases
-    centrifugal: Phases
-    coriolis: Phases
-    own_acceleration: Phases
-    chordwise_lever: PerStrip | None = None
+    normal_lever: PerStrip  # component of the quarter chord's v along the unpitched strip's normal
+    chord_rotation: PerStrip  # turn of the chord
+    first_moment: Pair  # ``sum m v``, forward and up
+    euler: Phases  # ``sum m v . E r``, to be multiplied by the body's pitch acceleration
+    centrifugal: Phases  # ``sum m v . r``, to be multiplied by the pitch rate squared
+    coriolis: Phases  # ``sum m v . E r'``, to be multiplied by the pitch rate
+    own_acceleration: Phases  # ``sum m v . r''``
+    chordwise_lever: PerStrip | None = None  # component along the unpitched chord; None unless the wing sweeps
     unsteady: UnsteadyLoad | None = None
 
 
 class HingeMotion(NamedTuple):
-    """Rates of the two hinge angles, and the motions of flap, of wing pitch and of the whole wingbeat.
+    """Rates of the two hinge angles, and the motions of flap, of wing pitch and of the whole wingbeat."""
 
-    Attributes
-    ----------
-    flap_rate, pitch_rate : rates of flap and of wing pitch at the root [rad/s].
-    flap, pitch, whole : the motions.
-    """
-
-    flap_rate: Phases
-    pitch_rate: Phases
+    flap_rate: Phases  # [rad/s]
+    pitch_rate: Phases  # of wing pitch at the root [rad/s]
     flap: PartialMotion
     pitch: PartialMotion
     whole: PartialMotion
 
 
 class HingeLoads(NamedTuple):
-    """Torques and powers of the hinges, both wings together.
-
-    Attributes
-    ----------
-    flap_torque, pitch_torque : [N m].
-    hinge_power : torques times rates [W]; the sum of the three parts below.
-    actuator_power : power of all actuators, including those of span, fold, sweep and twist [W].
-    aerodynamic_power : part against the air loads [W].
-    inertial_power : part that accelerates the wings relative to the body [W].
-    body_power : the rest [W]; it arises because the body accelerates and turns, and because of gravity.
-    """
+    """Torques [N m] and powers [W] of the hinges, both wings together."""
 
     flap_torque: Phases
     pitch_torque: Phases
-    hinge_power: Phases
-    actuator_power: Phases
-    aerodynamic_power: Phases
-    inertial_power: Phases
-    body_power: Phases
-
-
-class _GeneralisedForce(NamedTuple):
-    """The generalised force that drives a motion of the wing.
-
-    Attributes
-    ----------
-    air : part against the air loads.
-    inertia : part that accelerates the wing relative to the body.
-    body : part due to the body's acceleration and gravity.
-    """
-
-    air: Phases
-    inertia: Phases
-    body: Phases
-
-    @property
-    def whole(self) -> Phases:
-        return self.body + self.inertia + self.air
+    hinge_power: Phases  # torques times rates; the sum of the last three parts
+    actuator_power: Phases  # of all actuators, including those of span, fold, sweep and twist
+    aerodynamic_power: Phases  # part against the air loads
+    inertial_power: Phases  # part that accelerates the wings relative to the body
+    body_power: Phases  # the rest: the body accelerates and turns, and gravity
 
 
 class _Chords(NamedTuple):
@@ -148,22 +100,21 @@ class _Chords(NamedTuple):
     fore: Triple
 
 
-def _chords(shape: WingShape, strips: Strips) -> _Chords:
-    quarter, fore = 0.25 * strips.chord, shape.chordwise
-    x, y, z = (place - quarter * ahead for place, ahead in zip(shape.quarter_chord, fore, strict=True))
-    return _Chords(shape, (x, y, z), fore)
-
-
 def hinge_motion(model: FlightModel, wingbeat: Wingbeat, phase: Phases) -> HingeMotion:
     """Tabulate the motions that the hinges cause, at given phases."""
     vehicle, phase = model.vehicle, jnp.asarray(phase, dtype=float)
     strips = with_time_axes(strips_of(vehicle.wing, model.strips), phase)
 
+    def chords(shape: WingShape) -> _Chords:
+        quarter, fore = 0.25 * strips.chord, shape.chordwise
+        x, y, z = (place - quarter * ahead for place, ahead in zip(shape.quarter_chord, fore, strict=True))
+        return _Chords(shape, (x, y, z), fore)
+
     def by_time(at: Phases) -> _Chords:
-        return _chords(shape_at(vehicle, wingbeat, strips, at), strips)
+        return chords(shape_at(vehicle, wingbeat, strips, at))
 
     def by_angles(flap: Phases, pitch: Phases) -> _Chords:
-        return _chords(wing_shape(vehicle, wingbeat, strips, phase, flap, pitch), strips)
+        return chords(wing_shape(vehicle, wingbeat, strips, phase, flap, pitch))
 
     here, rates, accelerations = time_rates(by_time, phase, wingbeat.frequency)
     angles = flap_angle(wingbeat, phase), pitch_angle(wingbeat, phase)
@@ -171,26 +122,21 @@ def hinge_motion(model: FlightModel, wingbeat: Wingbeat, phase: Phases) -> Hinge
     flap, pitch = (jax.jvp(by_angles, angles, along)[1] for along in ((one, none), (none, one)))
     _, flap_rate, _ = time_rates(lambda at: flap_angle(wingbeat, at), phase, wingbeat.frequency)
     _, pitch_rate, _ = time_rates(lambda at: pitch_angle(wingbeat, at), phase, wingbeat.frequency)
-    moving = here, rates, accelerations
-    motions = [_along(moving, v, strips) for v in (flap, pitch, rates)]
+    motions = [_along(here, rates, accelerations, v, strips) for v in (flap, pitch, rates)]
     if is_unsteady(model):
         width = vehicle.wing.semi_span / model.strips * span_ratio(wingbeat, phase)
         chord = air_chord(wingbeat, strips.chord, phase)
         moved = strip_motion(here.shape, rates.shape, accelerations.shape, chord)
-        motions = [
-            motion._replace(unsteady=unsteady_load(moved, _speeds(motion, v, here, chord), chord, width))
-            for motion, v in zip(motions, (flap, pitch, rates), strict=True)
-        ]
+        for i, v in enumerate((flap, pitch, rates)):
+            levers, turn = (motions[i].chordwise_lever, motions[i].normal_lever), dot(v.fore, here.shape.normal)
+            speeds = StripSpeeds(*levers, mid_speed(here.shape, *levers, turn, chord), turn)
+            motions[i] = motions[i]._replace(unsteady=unsteady_load(moved, speeds, chord, width))
     return HingeMotion(flap_rate, pitch_rate, *motions)
 
 
-def _speeds(along: PartialMotion, velocity: _Chords, here: _Chords, chord: PerStripBroadcast) -> StripSpeeds:
-    speeds = along.chordwise_lever, along.normal_lever, dot(velocity.fore, here.shape.normal)
-    return StripSpeeds(*speeds[:2], mid_speed(here.shape, *speeds, chord), speeds[2])
-
-
-def _along(moving: tuple[_Chords, _Chords, _Chords], velocity: _Chords, strips: Strips) -> PartialMotion:
-    here, rates, accelerations = moving
+def _along(
+    here: _Chords, rates: _Chords, accelerations: _Chords, velocity: _Chords, strips: Strips
+) -> PartialMotion:
     # The mass of a strip is spread along its chord: its second moment about mid-chord is that of a uniform rod.
     mass, gyration = 2.0 * strips.mass, strips.chord * strips.chord / 12.0
 
@@ -244,7 +190,8 @@ def hinge_loads(
     apparent = from_world(attitude, ax, az + model.air.gravity)
     accelerates = (*from_world(attitude, ax, az), pitch_acceleration) if is_unsteady(model) else None
 
-    def required(along: PartialMotion) -> _GeneralisedForce:
+    def required(along: PartialMotion) -> Triple:
+        # The generalised force that drives a motion, in parts: against the air, of the wing's inertia, of the body.
         air = strips.normal * along.normal_lever + moments * along.chord_rotation
         if along.chordwise_lever is not None:
             air = air + strips.chordwise * along.chordwise_lever
@@ -252,21 +199,13 @@ def hinge_loads(
         if along.unsteady is not None:
             through_air, density = (*velocity, pitch_rate), unsteady_density(model)
             against_air = against_air - along.unsteady.load(density, through_air, accelerates, strips.speed)
-        return _GeneralisedForce(
-            air=against_air,
-            inertia=along.own_acceleration,
-            body=dot(apparent, along.first_moment)
-            + pitch_acceleration * along.euler
-            - pitch_rate * pitch_rate * along.centrifugal
-            + 2.0 * pitch_rate * along.coriolis,
-        )
+        of_body = dot(apparent, along.first_moment) + pitch_acceleration * along.euler
+        of_body = of_body - pitch_rate * pitch_rate * along.centrifugal + 2.0 * pitch_rate * along.coriolis
+        return against_air, along.own_acceleration, of_body
 
-    flap, pitch = required(hinges.flap), required(hinges.pitch)
-    shares = (a * hinges.flap_rate + b * hinges.pitch_rate for a, b in zip(flap, pitch, strict=True))
-    return HingeLoads(
-        flap.whole,
-        pitch.whole,
-        flap.whole * hinges.flap_rate + pitch.whole * hinges.pitch_rate,
-        required(hinges.whole).whole,
-        *shares,
-    )
+    flap_parts, pitch_parts = required(hinges.flap), required(hinges.pitch)
+    flap, pitch = (of_body + inertia + air for air, inertia, of_body in (flap_parts, pitch_parts))
+    power = flap * hinges.flap_rate + pitch * hinges.pitch_rate
+    air, inertia, of_body = required(hinges.whole)
+    shares = (a * hinges.flap_rate + b * hinges.pitch_rate for a, b in zip(flap_parts, pitch_parts, strict=True))
+    return HingeLoads(flap, pitch, power, of_body + inertia + air, *shares)

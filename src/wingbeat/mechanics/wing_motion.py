@@ -52,52 +52,33 @@ class WingMotion(NamedTuple):
 
     Speeds are those of the quarter chord. Pitch turns a strip about its quarter chord and does not change these
     speeds. Sums over mass points count both wings.
-
-    Attributes
-    ----------
-    ahead, above : position of the quarter chord [m]; `ahead` has no axis of strips unless the wing sweeps.
-    flapping_speed : speed along the normal of the unpitched strip [m/s].
-    flap_cosine : of the strip's flap angle.
-    pitch : pitch of the strip [rad].
-    area, width : of the strips, and their extent along the span, shape (...) [m2, m].
-    first_moment : sum of mass times position, forward and up [kg m].
-    first_moment_rate, first_moment_acceleration : its time derivatives [kg m/s, kg m/s2].
-    inertia, inertia_rate : sum of mass times position squared [kg m2], and its time derivative [kg m2/s].
-    acceleration_moment : sum of mass times (position turned by a right angle) . acceleration [N m].
-    unpitched, sweeping_speed : unit vector along the unpitched chord, as its components in the plane of symmetry,
-        and speed along it [m/s]; None unless the wing sweeps.
-    span, spanwise_speed : the same along the span; None unless loads depend on the full airspeed.
-    tilt, tail_tilt : of the stroke plane, and added to the tail's incidence [rad]; None if 0.
-    unsteady : unsteady loads on the body, forward, up and nose-up; None without unsteady terms.
     """
 
-    ahead: Phases | PerStrip
-    above: PerStrip
-    flapping_speed: PerStrip
+    ahead: Phases | PerStrip  # of the quarter chord [m]; it has no axis of strips unless the wing sweeps
+    above: PerStrip  # [m]
+    flapping_speed: PerStrip  # along the normal of the unpitched strip [m/s]
     flap_cosine: PerStrip
-    pitch: PerStrip
-    area: PerStrip
-    width: Phases
-    first_moment: Pair
+    pitch: PerStrip  # [rad]
+    area: PerStrip  # [m2]
+    width: Phases  # of a strip along the span [m]
+    first_moment: Pair  # sum of mass times position, forward and up [kg m]
     first_moment_rate: Pair
     first_moment_acceleration: Pair
-    inertia: Phases
+    inertia: Phases  # sum of mass times position squared [kg m2]
     inertia_rate: Phases
-    acceleration_moment: Phases
+    acceleration_moment: Phases  # sum of mass times (position turned by a right angle) . acceleration [N m]
+    # Unit vector along the unpitched chord in the plane of symmetry, and speed along it; None if it never sweeps.
     unpitched: Pair | None = None
     sweeping_speed: PerStrip | None = None
-    tilt: Phases | None = None
-    span: Pair | None = None
+    tilt: Phases | None = None  # of the stroke plane [rad]; None if 0
+    span: Pair | None = None  # as `unpitched`, along the span; None unless loads depend on the full airspeed
     spanwise_speed: PerStrip | None = None
-    unsteady: tuple[UnsteadyLoad, UnsteadyLoad, UnsteadyLoad] | None = None
-    tail_tilt: Phases | None = None
+    unsteady: tuple[UnsteadyLoad, UnsteadyLoad, UnsteadyLoad] | None = None  # on the body, forward, up and nose-up
+    tail_tilt: Phases | None = None  # added to the tail's incidence [rad]; None if 0
 
 
 def stroke_attitude(wing: Wing, motion: WingMotion, body_pitch: Phases) -> Phases:
-    """Return the nose-up pitch of stroke axes relative to world axes [rad].
-
-    Theory: equation ``stroke-attitude``.
-    """
+    """Return the nose-up pitch of stroke axes in the world [rad]. Theory: equation ``stroke-attitude``."""
     attitude = body_pitch + stroke_pitch(wing.stroke_plane_angle)
     return attitude if motion.tilt is None else attitude - motion.tilt
 
@@ -111,10 +92,7 @@ def wing_motion(
     along_span: bool = False,
     unsteady: bool = False,
 ) -> WingMotion:
-    """Tabulate the wing's motion at given phases in one pass, as air loads and body dynamics need it.
-
-    The strips are padded to a multiple of `vector`; `along_span` and `unsteady` add the motion along the span and
-    the unsteady loads.
+    """Tabulate the wing's motion at given phases in one pass; the strips are padded to a multiple of `vector`.
 
     Theory: equations ``wing-moments`` and ``rod-moment``.
     """
@@ -122,7 +100,7 @@ def wing_motion(
     strips = with_time_axes(padded(strips_of(vehicle.wing, count), vector), phase)
 
     def strip_places(at: Phases) -> tuple[WingShape, Pair, Pair]:
-        """Return the shape, and in-plane components of mid-chords and of vectors from there to the leading edge."""
+        # The shape, and in-plane components of mid-chords and of vectors from there to the leading edge.
         shape = shape_at(vehicle, wingbeat, strips, at)
         fore = shape.chordwise[0], shape.chordwise[2]
         quarter = 0.25 * strips.chord
@@ -133,12 +111,10 @@ def wing_motion(
 
     # The mass of a strip is spread along its chord: its second moment about mid-chord is that of a uniform rod.
     mass, gyration = 2.0 * strips.mass, strips.chord * strips.chord / 12.0
-
     second = dot(place, place) + gyration * dot(fore, fore)
     half_rate = dot(place, speed) + gyration * dot(fore, fore_rate)
     turning = dot(quarter_turn(place), acceleration) + gyration * dot(quarter_turn(fore), fore_acceleration)
     sums = mass_moments(mass, (*place, *speed, *acceleration, second, half_rate, turning))
-
     width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
     chord = air_chord(wingbeat, strips.chord, phase)
     swept = shape.sweep_sine is not None
@@ -174,40 +150,23 @@ def wing_motion(
 
 
 class StripSpeeds(NamedTuple):
-    """Speeds of the strips per unit of a motion; None stands for zero.
+    """Speeds of the strips per unit of a motion; None stands for zero."""
 
-    Attributes
-    ----------
-    chord, normal : of the quarter chord, along the chord and the normal of the unpitched strip.
-    mid : of the mid-chord, along the normal of the chord.
-    turn : of the chord about the span, leading edge up.
-    """
-
-    chord: PerStrip | None
-    normal: PerStrip | None
-    mid: PerStrip
-    turn: PerStrip | None
-
-
-class StripRates(NamedTuple):
-    """Time derivatives of the speeds in `StripSpeeds`, by the same names."""
-
-    mid: PerStrip
-    turn: PerStrip | None
+    chord: PerStrip | None  # of the quarter chord, along the chord of the unpitched strip
+    normal: PerStrip | None  # of the quarter chord, along the normal of the unpitched strip
+    mid: PerStrip  # of the mid-chord, along the normal of the chord
+    turn: PerStrip | None  # of the chord about the span, leading edge up
 
 
 class StripMotion(NamedTuple):
-    """How the motions V_x, V_z and psi' of the body and the wing's own move the strips, and time derivatives."""
+    """How the motions V_x, V_z and psi' of the body and the wing's own move the strips."""
 
     speeds: tuple[StripSpeeds, ...]
-    rates: tuple[StripRates, ...]
+    rates: tuple[tuple[PerStrip, PerStrip | None], ...]  # time derivatives of `mid` and `turn`
 
 
 def strip_motion(shape: WingShape, rate: WingShape, second: WingShape, chord: PerStripBroadcast) -> StripMotion:
-    """Return how the strips move. `rate` and `second` are the time derivatives of the shape.
-
-    Theory: equation ``chord-turning``.
-    """
+    """Return how the strips move, from the shape and its time derivatives. Theory: equation ``chord-turning``."""
     # Without this, the tangents of every sum over the strips would compute the shape anew, and a flight would take
     # 1.3 times as long.
     shape, rate, second = computed_once((shape, rate, second))
@@ -242,7 +201,7 @@ def strip_motion(shape: WingShape, rate: WingShape, second: WingShape, chord: Pe
             _products((1.0, of_normal_rate), (-rate.pitch, of_chord)),
         )
         speeds.append(StripSpeeds(of_chord, of_normal, mid, turn))
-        rates.append(StripRates(mid_speed(shape, *across, turn_rate, chord), turn_rate))
+        rates.append((mid_speed(shape, *across, turn_rate, chord), turn_rate))
     return computed_once(StripMotion(tuple(speeds), tuple(rates)))
 
 
@@ -254,9 +213,7 @@ def mid_speed(
     chord: PerStripBroadcast,
 ) -> PerStrip:
     """Return the speed of the mid-chord along the normal of the chord."""
-    found = _products((shape.pitch_cosine, of_normal), (-shape.pitch_sine, of_chord), (-0.25 * chord, turn))
-    assert found is not None
-    return found
+    return _products((shape.pitch_cosine, of_normal), (-shape.pitch_sine, of_chord), (-0.25 * chord, turn))
 
 
 def _products(*pairs: tuple[PerStripOrNone | float, PerStripOrNone]) -> Any:
@@ -279,10 +236,7 @@ def _unpitched(shape: WingShape, rate: WingShape, second: WingShape) -> tuple[Tr
 
 
 def _speeds(axis: TripleOrNone, axis_rate: TripleOrNone, places: tuple[Triple, Triple, Triple]) -> Any:
-    """Return the speeds along an axis due to V_x, V_z, psi' and the wing's own motion, and their time derivatives.
-
-    `places` holds the quarter chords and their first two time derivatives.
-    """
+    """Return speeds along an axis due to V_x, V_z, psi' and the wing's own motion, and their time derivatives."""
     (x, _, z), (x_speed, _, z_speed) = places[:2]
     (x_axis, _, z_axis), (x_rate, _, z_rate) = axis, axis_rate
     return (
@@ -297,45 +251,31 @@ def _speeds(axis: TripleOrNone, axis_rate: TripleOrNone, places: tuple[Triple, T
 
 
 class UnsteadyLoad(NamedTuple):
-    """The generalised load of the unsteady terms on one motion of both wings, divided by the density of the air.
+    """The generalised load of the unsteady terms on one motion of both wings, divided by the density of the air."""
 
-    Without damping, the load is ``-(A . a + B . xi + C + psi' (D . xi + E))``; a contains the pitch acceleration.
-
-    Attributes
-    ----------
-    by_acceleration, by_velocity, by_spin : A, B and D, shape (3, ...).
-    own, own_spin : C, the part due to the wing's own motion, and E, shape (...).
-    damping, damping_by_spin : factors of each strip's airspeed, and of the airspeed times the pitch rate.
-    """
-
-    by_acceleration: ByBodyMotion
-    by_velocity: ByBodyMotion
-    own: Phases
-    by_spin: ByBodyMotion
-    own_spin: Phases
-    damping: PerStrip | None
-    damping_by_spin: PerStrip | None
+    by_acceleration: ByBodyMotion  # A
+    by_velocity: ByBodyMotion  # B
+    own: Phases  # C, the part due to the wing's own motion
+    by_spin: ByBodyMotion  # D
+    own_spin: Phases  # E
+    damping: PerStrip | None  # factor of each strip's airspeed
+    damping_by_spin: PerStrip | None  # factor of each strip's airspeed times the pitch rate
 
     def load(self, density: Scalar, velocity: Triple, acceleration: Triple | None, airspeed: PerStrip) -> Phases:
-        """Return the generalised force of the air on the motion.
+        """Return the force of the air, from xi, a and the airspeed. Theory: equation ``unsteady-load``."""
 
-        `velocity` is xi; `acceleration` is a of the body, None for 0; `airspeed` is that of the strips.
+        def of_body(matrix: ByBodyMotion, motion: Triple) -> Phases:
+            return dot((matrix[0], matrix[1], matrix[2]), motion)
 
-        Theory: equation ``unsteady-load``.
-        """
         spin = velocity[2]
-        steady = dot(_rows(self.by_velocity), velocity) + self.own
-        turning = dot(_rows(self.by_spin), velocity) + self.own_spin
+        steady = of_body(self.by_velocity, velocity) + self.own
+        turning = of_body(self.by_spin, velocity) + self.own_spin
         resisted = steady + spin * turning
         if acceleration is not None:
-            resisted = resisted + dot(_rows(self.by_acceleration), acceleration)
+            resisted = resisted + of_body(self.by_acceleration, acceleration)
         if self.damping is not None:
             resisted = resisted + sum_over_strips(airspeed * (self.damping + spin * self.damping_by_spin))
         return -density * resisted
-
-
-def _rows(matrix: ByBodyMotion) -> Triple:
-    return matrix[0], matrix[1], matrix[2]
 
 
 class _Row(NamedTuple):
@@ -357,9 +297,9 @@ def _rotation(lift: PerStrip, moved: StripSpeeds, speeds: StripSpeeds) -> tuple[
     return lift, _products((moved.normal, speeds.chord), (minus_chord, speeds.normal))
 
 
-def _work(row: _Row, rates: StripRates, lift: PerStrip, moved: StripSpeeds) -> Any:
+def _work(row: _Row, rates: tuple[PerStrip, PerStripOrNone], lift: PerStrip, moved: StripSpeeds) -> Any:
     """Return the work on a motion of the air's inertia and of the rotational lift that another motion causes."""
-    return _products((row.mass, rates.mid), (row.inertia, rates.turn), _rotation(lift, moved, row.speeds))
+    return _products((row.mass, rates[0]), (row.inertia, rates[1]), _rotation(lift, moved, row.speeds))
 
 
 def _sums(motion: StripMotion, *rows: PerStripOrNone) -> Any:
@@ -381,14 +321,16 @@ def _load(
     """Return the load of a motion from its tables A, B, C, D (without the turning of the axes) and E."""
     # The axes turn with the body: xi' is its acceleration plus psi' (V_z, -V_x, 0).
     turned = jnp.stack([-by_acceleration[1], by_acceleration[0], jnp.zeros_like(by_acceleration[0])])
-    damping = damping_by_spin = None
     turn = row.speeds.turn
-    if turn is not None:
-        damping, damping_by_spin = (
+    dampings = (
+        (None, None)
+        if turn is None
+        else [
             -2.0 * damping_couple(1.0, chord, width, moved.turn, jnp.ones_like(turn)) * turn
             for moved in (motion.speeds[3], motion.speeds[2])
-        )
-    return UnsteadyLoad(by_acceleration, by_velocity, own, by_spin + turned, own_spin, damping, damping_by_spin)
+        ]
+    )
+    return UnsteadyLoad(by_acceleration, by_velocity, own, by_spin + turned, own_spin, *dampings)
 
 
 def unsteady_load(
@@ -436,9 +378,7 @@ def unsteady_loads_on_body(
     by_spin = jnp.stack([zero, d_xz, d_xp]), jnp.stack([-d_xz, zero, d_zp]), jnp.stack([-d_xp, -d_zp, zero])
 
     def load(i: int) -> UnsteadyLoad:
-        by_velocity = sums[9 + 3 * i : 12 + 3 * i]
-        return _load(
-            rows[i], motion, chord, width, by_acceleration[i], by_velocity, sums[18 + i], by_spin[i], sums[21 + i]
-        )
+        tables = by_acceleration[i], sums[9 + 3 * i : 12 + 3 * i], sums[18 + i], by_spin[i], sums[21 + i]
+        return _load(rows[i], motion, chord, width, *tables)
 
     return load(0), load(1), load(2)

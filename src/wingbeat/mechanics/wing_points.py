@@ -62,19 +62,12 @@ if TYPE_CHECKING:
 
 
 class WingPoints(NamedTuple):
-    """Points of the left wing in the world.
+    """Points of the left wing in the world."""
 
-    Attributes
-    ----------
-    mass : mass points [m], shape (2, N, 3).
-    quarter_chord : [m], shape (N, 3).
-    chordwise, normal : unit vectors towards the leading edge and normal to chord and span, shape (N, 3).
-    """
-
-    mass: MassPoints
-    quarter_chord: StripPoints
-    chordwise: StripPoints
-    normal: StripPoints
+    mass: MassPoints  # mass points [m], shape (2, N, 3)
+    quarter_chord: StripPoints  # [m], shape (N, 3)
+    chordwise: StripPoints  # unit vector towards the leading edge
+    normal: StripPoints  # unit vector normal to chord and span
 
 
 def _in_world(attitude: Component, vector: Triple) -> Vectors:
@@ -83,10 +76,7 @@ def _in_world(attitude: Component, vector: Triple) -> Vectors:
 
 
 def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
-    """Place the left wing in the world. `q` has the shape (5,).
-
-    Theory: equations ``world-place`` and ``coordinates``.
-    """
+    """Place the left wing in the world. Theory: equations ``world-place`` and ``coordinates``."""
     wing = model.vehicle.wing
     strips = strips_of(wing, model.strips)
     shape = wing_shape(model.vehicle, wingbeat, strips, wingbeat.frequency * time, q[3], q[4])
@@ -105,10 +95,7 @@ CORNERS = ("leading inner", "leading outer", "trailing outer", "trailing inner")
 
 
 def corners_of(points: WingPoints, chord: PerStrip, width: Scalar) -> Corners:
-    """Return the corners of the left wing's strips in the world [m], shape (N, 4, 3), in the order of `CORNERS`.
-
-    `width` is that of a strip along the span.
-    """
+    """Return the corners of the left wing's strips in the world [m], shape (N, 4, 3), in the order of `CORNERS`."""
     out = 0.5 * width * jnp.cross(points.normal, points.chordwise)
     leading, trailing = (
         points.quarter_chord + share * chord[:, None] * points.chordwise for share in (0.25, -0.75)
@@ -140,11 +127,7 @@ def surface_points(
     span_fraction: Stations,
     chord_fraction: ChordFractions,
 ) -> SurfacePoints:
-    """Return points of the left wing's surface in the world along a flight [m], shape (K, C, S, 3).
-
-    `span_fraction` are distances from the shoulder over the length of the wing, shape (S,), `chord_fraction`
-    distances from the leading edge over the chord, shape (C,).
-    """
+    """Return points of the left wing's surface in the world along a flight [m], shape (K, C, S, 3)."""
     wing = vehicle.wing
     chord = chord_at(wing, span_fraction)
     stations = Strips(span_fraction, chord, jnp.zeros_like(chord))
@@ -162,39 +145,24 @@ def surface_points(
 
 
 def partial_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
-    """Return the partial velocities ``dr/dq`` of all wing points, with a last axis of five.
-
-    Theory: equation ``partial-velocities``.
-    """
+    """Return ``dr/dq`` of all wing points, with a last axis of five. Theory: equation ``partial-velocities``."""
     return jax.jacfwd(lambda at: wing_points(model, wingbeat, at, time))(q)
 
 
 class PointMotion(NamedTuple):
-    """Wing points and their derivatives.
-
-    Attributes
-    ----------
-    position : the points.
-    velocity : their velocities.
-    partial : partial velocities ``dr/dq``, with a last axis of five.
-    drift : ``dr/dt`` at fixed q.
-    bias : accelerations ``r''`` at ``q'' = 0``.
-    """
+    """Wing points and their derivatives."""
 
     position: WingPoints
     velocity: WingPoints
-    partial: WingPoints
-    drift: WingPoints
-    bias: WingPoints
+    partial: WingPoints  # partial velocities ``dr/dq``, with a last axis of five
+    drift: WingPoints  # ``dr/dt`` at fixed q
+    bias: WingPoints  # accelerations ``r''`` at ``q'' = 0``
 
 
 def point_motion(
     model: FlightModel, wingbeat: Wingbeat, q: Coordinates, q_dot: Coordinates, time: Scalar
 ) -> PointMotion:
-    """Return the wing points and all their derivatives for a given motion.
-
-    Theory: equation ``point-rates``.
-    """
+    """Return the wing points and all their derivatives for a given motion. Theory: equation ``point-rates``."""
 
     def place(along: Scalar) -> WingPoints:
         return wing_points(model, wingbeat, q + along * q_dot, time + along)
@@ -210,24 +178,14 @@ def point_motion(
 
 
 class AirPower(NamedTuple):
-    """The power that a flight spends on the air [W], by cause, shape (...).
+    """The power that a flight spends on the air [W], by cause, shape (...). Theory: equation ``power-by-cause``."""
 
-    Theory: equation ``power-by-cause``.
-
-    Attributes
-    ----------
-    profile : power against the lift and drag of the strips, at their velocity relative to the air at the wings. If
-        the polar was measured on a finite wing, this power includes the induced drag of that wing.
-    induced : power spent on the induced flow v, ``-F . v`` with the force F of the wings; 0 without inflow.
-    parasite : power against the loads of body and tail.
-    unsteady : power against rotation, added mass and couples; the air stores and returns the part due to
-        added mass.
-    """
-
+    # Against lift and drag of the strips, at their velocity relative to the air at the wings. If the polar was
+    # measured on a finite wing, this power includes the induced drag of that wing.
     profile: Phases
-    induced: Phases
-    parasite: Phases
-    unsteady: Phases
+    induced: Phases  # spent on the induced flow v, ``-F . v`` with the force F of the wings; 0 without inflow
+    parasite: Phases  # against the loads of body and tail
+    unsteady: Phases  # against rotation, added mass and couples; the air returns the part due to added mass
 
 
 class AirForces(NamedTuple):
@@ -255,28 +213,19 @@ class AirForces(NamedTuple):
 
 
 class _AirResistance(NamedTuple):
-    """The motions of each strip of the left wing that the air resists (thin aerofoil), and the air's inertia.
+    """The motions of each strip of the left wing that the air resists (thin aerofoil), and the air's inertia."""
 
-    `mass` and `inertia` are the air's added mass and inertia for a strip. Each strip has a normal speed of its
-    mid-chord and a turning rate of its chord (`turning` [rad/s]). `lever`, shape (N, 5), is the derivative of the
-    normal speed with respect to q'; `normal_bias` is its time derivative at ``q'' = 0``. `turn` and `turning_bias`
-    are the same derivatives of the turning rate.
-    """
-
-    mass: PerStrip
-    inertia: PerStrip
-    lever: StripsByCoordinates
-    turn: StripsByCoordinates
-    normal_bias: PerStrip
-    turning_bias: PerStrip
-    turning: PerStrip
+    mass: PerStrip  # added mass of the air
+    inertia: PerStrip  # added inertia of the air
+    lever: StripsByCoordinates  # derivative of the mid-chord's normal speed with respect to q', shape (N, 5)
+    turn: StripsByCoordinates  # the same of the chord's turning rate
+    normal_bias: PerStrip  # time derivative of the normal speed at ``q'' = 0``
+    turning_bias: PerStrip  # the same of the turning rate
+    turning: PerStrip  # turning rate of the chord [rad/s]
 
     @property
     def added_mass(self) -> CoordinateMatrix:
-        """The generalised added mass of the air at both wings, shape (5, 5).
-
-        Theory: equation ``air-inertia``.
-        """
+        """The generalised added mass of the air at both wings, shape (5, 5). Theory: equation ``air-inertia``."""
         return 2.0 * (
             jnp.einsum("n,ni,nj->ij", self.mass, self.lever, self.lever)
             + jnp.einsum("n,ni,nj->ij", self.inertia, self.turn, self.turn)
@@ -324,17 +273,17 @@ def air_forces_on(
     motion: PointMotion,
     q_acceleration: Coordinates | None = None,
 ) -> AirForces:
-    """Return the air loads from the motion of the wing points at one instant.
-
-    `q_acceleration` is q'', for the added mass; None leaves this part out.
+    """Return the air loads from the motion of the wing points at one instant; without q'', without added mass.
 
     Theory: equations ``strip-velocity``, ``generalised-air-loads`` and ``air-power``.
     """
     phase = wingbeat.frequency * time
     chord = air_chord(wingbeat, strips_of(model.vehicle.wing, model.strips).chord, phase)
-    length = model.vehicle.wing.semi_span * span_ratio(wingbeat, phase)
-    width = length / model.strips
-    points, velocity, wind = motion.position, motion.velocity.quarter_chord, _wind(model)
+    width = model.vehicle.wing.semi_span * span_ratio(wingbeat, phase) / model.strips
+    points, velocity, wind = motion.position, motion.velocity.quarter_chord, None
+    if model.induced_flow is not None:  # velocity of the air at the wings in the world [m/s]
+        forward, up = (jnp.asarray(part, dtype=float) for part in model.induced_flow)
+        wind = jnp.stack([forward, jnp.zeros(()), up])
     through_air = velocity if wind is None else velocity - wind
     chord_speed = jnp.sum(through_air * points.chordwise, axis=-1)
     normal_speed = jnp.sum(through_air * points.normal, axis=-1)
@@ -404,10 +353,7 @@ def _unsteady(
     rotation: tuple[PerStrip, PerStrip, PerStrip],
     q_acceleration: Coordinates | None,
 ) -> _Unsteady:
-    """Return the unsteady loads.
-
-    `rotation` is the load of turning strips: force along the chord, along the normal, and couple.
-    """
+    """Return the unsteady loads; `rotation` are forces along chord and normal, and couples, of turning strips."""
     points = motion.position
     turning = rotation[0][:, None] * points.chordwise + rotation[1][:, None] * points.normal
     normal, couple = resistance.forces(jnp.zeros(5) if q_acceleration is None else q_acceleration)
@@ -425,11 +371,3 @@ def _unsteady(
     )
     force = turning + normal[:, None] * points.normal
     return _Unsteady(generalised, generalised @ q_dot + drift_power, force, resistance.added_mass)
-
-
-def _wind(model: FlightModel) -> Any:
-    """Return the velocity of the air at the wings in the world [m/s], shape (3,); None without inflow."""
-    if model.induced_flow is None:
-        return None
-    forward, up = (jnp.asarray(part, dtype=float) for part in model.induced_flow)
-    return jnp.stack([forward, jnp.zeros(()), up])

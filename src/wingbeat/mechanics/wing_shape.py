@@ -44,19 +44,13 @@ if TYPE_CHECKING:
 
 
 def to_world(attitude: Component, forward: Component, up: Component) -> Pair:
-    """Return the world components (x, z) of an in-plane vector given in axes pitched nose-up by `attitude`.
-
-    Theory: equation ``body-axes``.
-    """
+    """Turn a pair from axes pitched nose-up by `attitude` to the world's. Theory: equation ``body-axes``."""
     c, s = cos(attitude), sin(attitude)
     return c * forward - s * up, s * forward + c * up
 
 
 def from_world(attitude: Component, x: Component, z: Component) -> Pair:
-    """Return the components of an in-plane world vector in axes pitched nose-up by `attitude`.
-
-    Theory: equation ``body-axes``.
-    """
+    """Turn a pair from the world's axes to those pitched nose-up by `attitude`. Theory: equation ``body-axes``."""
     c, s = cos(attitude), sin(attitude)
     return c * x + s * z, c * z - s * x
 
@@ -72,10 +66,7 @@ def stroke_pitch(stroke_plane_angle: Component) -> Component:
 
 
 def quarter_turn(pair: Pair) -> Pair:
-    """Turn an in-plane vector nose-up by a right angle.
-
-    Theory: equation ``quarter-turn``.
-    """
+    """Turn an in-plane vector nose-up by a right angle. Theory: equation ``quarter-turn``."""
     return -pair[1], pair[0]
 
 
@@ -85,40 +76,25 @@ def dot(a: Pair | Triple, b: Pair | Triple) -> Component:
     return sum(products[1:], products[0])
 
 
-_FEW_STRIPS = 32
-
-
 def sum_over_strips(a: PerStrip) -> Phases:
-    """Return the sum over the strips.
-
-    At most 32 strips are added one by one, because XLA, JAX's compiler, can vectorise this on a CPU.
-    """
-    if a.shape[0] > _FEW_STRIPS:
+    """Return the sum over the strips; few are added one by one, because XLA can vectorise this on a CPU."""
+    if a.shape[0] > 32:
         return jnp.sum(a, axis=0)
     return functools.reduce(operator.add, [a[i] for i in range(a.shape[0])])
 
 
 def mass_moments(mass: PerStripBroadcast | float, rows: Sequence[PerStrip]) -> Sums:
-    """Return the sums over the strips of each row times the strips' mass, shape (rows, ...).
-
-    A single sum for all rows compiles in a third of the time that one sum per row needs.
-    """
+    """Return the sums over the strips of each row times the strips' mass, shape (rows, ...)."""
+    # A single sum for all rows compiles in a third of the time that one sum per row needs.
     return sum_over_strips(jnp.stack([mass * row for row in rows], axis=1))
 
 
 class Strips(NamedTuple):
-    """Numbers of one wing's strips that are constant in time, shape (N,), or (N, 1, ...) to match axes of time.
+    """Numbers of one wing's strips that are constant in time, shape (N,), or (N, 1, ...) to match axes of time."""
 
-    Attributes
-    ----------
-    span_fraction : distance of the strip's centre from the shoulder, divided by the semi-span, 0 to 1.
-    chord : [m].
-    mass : [kg].
-    """
-
-    span_fraction: PerStripBroadcast
-    chord: PerStripBroadcast
-    mass: PerStripBroadcast
+    span_fraction: PerStripBroadcast  # distance of the strip's centre from the shoulder over the semi-span
+    chord: PerStripBroadcast  # [m]
+    mass: PerStripBroadcast  # [kg]
 
 
 class WingShape(NamedTuple):
@@ -128,25 +104,18 @@ class WingShape(NamedTuple):
     axis and the span. Pitch turns the strip about its own span, which runs along the quarter chords.
 
     Theory: equation ``flap-vectors``.
-
-    Attributes
-    ----------
-    ahead, left, above : position of the quarter chord relative to the body's centre of mass [m].
-    flap_sine, flap_cosine : of the strip's flap angle.
-    pitch : pitch of the strip [rad].
-    pitch_sine, pitch_cosine : of that pitch.
-    sweep_sine, sweep_cosine : of the sweep angle, shape (...); None for a wing without sweep.
     """
 
+    # Position of the quarter chord relative to the body's centre of mass [m].
     ahead: PerStripBroadcast
     left: PerStripBroadcast
     above: PerStripBroadcast
     flap_sine: PerStripBroadcast
     flap_cosine: PerStripBroadcast
-    pitch: PerStripBroadcast
+    pitch: PerStripBroadcast  # [rad]
     pitch_sine: PerStripBroadcast
     pitch_cosine: PerStripBroadcast
-    sweep_sine: Phases | None = None
+    sweep_sine: Phases | None = None  # None for a wing without sweep
     sweep_cosine: Phases | None = None
 
     @property
@@ -156,10 +125,7 @@ class WingShape(NamedTuple):
 
     @property
     def unpitched(self) -> Triple:
-        """Unit vector along the chord of the unpitched strip.
-
-        Theory: equation ``strip-axes``.
-        """
+        """Unit vector along the chord of the unpitched strip. Theory: equation ``strip-axes``."""
         if self.sweep_sine is None:
             return 1.0, 0.0, 0.0
         inward = -self.sweep_sine
@@ -167,20 +133,14 @@ class WingShape(NamedTuple):
 
     @property
     def spanwise(self) -> Triple:
-        """Unit vector towards the tip.
-
-        Theory: equation ``strip-axes``.
-        """
+        """Unit vector towards the tip. Theory: equation ``strip-axes``."""
         if self.sweep_sine is None:
             return jnp.zeros_like(self.flap_sine), self.flap_cosine, self.flap_sine
         return self.sweep_sine, self.sweep_cosine * self.flap_cosine, self.sweep_cosine * self.flap_sine
 
     @property
     def chordwise(self) -> Triple:
-        """Unit vector to the leading edge.
-
-        Theory: equation ``strip-axes``.
-        """
+        """Unit vector to the leading edge. Theory: equation ``strip-axes``."""
         if self.sweep_sine is not None:
             return self._pitched(self.pitch_cosine, self.pitch_sine)
         return self.pitch_cosine, -self.pitch_sine * self.flap_sine, self.pitch_sine * self.flap_cosine
@@ -202,12 +162,7 @@ class WingShape(NamedTuple):
 
 
 def strips_of(wing: Wing, count: int) -> Strips:
-    """Cut a wing into `count` equal strips.
-
-    The mass of a strip is proportional to ``(1 - s/L)**p``, normalised to the mass of the wing.
-
-    Theory: equation ``strip-mass``.
-    """
+    """Cut a wing into equal strips, whose mass goes as ``(1 - s/L)**p``. Theory: equation ``strip-mass``."""
     span_fraction = (jnp.arange(count) + 0.5) / count
     chord = chord_at(wing, span_fraction)
     share = (1.0 - span_fraction) ** wing.mass_exponent
@@ -215,10 +170,7 @@ def strips_of(wing: Wing, count: int) -> Strips:
 
 
 def chord_at(wing: Wing, span_fraction: PerStrip) -> PerStrip:
-    """Return the chord [m] at span fractions, linear between the stations of the wing.
-
-    Theory: equation ``strip-chord``.
-    """
+    """Return the chord [m], linear between the stations of the wing. Theory: equation ``strip-chord``."""
     stations = jnp.atleast_1d(jnp.asarray(wing.chord, dtype=float))
     if stations.size == 1:
         return jnp.broadcast_to(stations, span_fraction.shape)
@@ -226,12 +178,7 @@ def chord_at(wing: Wing, span_fraction: PerStrip) -> PerStrip:
 
 
 def air_chord(wingbeat: Wingbeat, chord: PerStripBroadcast, phase: Phases) -> PerStripBroadcast:
-    """Return the chord that meets the air [m]: the full chord times the wingbeat's chord law.
-
-    `chord` has an axis of length one for each axis of `phase`.
-
-    Theory: equation ``chord-law``.
-    """
+    """Return the chord that meets the air [m]: full chord times chord law. Theory: equation ``chord-law``."""
     ratio = chord_ratio(wingbeat, phase)
     return chord if ratio is None else chord * ratio
 
@@ -251,10 +198,8 @@ def tail_tilt(vehicle: Vehicle, wingbeat: Wingbeat) -> Scalar | None:
 
 
 def padded(strips: Strips, vector: int) -> Strips:
-    """Return the strips, padded to a multiple of `vector` with strips without chord and mass.
-
-    At a single time, XLA on CPU vectorises along the strips; a few left-over strips cost more than a full vector.
-    """
+    """Return the strips, padded to a multiple of `vector` with strips without chord and mass."""
+    # At a single time, XLA on CPU vectorises along the strips; left-over strips cost more than a full vector.
     more = (0, -strips.span_fraction.size % vector)
     return Strips(
         jnp.pad(strips.span_fraction, more, "edge"), jnp.pad(strips.chord, more), jnp.pad(strips.mass, more)
@@ -267,10 +212,7 @@ def with_time_axes(strips: Strips, phase: Phases) -> Strips:
 
 
 def twist_factors(wingbeat: Wingbeat, span_fraction: PerStripBroadcast) -> PerStripBroadcast:
-    """Return each strip's pitch divided by the root's, without the twist law: ``1 + (twist_ratio - 1) s/L``.
-
-    Theory: equation ``strip-angles``.
-    """
+    """Return each strip's pitch over the root's, without the twist law. Theory: equation ``strip-angles``."""
     return 1.0 + (wingbeat.twist_ratio - 1.0) * span_fraction
 
 
@@ -278,8 +220,6 @@ def wing_shape(
     vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases, flap: Phases, pitch: Phases
 ) -> WingShape:
     """Place the left wing's strips at given flap and pitch angles; the phase gives span, fold, sweep and twist.
-
-    Inboard of the wrist, a strip has the flap angle of the arm; outboard, that of the hand.
 
     Theory: equations ``strip-angles``, ``shoulder-place`` and ``strip-place``.
     """
@@ -323,22 +263,15 @@ def shape_at(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases
 
 
 def mass_points(shape: WingShape, strips: Strips) -> Triple:
-    """Return the mass points in stroke axes [m], three components of shape (2, N, ...).
-
-    Each has half the mass of its strip. Two points at mid-chord +- c/(2 sqrt 3) have the second moment of a uniform
-    strip.
-
-    Theory: equation ``mass-points``.
-    """
+    """Return the mass points in stroke axes [m], shape (2, N, ...). Theory: equation ``mass-points``."""
+    # Two points of half a strip's mass at mid-chord +- c/(2 sqrt 3) have the second moment of a uniform strip.
     offsets = jnp.stack([strips.chord * (-0.25 + half / math.sqrt(3)) for half in (0.5, -0.5)])
     x, y, z = (place + offsets * fore for place, fore in zip(shape.quarter_chord, shape.chordwise, strict=True))
     return x, y, z
 
 
 def time_rates(function: Callable[[Any], Any], phase: Phases, frequency: Scalar) -> tuple[Any, Any, Any]:
-    """Return a function of phase with its first and second time derivatives, by automatic differentiation.
-
-    `function` takes phases and returns any pytree; `frequency` is in Hz.
+    """Return a function of phase, of any pytree, with its first and second time derivatives.
 
     Theory: equations ``phase`` and ``flap-vector-rates``.
     """
@@ -350,15 +283,14 @@ def time_rates(function: Callable[[Any], Any], phase: Phases, frequency: Scalar)
     # Derivatives are by phase first. The frequency only scales them, so a derivative by the frequency does not
     # differentiate the function.
     (value, first), (_, second) = jax.jvp(rate, (phase,), (one,))
-
-    def scaled(tree: Any, factor: Any) -> Any:
-        return jax.tree_util.tree_map(lambda a: a * factor, tree)
-
-    return value, scaled(first, frequency), scaled(second, frequency * frequency)
+    first = jax.tree_util.tree_map(lambda a: a * frequency, first)
+    squared = frequency * frequency
+    return value, first, jax.tree_util.tree_map(lambda a: a * squared, second)
 
 
-# How far the wing is to the side of the plane of symmetry: the body pitches about the lateral axis, so this depends
-# on the prescribed wingbeat and never on the flight.
+# --- how far the wing is to the side of the plane of symmetry: the body pitches about the lateral axis, so this
+# depends on the prescribed wingbeat and never on the flight ---
+
 # Chordwise place of the leading and the trailing edge from the quarter chord, in chords.
 LEADING, TRAILING = 0.25, -0.75
 
@@ -367,21 +299,16 @@ LEADING, TRAILING = 0.25, -0.75
 def lateral_corners(
     vehicle: Vehicle, wingbeat: Wingbeat, phase: Phases, *, count: int
 ) -> tuple[PerStrip, PerStrip]:
-    """Return the distance of the left wing's strip corners to the left of the plane of symmetry [m].
-
-    Leading and trailing corners, inner ones first, shape (2 N, K) each.
+    """Return how far leading and trailing corners are to the left [m], inner ones first, shape (2 N, K) each.
 
     Theory: equation ``strip-corners``.
     """
     strips = with_time_axes(strips_of(vehicle.wing, count), phase)
     shape = shape_at(vehicle, wingbeat, strips, phase)
     half, chord = _half_width(vehicle, wingbeat, shape, phase, count), air_chord(wingbeat, strips.chord, phase)
-
-    def edge(share: float) -> PerStrip:
-        along = _edge(shape, chord, share)
-        return jnp.concatenate([along - half, along + half])
-
-    return edge(LEADING), edge(TRAILING)
+    edges = (_edge(shape, chord, share) for share in (LEADING, TRAILING))
+    leading, trailing = (jnp.concatenate([edge - half, edge + half]) for edge in edges)
+    return leading, trailing
 
 
 def lateral_corner(
@@ -409,11 +336,9 @@ def _half_width(
 
 
 def has_room(vehicle: Vehicle) -> bool:
-    """Return whether the shoulder is off the plane of symmetry, so that a pitching root can stay on its own side.
-
-    If the shoulder is in the plane itself, some corner of the root crosses it in any stroke. The wing then counts
-    as on its side if neither arm nor hand flaps by more than a right angle.
-    """
+    """Return whether the shoulder is off the plane of symmetry, so that a pitching root can stay on its side."""
+    # If not, some corner of the root crosses the plane in any stroke. The wing then counts as on its side if
+    # neither arm nor hand flaps by more than a right angle.
     return bool(vehicle.wing.shoulder[1] != 0.0)
 
 

@@ -99,7 +99,7 @@ def _step(
 
 
 def multiplier_residual(gradient: np.ndarray, equal: np.ndarray, within: np.ndarray) -> float:
-    """Return the largest part of a gradient left by least-squares multipliers of rows, of `within` not negative."""
+    """Return the largest part of a gradient that multipliers of rows do not explain, not negative for `within`."""
     normals = np.concatenate([equal, within]).T
     multipliers = np.linalg.lstsq(normals, gradient)[0]
     if (multipliers[len(equal) :] < 0).any():

@@ -49,7 +49,7 @@ class _DivergedError(Exception):
 
 
 class Programme:
-    """A nonlinear programme in scaled unknowns: least objective, zero closure, and no negative inequality."""
+    """A nonlinear programme in scaled unknowns: least objective, closure 0, no negative inequality."""
 
     lower: np.ndarray
     upper: np.ndarray
@@ -315,7 +315,7 @@ class Transcription(Programme):
         return np.concatenate([path, self.outputs.limits - outputs[self._minimised :]])
 
     def optimality(self, scaled: np.ndarray) -> float:
-        """Return the largest residual, scaled, of optimality. Theory: equation ``optimality-conditions``."""
+        """Return the largest residual of optimality, scaled. Theory: equation ``optimality-conditions``."""
         tolerance, unit = self.options.search.bound_tolerance, np.eye(scaled.size)
         reach = tolerance * (self.upper - self.lower)
         bounds = [unit[scaled - self.lower <= reach], -unit[self.upper - scaled <= reach]]
@@ -384,7 +384,7 @@ class Candidate:
 
 
 def search(programme: Transcription, start: np.ndarray, *, restore: bool = False) -> Candidate:
-    """Search from unknowns with SLSQP; first `restore` closure, or if it stalls, before one more search."""
+    """Search with SLSQP, from where closure is restored with `restore`; if it stalls, do so once more."""
     # Most stalls come from a poor BFGS matrix, or from a start whose full Newton steps leave the region where the
     # quadratic model is valid.
     options = programme.options.search

@@ -149,7 +149,7 @@ class _OfBeat:
 
 
 class _OfMap:
-    """A function of the stroke map `over` a number; a smooth excess over an upper limit is `smooth_for` it."""
+    """A function of the stroke map divided by `over`; `smooth_for` is the upper limit whose smooth excess it is."""
 
     fields = ()
 

@@ -14,9 +14,9 @@ from wingbeat.cli.terminal import deliver, plain_console, print_report, progress
 from wingbeat.plots import gust_page
 from wingbeat.stability.beat_feedback import Feedback
 from wingbeat.stability.beat_feedback import feedback as compute
-from wingbeat.stability.checks import check_delay, check_inputs, check_late, check_noise
 from wingbeat.stability.gust_flights import GustFlight, fly_gust
 from wingbeat.stability.many_flights import MOST_FLIGHTS, GustSurvey, survey_gusts
+from wingbeat.stability.options import MOST_DELAY, check_delay, check_inputs, check_noise
 from wingbeat.stability.reports import STATE_UNITS, beats_of, feedback_report, survey_report
 
 FREE, HELD = "no feedback", "feedback"
@@ -86,7 +86,7 @@ def feedback(
     errors = named_numbers(faults, "--noise", noise, tuple(STATE_UNITS), "body_pitch=0.01")
     check_noise(faults, errors, tuple(STATE_UNITS), seed)
     check_delay(faults, delay)
-    check_late(faults, late)
+    faults.whole("late", late, 0, MOST_DELAY)
     if inputs is not None:
         check_inputs(faults, inputs)
     faults.raise_if_any()

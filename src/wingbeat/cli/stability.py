@@ -26,9 +26,9 @@ from wingbeat.orbits.options import Status
 from wingbeat.plots import stability_page
 from wingbeat.results.orbit import solve_orbit, solve_orbits
 from wingbeat.stability.causes import stability_sensitivities
-from wingbeat.stability.checks import check_inputs
 from wingbeat.stability.inputs import compensation
 from wingbeat.stability.linear_flight import linearise
+from wingbeat.stability.options import check_inputs
 from wingbeat.stability.reports import causes_report, linear_report
 
 # Of the state (body pitch, u, w, pitch rate); a pair of complex modes counts once.

@@ -11,7 +11,7 @@ from wingbeat.cli.arguments import Whole, check_outputs, flag, option, written_t
 from wingbeat.cli.problem_options import saved_orbit
 from wingbeat.cli.terminal import progress_bar
 from wingbeat.records.result_files import load_dataset
-from wingbeat.stability.checks import MOST_DELAY
+from wingbeat.stability.options import MOST_DELAY
 from wingbeat.viewer import Push, animate, write_page
 
 _SUFFIXES = (".html", ".gif")

@@ -10,12 +10,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._base import FaultList, Report, Reported, __version__
-from wingbeat.animal.kinematics import Wingbeat, parameter
+from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import State
-from wingbeat.stability.checks import check_delay, check_late, command_limits, noise_of, weights_of
 from wingbeat.stability.inputs import Smoother, changed_wingbeat, smoother
 from wingbeat.stability.linear_flight import LinearFlight, linearise
-from wingbeat.stability.options import FEEDBACK, FeedbackOptions
+from wingbeat.stability.options import (
+    FEEDBACK,
+    MOST_DELAY,
+    FeedbackOptions,
+    check_delay,
+    command_limits,
+    noise_of,
+    weights_of,
+)
 from wingbeat.stability.reports import feedback_report
 from wingbeat.stability.riccati import (
     Reach,
@@ -103,7 +110,7 @@ class Feedback(Reported):
         InvalidInputError : not a whole number from 0 to 4.
         """
         faults = FaultList()
-        check_late(faults, late)
+        faults.whole("late", late, 0, MOST_DELAY)
         faults.raise_if_any()
         return multipliers_over([closed_loop(*_deviation_map(self.flight), self.gains, self.delay, late)])
 
@@ -148,7 +155,7 @@ class Feedback(Reported):
         True
         """
         faults = FaultList()
-        check_late(faults, late)
+        faults.whole("late", late, 0, MOST_DELAY)
         faults.raise_if_any()
         return FeedbackController(self, late, noise_of(noise, self.flight.state, seed), seed)
 
@@ -157,12 +164,11 @@ class Feedback(Reported):
 
     def record(self) -> dict[str, Any]:
         """Return all numbers as a JSON-able dictionary in SI units and radians; complex numbers become pairs."""
-        flight = self.flight
-        pairs = [[value.real, value.imag] for value in self.multipliers.astype(complex).tolist()]
+        flight, asked = self.flight, self.flight.orbit.inputs
         return {
-            "species": flight.orbit.inputs["species"]["name"],
-            "speed": flight.orbit.inputs["speed"],
-            "climb": flight.orbit.inputs["climb"],
+            "species": asked["species"]["name"],
+            "speed": asked["speed"],
+            "climb": asked["climb"],
             "frequency": flight.orbit.wingbeat.frequency,
             "dt": flight.dt,
             "state": list(flight.state),
@@ -173,7 +179,7 @@ class Feedback(Reported):
             "cost": self.cost.tolist(),
             "lower": dict(zip(self.inputs, self.lower.tolist(), strict=True)),
             "upper": dict(zip(self.inputs, self.upper.tolist(), strict=True)),
-            "multipliers": pairs,
+            "multipliers": [[value.real, value.imag] for value in self.multipliers.astype(complex).tolist()],
             "spectral_radius": self.spectral_radius,
             "open_loop": {
                 "multipliers": [[m.multiplier.real, m.multiplier.imag] for m in flight.modes],
@@ -214,11 +220,10 @@ class FeedbackController:
 
     def __init__(self, feedback: Feedback, late: int, noise: np.ndarray, seed: int) -> None:
         self.feedback, self.late, self.noise, self.seed = feedback, late, noise, seed
-        self.commands: list[np.ndarray] = []
         self._begin(State())
 
     def _begin(self, state: State) -> None:
-        self.commands = []
+        self.commands: list[np.ndarray] = []
         waiting = self.feedback.delay + self.late
         self._waiting = [np.zeros(len(self.feedback.inputs)) for _ in range(waiting)]  # the oldest first
         self._random = np.random.default_rng(self.seed)
@@ -234,8 +239,11 @@ class FeedbackController:
         """
         if beats == 0:
             self._begin(state)
-        feedback = self.feedback
-        deviation = self._deviation(state) + self.noise * self._random.standard_normal(len(self.noise))
+        feedback, orbit = self.feedback, self.feedback.flight.orbit
+        height = float(state.z) - self._ground - float(orbit.inputs["climb"]) * self._time
+        pitch_state = np.array(state, dtype=float)[2:] - np.array(orbit.initial_state, dtype=float)[2:]
+        deviation = np.concatenate([[height], pitch_state])
+        deviation = deviation + self.noise * self._random.standard_normal(len(self.noise))
         known = np.concatenate([deviation, *self._waiting[self.late :]])
         command = np.clip(-feedback.gains @ known, feedback.lower, feedback.upper)
         if not np.isfinite(command).all():  # the vehicle has tumbled
@@ -246,12 +254,6 @@ class FeedbackController:
         wingbeat = feedback.wingbeat(acting)
         self._time += 1.0 / wingbeat.frequency
         return wingbeat
-
-    def _deviation(self, state: State) -> np.ndarray:
-        orbit = self.feedback.flight.orbit
-        height = float(state.z) - self._ground - float(orbit.inputs["climb"]) * self._time
-        pitch_state = np.array(state, dtype=float)[2:] - np.array(orbit.initial_state, dtype=float)[2:]
-        return np.concatenate([[height], pitch_state])
 
 
 def feedback(
@@ -325,9 +327,8 @@ def feedback(
 
 def _deviation_map(flight: LinearFlight) -> tuple[np.ndarray, np.ndarray]:
     """Return A and B of deviations from the orbit, whose height is that of the climbing path at the same time."""
-    by_inputs = flight.B.copy()
+    by_inputs, orbit = flight.B.copy(), flight.orbit
     if "frequency" in flight.inputs:  # a shorter beat ends lower on the path
-        by_inputs[0, flight.inputs.index("frequency")] += (
-            float(flight.orbit.inputs["climb"]) / float(parameter(flight.orbit.wingbeat, "frequency")) ** 2
-        )
+        lower = float(orbit.inputs["climb"]) / float(orbit.wingbeat.frequency) ** 2
+        by_inputs[0, flight.inputs.index("frequency")] += lower
     return flight.A, by_inputs

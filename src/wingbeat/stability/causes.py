@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -122,15 +121,13 @@ def stability_sensitivities(orbit: Orbit, options: SolverOptions = SOLVER) -> St
     'wing.shoulder.x'
     """
     found = sensitivities(orbit, [_RADIUS, *_ENTRIES], options)
-    stroke_map = _matrix(found.values)
-    alone = Sensitivities(
-        found.problem,
-        found.unknowns,
-        [_RADIUS],
-        [found.values[_RADIUS.name]],
-        [_of_radius(slope) for slope in found.slopes],
-        [_of_radius(price) for price in found.prices],
+    slopes, prices = (
+        [one._replace(quantities={_RADIUS.name: one.quantities[_RADIUS.name]}) for one in part]
+        for part in (found.slopes, found.prices)
     )
+    radius = [_RADIUS], [found.values[_RADIUS.name]]
+    alone = Sensitivities(found.problem, found.unknowns, *radius, slopes, prices)
+    stroke_map = _matrix(found.values)
     by_parameter = {s.parameter.path: multiplier_slopes(stroke_map, _matrix(s.quantities)) for s in found.slopes}
     return StabilitySensitivities(alone, multipliers_of(stroke_map), by_parameter)
 
@@ -150,9 +147,5 @@ def _matrix(entries: dict[str, float]) -> np.ndarray:
     return np.reshape([entries[one.name] for one in _ENTRIES], (4, 4))
 
 
-def _of_radius(slope: Any) -> Any:
-    return slope._replace(quantities={_RADIUS.name: slope.quantities[_RADIUS.name]})
-
-
-def _pairs(values: np.ndarray | Sequence[complex]) -> list[list[float]]:
-    return [[complex(one).real, complex(one).imag] for one in values]
+def _pairs(values: np.ndarray) -> list[list[float]]:
+    return [[one.real, one.imag] for one in values.astype(complex).tolist()]

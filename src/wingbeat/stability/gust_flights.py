@@ -12,10 +12,10 @@ import numpy as np
 from wingbeat._base import FaultList
 from wingbeat.aero.winds import CosineGust, Wind
 from wingbeat.orbits.flight.period import PITCH_STATE
-from wingbeat.orbits.options import Status
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.stability.beat_feedback import Feedback, feedback
-from wingbeat.stability.options import FEEDBACK, MANY, ManyOptions
+from wingbeat.stability.options import FEEDBACK, MANY, ManyOptions, check_certified
+from wingbeat.stability.reports import beats_of
 from wingbeat.viewer.scene import Push
 
 if TYPE_CHECKING:
@@ -34,22 +34,15 @@ _EVERY = 4  # of the samples of a flight, the page gets each fourth one: 16 in a
 class GustFlight:
     """A flight through a wind, and the orbit on which it began.
 
-    Attributes
-    ----------
-    flight : the flight.
-    pitch : deviation of the body pitch from the orbit's at the same phase [rad], shape (K,).
-    height : height above the orbit's path at the tops of the stroke [m], shape (beats + 1,).
-    changes : of the inputs in each beat, shape (beats, inputs) [Hz, rad or shares].
-    survived : as in `ManyFlights`.
-    settled : beats after which attitude and velocities at the top of the stroke stay within half a scale of
-        `FeedbackOptions`; None if they do not.
+    It is settled after so many beats if attitude and velocities at the top of the stroke then stay within half a
+    scale of `FeedbackOptions`.
     """
 
     flight: Flight
-    pitch: np.ndarray
-    height: np.ndarray
-    changes: np.ndarray
-    survived: bool
+    pitch: np.ndarray  # deviation of the body pitch from the orbit's at the same phase [rad], shape (K,)
+    height: np.ndarray  # above the orbit's path at the tops of the stroke [m], shape (beats + 1,)
+    changes: np.ndarray  # of the inputs in each beat, shape (beats, inputs) [Hz, rad or shares]
+    survived: bool  # as in `ManyFlights`
     settled: int | None
 
     def record(self) -> dict[str, Any]:
@@ -88,12 +81,11 @@ def fly_gust(
     pitch = flown.states[:, 2] - np.append(np.tile(path, beats), path[0])
     tops = flown.states[::SAMPLES]
     height = tops[:, 1] - float(start.z) - float(orbit.inputs["climb"]) * flown.time[::SAMPLES]
-    kept = bool(options.keeps(np.abs(pitch).max(), height.min()))
+    kept = flown.completed and bool(options.keeps(np.abs(pitch).max(), height.min()))
     changes = np.zeros((beats, 0)) if controller is None else np.array(controller.commands)
     scales = np.array([FEEDBACK.scale(name) for name in PITCH_STATE])
     away = np.abs((tops[:, 2:] - np.array(start, dtype=float)[2:]) / scales).max(axis=1)
     settled = max(np.flatnonzero(~(away < 0.5)).tolist(), default=-1) + 1
-    kept = flown.completed and kept
     return GustFlight(flown, pitch, height, changes, kept, settled if settled < len(tops) else None)
 
 
@@ -137,17 +129,16 @@ def fly_pushes(
         faults.choice("directions", name, tuple(DIRECTIONS))
     for size in sizes:
         faults.number("sizes", size, above=0, unit="m/s")
-    if orbit.status is not Status.CONVERGED:
-        faults.add("orbit", orbit.status.value, "is not certified", "solve it again with more starts")
+    check_certified(faults, orbit, "solve it again with more starts")
     faults.raise_if_any()
     held: list[Feedback | None] = [None] if delay is None else [None, feedback(orbit, delay=delay)]
     asked = list(itertools.product(directions, sizes, held))
-    flown = []
+    pushes = []
     for done, (name, size, one) in enumerate(asked):
         if progress is not None:
             progress(done, len(asked))
-        flown.append(_push(orbit, name, size, one, beats, options))
-    return tuple(flown)
+        pushes.append(_push(orbit, name, size, one, beats, options))
+    return tuple(pushes)
 
 
 def _push(
@@ -160,23 +151,12 @@ def _push(
     height = flown.flight.states[:, 1] - path
     kept = np.cumprod(options.keeps(np.abs(flown.pitch), height)).astype(bool)
     shown = slice(0, max(int(kept.sum()), 2 * _EVERY), _EVERY)
-    return Push(
-        direction,
-        size,
-        held is not None,
-        _outcome(flown, int(kept.sum())),
-        flown.flight.dataset.isel(phase=shown),
-        flown.pitch[shown],
-        height[shown],
-    )
-
-
-def _outcome(flown: GustFlight, kept: int) -> str:
     if not flown.survived:
-        return f"lost after {max(kept - 1, 0) / SAMPLES:.1f} beats: it tumbles"
-    largest = f"body pitch within {np.degrees(np.abs(flown.pitch).max()):.0f} deg of the orbit's"
-    beats = f"{flown.settled} beat{'' if flown.settled == 1 else 's'}"
-    ending = "not settled at the end" if flown.settled is None else f"settled after {beats}"
-    if flown.settled == 0:
-        ending = "hardly disturbed"
-    return f"{ending}, {largest}"
+        outcome = f"lost after {max(int(kept.sum()) - 1, 0) / SAMPLES:.1f} beats: it tumbles"
+    else:
+        ending = "not settled at the end"
+        if flown.settled is not None:
+            ending = f"settled after {beats_of(flown.settled)}" if flown.settled else "hardly disturbed"
+        outcome = f"{ending}, body pitch within {np.degrees(np.abs(flown.pitch).max()):.0f} deg of the orbit's"
+    path_shown = flown.flight.dataset.isel(phase=shown)
+    return Push(direction, size, held is not None, outcome, path_shown, flown.pitch[shown], height[shown])

@@ -54,16 +54,10 @@ _BEND = {"downstroke_fraction", "twist_ratio"}
 
 
 class Compensation(NamedTuple):
-    """Harmonics that go with inputs.
-
-    Attributes
-    ----------
-    names : of the harmonics.
-    shares : change of each harmonic per unit of each input, shape (harmonics, inputs).
-    """
+    """Harmonics that go with inputs."""
 
     names: tuple[str, ...]
-    shares: np.ndarray
+    shares: np.ndarray  # change of each harmonic per unit of each input, shape (harmonics, inputs)
 
 
 def laws_at(wingbeat: Wingbeat, phase: Phases) -> Phases:
@@ -101,32 +95,24 @@ def law_jumps(wingbeat: Wingbeat, names: tuple[str, ...]) -> np.ndarray:
     return np.array(_jumps.bind(wingbeat, names=names)(values))
 
 
-def _is_moved(jumps: np.ndarray) -> np.ndarray:
-    """Return for each law and parameter whether the wing jumps, shape (laws, parameters)."""
-    return np.abs(jumps).max(axis=1) > _NOTHING
-
-
 def smooth_ones(wingbeat: Wingbeat, names: Sequence[str]) -> tuple[str, ...]:
     """Return the names of those parameters whose jumps harmonics can undo."""
     if not names:
         return ()
-    moved = _is_moved(law_jumps(wingbeat, tuple(names)))
-    lasting = moved[[law not in FIRST_ORDER for law in LAWS]]
-    return tuple(name for name, jumps in zip(names, lasting.T, strict=True) if not jumps.any())
+    lasting = law_jumps(wingbeat, tuple(names))[[law not in FIRST_ORDER for law in LAWS]]
+    return tuple(name for i, name in enumerate(names) if not np.abs(lasting[..., i]).max() > _NOTHING)
 
 
 def compensation(wingbeat: Wingbeat, inputs: Sequence[str]) -> Compensation:
     """Return the harmonics that keep the wing's position and velocity at phase 0 while inputs change.
 
     Inputs that move the hand or the stroke plane at phase 0 are refused, which no harmonic can undo, and so are
-    inputs that contain the harmonics of all orders.
-
-    Theory: equation ``compensation``.
+    inputs that contain the harmonics of all orders. Theory: equation ``compensation``.
     """
     if not inputs:
         return Compensation((), np.zeros((0, 0)))
     jumps = law_jumps(wingbeat, tuple(inputs))
-    moved = _is_moved(jumps)
+    moved = np.abs(jumps).max(axis=1) > _NOTHING  # by law and parameter
     faults = FaultList()
     names: list[str] = []
     for law, moved_by in zip(LAWS, moved, strict=True):
@@ -160,18 +146,11 @@ def _harmonics(faults: FaultList, law: str, inputs: Sequence[str]) -> list[str]:
 
 
 class Smoother(NamedTuple):
-    """What keeps the wing from jumping, as arrays.
+    """What keeps the wing from jumping, as arrays."""
 
-    Attributes
-    ----------
-    numbers : of the inputs, then of their harmonics, in the undisturbed wingbeat, shape (inputs + harmonics,).
-    top : all laws at phase 0, and their derivatives by the phase times the frequency, shape (laws, 2).
-    corrections : changes of the harmonics that undo a unit of each of these, by phase, shape (harmonics, laws, 2).
-    """
-
-    numbers: np.ndarray
-    top: np.ndarray
-    corrections: np.ndarray
+    numbers: np.ndarray  # of the inputs, then of their harmonics, in the undisturbed wingbeat
+    top: np.ndarray  # all laws at phase 0, and their derivatives by the phase times the frequency, shape (laws, 2)
+    corrections: np.ndarray  # changes of harmonics that undo a unit of each of these, (harmonics, laws, 2)
 
 
 def smoother(wingbeat: Wingbeat, inputs: tuple[str, ...], harmonics: Compensation) -> Smoother:

@@ -14,14 +14,12 @@ from wingbeat.animal.kinematics import Wingbeat, flap_angle
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.certificate import StrokeMap, stroke_map
 from wingbeat.orbits.flight.period import PITCH_STATE
-from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.plots.draw_stability import stability_page
 from wingbeat.results.flight import Flight, simulate
-from wingbeat.stability.checks import check_inputs
 from wingbeat.stability.inputs import Compensation, compensation, smooth_ones
 from wingbeat.stability.modes import Mode, averaged_jacobian, averaged_modes, modes_of
-from wingbeat.stability.options import LINEAR, LinearOptions
+from wingbeat.stability.options import LINEAR, LinearOptions, check_certified, check_inputs
 from wingbeat.stability.reports import linear_report
 
 if TYPE_CHECKING:
@@ -88,8 +86,7 @@ class LinearFlight(Reported):
 
     def record(self) -> dict[str, Any]:
         """Return all numbers as a JSON-able dictionary in SI units and radians; complex numbers become pairs."""
-        asked = self.orbit.inputs
-        shares = self.compensation.shares.T.tolist()
+        asked, harmonics = self.orbit.inputs, self.compensation
         return {
             "species": asked["species"]["name"],
             "speed": asked["speed"],
@@ -103,8 +100,8 @@ class LinearFlight(Reported):
             "B": self.B.tolist(),
             "G": self.G.tolist(),
             "compensation": {
-                name: dict(zip(self.compensation.names, row, strict=True))
-                for name, row in zip(self.inputs, shares, strict=True)
+                name: dict(zip(harmonics.names, row, strict=True))
+                for name, row in zip(self.inputs, harmonics.shares.T.tolist(), strict=True)
             },
             "spectral_radius": self.spectral_radius,
             "stable": self.orbit.record()["stable"],  # by the certified multipliers
@@ -138,10 +135,8 @@ class LinearFlight(Reported):
         faults.whole("index", index, 0, len(self.modes) - 1)
         faults.number("size", size)
         faults.raise_if_any()
-        disturbance = size * np.real(self.modes[index].disturbance)
-        start = np.array(self.orbit.initial_state)
-        start[2:] += disturbance
-        problem = self.orbit.problem
+        start, problem = np.array(self.orbit.initial_state), self.orbit.problem
+        start[2:] += size * np.real(self.modes[index].disturbance)
         return simulate(problem.model, self.orbit.wingbeat, State(*start.tolist()), beats, species=problem.species)
 
     def to_control(self) -> control.StateSpace:
@@ -158,16 +153,9 @@ class LinearFlight(Reported):
         except ImportError:
             raise ImportError(install_extra("control")) from None
         order, inputs = len(self.state), [*self.inputs, *GUSTS]
-        return control.StateSpace(
-            self.A,
-            np.hstack([self.B, self.G]),
-            np.eye(order),
-            np.zeros((order, len(inputs))),
-            self.dt,
-            states=list(self.state),
-            inputs=inputs,
-            outputs=list(self.state),
-        )
+        matrices = self.A, np.hstack([self.B, self.G]), np.eye(order), np.zeros((order, len(inputs)))
+        state = list(self.state)
+        return control.StateSpace(*matrices, self.dt, states=state, inputs=inputs, outputs=state)
 
 
 def linearise(
@@ -180,7 +168,7 @@ def linearise(
 ) -> LinearFlight:
     """Linearise a certified orbit from one beat to the next.
 
-    Theory: equation ``beat-map``.
+    Theory: equations ``beat-map`` and ``gust-map``.
 
     Parameters
     ----------
@@ -208,8 +196,7 @@ def linearise(
     (['divergence', 'oscillation', 'subsidence'], 0.245)
     """
     faults = FaultList()
-    if orbit.status is not Status.CONVERGED:
-        faults.add("orbit", orbit.status.value, "is not certified", "linearise a certified orbit")
+    check_certified(faults, orbit, "linearise a certified orbit")
     problem, beat = orbit.problem, orbit.wingbeat
     if inputs is not None:
         check_inputs(faults, inputs, problem.vehicle)
@@ -226,11 +213,20 @@ def linearise(
         faults.add("orbit", miss, "does not close when this version flies it", "solve the orbit again")
     faults.raise_if_any()
     averaged = averaged_jacobian(problem.model, beat, flown.path)
+    by_inputs = flown.by_parameters[:, : len(names)]
+    if harmonics.names:
+        by_inputs = by_inputs + flown.by_parameters[:, len(names) :] @ harmonics.shares
+    # At the start, the velocity of the air is subtracted from that of the body. At the end, it is added again.
+    by_gust = (np.eye(5) - flown.by_state)[:, 2:4]
+    by_gust[0, 1] += 1.0 / beat.frequency  # the air lifts the body
+    rows = slice(0 if height else 1, None)
     return LinearFlight(
         orbit,
-        ("z", *PITCH_STATE) if height else PITCH_STATE,
+        ("z", *PITCH_STATE)[rows],
         names,
-        *_matrices(flown, harmonics, len(names), 1.0 / beat.frequency, height),
+        flown.by_state[rows, rows],
+        by_inputs[rows],
+        by_gust[rows],
         1.0 / beat.frequency,
         tuple(modes_of(flown.by_state[1:, 1:], beat.frequency, flown.transition, scales)),
         tuple(averaged_modes(averaged, beat.frequency, len(flown.transition), scales)),
@@ -254,24 +250,6 @@ def _accurate_map(
         if not away > options.agreement or blocks >= options.most_blocks:
             return flown
         blocks *= 4
-
-
-def _matrices(
-    flown: StrokeMap, harmonics: Compensation, count: int, dt: float, height: bool
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return A, B of `count` inputs, and G, with or without the height.
-
-    Theory: equation ``gust-map``.
-    """
-    by_inputs = flown.by_parameters[:, :count]
-    if harmonics.names:
-        by_inputs = by_inputs + flown.by_parameters[:, count:] @ harmonics.shares
-    # At the start, the velocity of the air is subtracted from that of the body. At the end of the beat, it is added
-    # again.
-    by_gust = (np.eye(5) - flown.by_state)[:, 2:4]
-    by_gust[0, 1] += dt  # the air lifts the body
-    rows = slice(0 if height else 1, None)
-    return flown.by_state[rows, rows], by_inputs[rows], by_gust[rows]
 
 
 def _scales(problem: OrbitProblem, wingbeat: Wingbeat) -> np.ndarray:

@@ -17,7 +17,7 @@ from scipy.sparse.linalg import splu
 from wingbeat.animal.kinematics import Wingbeat, parameter
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import fly_through
-from wingbeat.orbits.flight.period import flier
+from wingbeat.orbits.flight.period import PITCH_STATE, flier
 from wingbeat.orbits.options import Status
 from wingbeat.results.orbit import solve_orbit
 from wingbeat.stability.inputs import changed_wingbeat, parameters_and_slopes, smoother
@@ -33,39 +33,22 @@ _WEIGHT = 1e-6
 
 
 class FlownBeat(NamedTuple):
-    """One beat.
+    """One beat."""
 
-    Attributes
-    ----------
-    end : (height, body_pitch, u, w, pitch_rate) after the beat, shape (5,).
-    advance : distance flown forward [m].
-    A : derivative of `end` by the state before the beat, shape (5, 5).
-    B : derivative of `end` by the changes of the inputs, shape (5, inputs).
-    advance_slope : derivative of `advance` by the state and the inputs, shape (5 + inputs,).
-    frequency : of the beat [Hz].
-    frequency_slope : derivative of the frequency by the inputs, shape (inputs,).
-    """
-
-    end: np.ndarray
-    advance: float
-    A: np.ndarray
-    B: np.ndarray
-    advance_slope: np.ndarray
-    frequency: float
-    frequency_slope: np.ndarray
+    end: np.ndarray  # state after the beat, shape (5,)
+    advance: float  # distance flown forward [m]
+    A: np.ndarray  # derivative of `end` by the state before the beat, shape (5, 5)
+    B: np.ndarray  # derivative of `end` by the changes of the inputs, shape (5, inputs)
+    advance_slope: np.ndarray  # derivative of `advance` by the state and the inputs, shape (5 + inputs,)
+    frequency: float  # [Hz]
+    frequency_slope: np.ndarray  # derivative of the frequency by the inputs, shape (inputs,)
 
 
 class BeatMap:
     """Beats whose inputs differ from those of an orbit, and whose wing never jumps at the top of the stroke.
 
     All beats share position and velocity of the wing at the top of the stroke with the orbit: harmonics go with the
-    inputs. A beat is flown in `blocks` times 32 steps.
-
-    Attributes
-    ----------
-    orbit : a certified orbit.
-    inputs : names of the parameters that change; by default those of `linearise`.
-    climb : mean climb rate of the path from which heights are measured [m/s].
+    inputs. A beat is flown in `blocks` times 32 steps. Heights are those above a path that climbs by `climb` [m/s].
     """
 
     def __init__(self, orbit: Orbit, inputs: Sequence[str] | None, blocks: int) -> None:
@@ -90,7 +73,7 @@ class BeatMap:
         beat, changes = self.orbit.wingbeat, np.asarray(changes, float)
         found = parameters_and_slopes(beat, self._smooth, changes, inputs=self.inputs, harmonics=self._harmonics)
         values, slopes = (np.asarray(part) for part in found)
-        frequency, by_frequency = float(self.orbit.wingbeat.frequency), np.zeros(len(self.inputs))
+        frequency, by_frequency = float(beat.frequency), np.zeros(len(self.inputs))
         if "frequency" in self.inputs:
             index = self.inputs.index("frequency")
             frequency, by_frequency = float(values[index]), slopes[index]
@@ -117,39 +100,27 @@ class BeatMap:
 def scales_of(beat: BeatMap, options: ManoeuvreOptions) -> tuple[np.ndarray, np.ndarray]:
     """Return the scales of the state and the units of the inputs."""
     feedback = options.feedback
-    scales = [feedback.scale(name) for name in ("z", "body_pitch", "u", "w", "pitch_rate")]
-    return np.array(scales), np.array([feedback.unit(name) for name in beat.inputs])
+    scales = np.array([feedback.scale(name) for name in ("z", *PITCH_STATE)])
+    return scales, np.array([feedback.unit(name) for name in beat.inputs])
 
 
 class SteadyFlight(NamedTuple):
     """A periodic flight.
 
-    Attributes
-    ----------
-    speed : mean forward speed [m/s].
-    state : (height, body_pitch, u, w, pitch_rate) at the top of the stroke, height 0, shape (5,).
-    changes : of the inputs from the first orbit, shape (inputs,).
-    frequency : [Hz].
-    defect : by how much the flight misses its start and its speed when the adaptive integrator flies it, in scales
-        of the state [-].
-    converged : whether the search for it ended at such a flight.
+    The defect is by how much it misses its start and its speed when the adaptive integrator flies it, in scales of
+    the state [-].
     """
 
-    speed: float
-    state: np.ndarray
-    changes: np.ndarray
-    frequency: float
+    speed: float  # mean, forward [m/s]
+    state: np.ndarray  # at the top of the stroke, height 0, shape (5,)
+    changes: np.ndarray  # of the inputs from the first orbit, shape (inputs,)
+    frequency: float  # [Hz]
     defect: float
-    converged: bool
+    converged: bool  # whether the search for it ended at such a flight
 
 
 def steady_flight(
-    beat: BeatMap,
-    speed: float,
-    wanted: np.ndarray,
-    guess: SteadyFlight,
-    options: ManoeuvreOptions,
-    exact: bool = True,
+    beat: BeatMap, speed: float, wanted: np.ndarray, guess: SteadyFlight, options: ManoeuvreOptions, exact: bool
 ) -> SteadyFlight:
     """Return the steady flight at a speed whose inputs are nearest to the wanted ones.
 
@@ -166,17 +137,19 @@ def steady_flight(
         for _ in range(options.iterations):
             flown = beat(state, changes)
             frequency = flown.frequency
-            residual = np.append(
-                flown.end + miss_of_end - state, (flown.advance + miss_of_advance) * flown.frequency - speed
-            )
-            by_state = np.vstack([flown.A - np.eye(ORDER), flown.advance_slope[:ORDER] * flown.frequency])[:, 1:]
-            by_input = np.vstack(
-                [flown.B, flown.advance_slope[ORDER:] * flown.frequency + flown.advance * flown.frequency_slope]
-            )
+            miss_of_speed = (flown.advance + miss_of_advance) * frequency - speed
+            residual = np.append(flown.end + miss_of_end - state, miss_of_speed)
+            by_state = np.vstack([flown.A - np.eye(ORDER), flown.advance_slope[:ORDER] * frequency])[:, 1:]
+            speed_slope = flown.advance_slope[ORDER:] * frequency + flown.advance * flown.frequency_slope
+            by_input = np.vstack([flown.B, speed_slope])
             jacobian = np.hstack([by_state * scales[1:], by_input * units])
             weight = np.concatenate([np.full(ORDER - 1, _WEIGHT), np.ones(len(units))])
             pull = np.concatenate([np.zeros(ORDER - 1), (changes - wanted) / units])
-            step = _nearest(jacobian, residual, weight, pull)
+            # The step that closes the linearised residual with the least weighted squares of `pull + step`.
+            rows, columns = jacobian.shape
+            whole = np.block([[np.diag(weight), jacobian.T], [jacobian, np.zeros((rows, rows))]])
+            right = np.concatenate([-weight * pull, -residual])
+            step = np.linalg.lstsq(whole, right, rcond=None)[0][:columns]
             step *= min(1.0, options.largest_step / max(np.abs(step).max(), 1e-300))
             state[1:] += step[: ORDER - 1] * scales[1:]
             changes += step[ORDER - 1 :] * units
@@ -189,56 +162,30 @@ def steady_flight(
             break
         coarse, (end, advance) = beat(state, changes), beat.exactly(state, changes)
         miss_of_end, miss_of_advance = end - coarse.end, advance - coarse.advance
-    if not exact:
-        return SteadyFlight(speed, state, changes, frequency, np.inf, converged)
-    defect = defect_of(beat, speed, state, changes, frequency, options)
-    return SteadyFlight(speed, state, changes, frequency, defect, converged)
+    flight = SteadyFlight(speed, state, changes, frequency, np.inf, converged)
+    return _with_defect(beat, flight, options) if exact else flight
 
 
-def defect_of(
-    beat: BeatMap,
-    speed: float,
-    state: np.ndarray,
-    changes: np.ndarray,
-    frequency: float,
-    options: ManoeuvreOptions,
-) -> float:
-    """Return by how much a flight of the adaptive integrator misses its start and its speed, in scales."""
+def _with_defect(beat: BeatMap, flight: SteadyFlight, options: ManoeuvreOptions) -> SteadyFlight:
     scales = scales_of(beat, options)[0]
-    end, advance = beat.exactly(state, changes)
-    return float(max(np.abs((end - state) / scales).max(), abs(advance * frequency - speed) / scales[2]))
-
-
-def _nearest(jacobian: np.ndarray, residual: np.ndarray, weight: np.ndarray, pull: np.ndarray) -> np.ndarray:
-    """Return the step that closes the linearised residual with the least weighted squares of ``pull + step``."""
-    rows, columns = jacobian.shape
-    whole = np.zeros((rows + columns, rows + columns))
-    whole[:columns, :columns] = np.diag(weight)
-    whole[:columns, columns:], whole[columns:, :columns] = jacobian.T, jacobian
-    return np.linalg.lstsq(whole, np.concatenate([-weight * pull, -residual]), rcond=None)[0][:columns]
+    end, advance = beat.exactly(flight.state, flight.changes)
+    miss_of_speed = abs(advance * flight.frequency - flight.speed) / scales[2]
+    return flight._replace(defect=float(max(np.abs((end - flight.state) / scales).max(), miss_of_speed)))
 
 
 class Road(NamedTuple):
-    """Steady flights from one speed to another, and why there are no more, if so.
+    """Steady flights from one speed to another, and why there are no more, if so."""
 
-    Attributes
-    ----------
-    flights : the steady flights, from the first speed as far as they were found.
-    free_frequency : of the best orbit at the last speed [Hz].
-    failure : why the speed was not reached; None if it was.
-    """
-
-    flights: list[SteadyFlight]
-    free_frequency: float
-    failure: str | None
+    flights: list[SteadyFlight]  # from the first speed as far as they were found
+    free_frequency: float  # of the best orbit at the last speed [Hz]
+    failure: str | None  # why the speed was not reached; None if it was
 
 
 def steady_start(beat_map: BeatMap, options: ManoeuvreOptions) -> SteadyFlight:
     """Return the first orbit as a steady flight."""
     orbit, still = beat_map.orbit, np.zeros(len(beat_map.inputs))
     speed, frequency = float(orbit.inputs["speed"]), float(orbit.wingbeat.frequency)
-    defect = defect_of(beat_map, speed, beat_map.start, still, frequency, options)
-    return SteadyFlight(speed, beat_map.start, still, frequency, defect, True)
+    return _with_defect(beat_map, SteadyFlight(speed, beat_map.start, still, frequency, np.inf, True), options)
 
 
 def road_back(passed: list[SteadyFlight], speed: float, beat_map: BeatMap) -> Road | None:
@@ -259,15 +206,15 @@ def road_to(beat_map: BeatMap, here: SteadyFlight, speed: float, options: Manoeu
     first, last = ([float(parameter(one.wingbeat, name)) for name in beat_map.inputs] for one in (orbit, best))
     wanted = np.array(last) - np.array(first)
     count = max(math.ceil(abs(speed - here.speed) / options.speed_step), 1)
-    flights = [here]
+    flights, free, failure = [here], float(best.wingbeat.frequency), None
     for share in np.linspace(0.0, 1.0, count + 1)[1:]:
         between = speed if share == 1.0 else float(here.speed + share * (speed - here.speed))
         toward = here.changes + share * (wanted - here.changes)
         flights.append(steady_flight(beat_map, between, toward, flights[-1], options, exact=share == 1.0))
         if not flights[-1].converged:
             failure = f"no steady flight with this top of the stroke was found at {between:.3g} m/s"
-            return Road(flights, float(best.wingbeat.frequency), failure)
-    return Road(flights, float(best.wingbeat.frequency), None)
+            break
+    return Road(flights, free, failure)
 
 
 def schedule(flights: list[SteadyFlight], count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -284,24 +231,14 @@ def schedule(flights: list[SteadyFlight], count: int) -> tuple[np.ndarray, np.nd
 
 
 class Transition(NamedTuple):
-    """A chain of beats in which each begins where the last one ends.
+    """A chain of beats in which each begins where the last one ends."""
 
-    Attributes
-    ----------
-    states : (height, body_pitch, u, w, pitch_rate) at the tops of the stroke, shape (K + 1, 5).
-    changes : of the inputs in each beat, shape (K, inputs).
-    advances : distance flown in each beat [m], shape (K,).
-    A, B : derivatives of each beat, shapes (K, 5, 5) and (K, 5, inputs).
-    defect : by how much the adaptive integrator's beats miss their ends at the most, in scales of the state [-].
-    converged : whether the search ended.
-    """
-
-    states: np.ndarray
-    changes: np.ndarray
-    advances: np.ndarray
-    A: np.ndarray
-    B: np.ndarray
-    defect: float
+    states: np.ndarray  # at the tops of the stroke, shape (K + 1, 5)
+    changes: np.ndarray  # of the inputs in each beat, shape (K, inputs)
+    advances: np.ndarray  # distance flown in each beat [m], shape (K,)
+    A: np.ndarray  # derivatives of each beat by the state, shape (K, 5, 5)
+    B: np.ndarray  # and by the inputs, shape (K, 5, inputs)
+    defect: float  # by how much the adaptive integrator's beats miss their ends at the most, in scales [-]
     converged: bool
 
 
@@ -317,20 +254,23 @@ def transition(beat: BeatMap, states: np.ndarray, changes: np.ndarray, options: 
     Theory: equation ``transition``.
     """
     scales, units = scales_of(beat, options)
-    count = len(changes)
-    planned_states, planned = states.copy(), changes.copy()
+    count, inner = len(changes), ORDER * (len(changes) - 1)
+    planned_states, planned = states, changes
     states, changes = states.copy(), changes.copy()
     misses = np.zeros((count, ORDER))
-    weights = _Weights.of(count, len(units), options.smoothness)
+    change = np.eye(count) - np.eye(count, k=-1)
+    costs = np.eye(count) + options.smoothness * (change.T @ change)
+    hessian = np.eye(inner + count * len(units))  # of all inner states, then of all commands
+    hessian[inner:, inner:] = np.kron(costs, np.eye(len(units)))
     converged, defect = False, np.inf
     for round_ in range(options.corrections + 1):
         for iteration in range(options.iterations):
-            flown = [beat(x, c) for x, c in zip(states[:-1], changes, strict=True)]
+            flown = list(map(beat, states[:-1], changes))
             gaps = np.array([one.end for one in flown]) + misses - states[1:]
             away = (states - planned_states) / scales, (changes - planned) / units
             # Once the coarse beats are closed, only what the adaptive integrator misses is left to close.
             careful = options.iterations if round_ else max(iteration - options.free_steps, 0)
-            step_x, step_c = weights.step(flown, gaps, away, scales, units, options.caution**careful - 1.0)
+            step_x, step_c = _step(hessian, flown, gaps, away, scales, units, options.caution**careful - 1.0)
             largest = max(np.abs(step_c).max(), np.abs(step_x).max())
             share = min(1.0, options.largest_step / max(largest, 1e-300))
             states += share * step_x * scales
@@ -342,68 +282,50 @@ def transition(beat: BeatMap, states: np.ndarray, changes: np.ndarray, options: 
                 break
         else:
             converged = False
-        exact = [beat.exactly(x, c)[0] for x, c in zip(states[:-1], changes, strict=True)]
-        defect = float(np.abs((np.array(exact) - states[1:]) / scales).max())
+        exact = np.array([end for end, _ in map(beat.exactly, states[:-1], changes)])
+        defect = float(np.abs((exact - states[1:]) / scales).max())
         if not converged or defect <= 0.1 * options.defect or round_ == options.corrections:
             break
-        coarse = np.array([beat(x, c).end for x, c in zip(states[:-1], changes, strict=True)])
-        misses = np.array(exact) - coarse
+        misses = exact - np.array([one.end for one in map(beat, states[:-1], changes)])
     return _ended(beat, states, changes, defect, converged)
 
 
 def _ended(beat: BeatMap, states: np.ndarray, changes: np.ndarray, defect: float, converged: bool) -> Transition:
-    flown = [beat(x, c) for x, c in zip(states[:-1], changes, strict=True)]
-    A, B = np.array([one.A for one in flown]), np.array([one.B for one in flown])
-    advances = np.array([one.advance for one in flown])
+    flown = list(map(beat, states[:-1], changes))
+    advances, A, B = (np.array([getattr(one, name) for one in flown]) for name in ("advance", "A", "B"))
     return Transition(states, changes, advances, A, B, defect, converged)
 
 
-class _Weights(NamedTuple):
-    """The quadratic cost of the deviations of all inner states and all commands, in scales and units."""
+def _step(
+    hessian: np.ndarray,
+    flown: list[FlownBeat],
+    gaps: np.ndarray,
+    away: tuple[np.ndarray, np.ndarray],
+    scales: np.ndarray,
+    units: np.ndarray,
+    caution: float,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return the step of all states (the ends stay) and commands that closes the gaps, in scales and units.
 
-    beats: int
-    inputs: int
-    hessian: np.ndarray
-
-    @classmethod
-    def of(cls, beats: int, inputs: int, smoothness: float) -> _Weights:
-        """Return the cost of a chain of beats."""
-        inner = ORDER * (beats - 1)
-        change = np.eye(beats) - np.eye(beats, k=-1)
-        costs = np.eye(beats) + smoothness * (change.T @ change)
-        hessian = np.eye(inner + inputs * beats)
-        hessian[inner:, inner:] = np.kron(costs, np.eye(inputs))
-        return cls(beats, inputs, hessian)
-
-    def step(
-        self,
-        flown: list[FlownBeat],
-        gaps: np.ndarray,
-        away: tuple[np.ndarray, np.ndarray],
-        scales: np.ndarray,
-        units: np.ndarray,
-        caution: float,
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Return the step of all states (the ends stay) and commands that closes the linearised gaps.
-
-        With `caution`, the step itself costs so many times what the deviation after it costs.
-        """
-        inner, size = ORDER * (self.beats - 1), len(self.hessian)
-        rows = np.zeros((ORDER * self.beats, size))
-        for k, one in enumerate(flown):
-            here = slice(ORDER * k, ORDER * (k + 1))
-            if k > 0:
-                rows[here, ORDER * (k - 1) : ORDER * k] = one.A * scales / scales[:, None]
-            if k < self.beats - 1:
-                rows[here, ORDER * k : ORDER * (k + 1)] = -np.eye(ORDER)
-            rows[here, inner + self.inputs * k : inner + self.inputs * (k + 1)] = one.B * units / scales[:, None]
-        deviation = np.concatenate([away[0][1:-1].ravel(), away[1].ravel()])
-        whole = np.block([[(1.0 + caution) * self.hessian, rows.T], [rows, np.zeros((len(rows), len(rows)))]])
-        right = np.concatenate([-self.hessian @ deviation, -(gaps / scales).ravel()])
-        try:
-            found = splu(csc_matrix(whole)).solve(right)[:size]
-        except RuntimeError:  # singular: the search ends, because NaN is no state
-            found = np.full(size, np.nan)
-        states = np.zeros((self.beats + 1, ORDER))
-        states[1:-1] = found[:inner].reshape(-1, ORDER)
-        return states, found[inner:].reshape(self.beats, self.inputs)
+    With `caution`, the step itself costs so many times what the deviation after it costs.
+    """
+    beats, inputs, size = len(flown), len(units), len(hessian)
+    inner = ORDER * (beats - 1)
+    rows = np.zeros((ORDER * beats, size))
+    for k, one in enumerate(flown):
+        here = slice(ORDER * k, ORDER * (k + 1))
+        if k > 0:
+            rows[here, ORDER * (k - 1) : ORDER * k] = one.A * scales / scales[:, None]
+        if k < beats - 1:
+            rows[here, ORDER * k : ORDER * (k + 1)] = -np.eye(ORDER)
+        rows[here, inner + inputs * k : inner + inputs * (k + 1)] = one.B * units / scales[:, None]
+    deviation = np.concatenate([away[0][1:-1].ravel(), away[1].ravel()])
+    whole = np.block([[(1.0 + caution) * hessian, rows.T], [rows, np.zeros((len(rows), len(rows)))]])
+    right = np.concatenate([-hessian @ deviation, -(gaps / scales).ravel()])
+    try:
+        found = splu(csc_matrix(whole)).solve(right)[:size]
+    except RuntimeError:  # singular: the search ends, because NaN is no state
+        found = np.full(size, np.nan)
+    states = np.zeros((beats + 1, ORDER))
+    states[1:-1] = found[:inner].reshape(-1, ORDER)
+    return states, found[inner:].reshape(beats, inputs)

@@ -18,7 +18,6 @@ from wingbeat.orbits.problem.problem import SPEED_LIMITS
 from wingbeat.plots.draw_stability import manoeuvre_page
 from wingbeat.records.tables import finite_or_none
 from wingbeat.results.flight import Flight, simulate
-from wingbeat.stability.checks import ALLOWED, check_delay
 from wingbeat.stability.inputs import top_of
 from wingbeat.stability.manoeuvre_search import (
     BeatMap,
@@ -32,7 +31,7 @@ from wingbeat.stability.manoeuvre_search import (
     steady_start,
     transition,
 )
-from wingbeat.stability.options import MANOEUVRE, ManoeuvreOptions
+from wingbeat.stability.options import ALLOWED, MANOEUVRE, ManoeuvreOptions, check_certified, check_delay
 from wingbeat.stability.reports import manoeuvre_report
 from wingbeat.stability.riccati import gains_along
 
@@ -289,14 +288,12 @@ def manoeuvre(
     """
     faults = FaultList()
     check_manoeuvre(faults, speeds, beats, delay)
-    if orbit.status is not Status.CONVERGED:
-        faults.add("orbit", orbit.status.value, "is not certified", "solve it again with more starts")
+    check_certified(faults, orbit, "solve it again with more starts")
     faults.raise_if_any()
     beat_map = BeatMap(orbit, inputs, options.blocks)
     here = steady_start(beat_map, options)
-    ends, free, legs, chains = [], [], [], []
+    ends, free, legs, chains, passed = [], [], [], [], [here]
     failure: str | None = None
-    passed: list[SteadyFlight] = [here]
     for speed in map(float, speeds):
         road = road_back(passed, speed, beat_map) or road_to(beat_map, here, speed, options)
         passed += road.flights[1:]
@@ -314,7 +311,28 @@ def manoeuvre(
             failure = f"no commands were found that lead to {speed:g} m/s in {count} beats: give more beats"
             break
         here = ends[-1]
-    return _joined(beat_map, tuple(ends), tuple(free), tuple(legs), chains, failure, delay, options)
+    scales, units = scales_of(beat_map, options)
+    states = np.concatenate([beat_map.start[None], *(chain.states[1:] for chain in chains)])
+    changes = np.concatenate([np.zeros((0, len(units))), *(chain.changes for chain in chains)])
+    advances = np.concatenate([np.zeros(0), *(chain.advances for chain in chains)])
+    lower, upper = _limits(beat_map, ends, units, options)
+    defect = max([part.defect for part in (*chains, *ends)], default=math.inf)
+    if failure is None:
+        failure = _excess(beat_map.inputs, changes, lower, upper)
+    if failure is None and defect > options.defect:
+        failure = f"a beat misses the next by {defect:.1g} of the scales of the state: give more beats"
+    jump = _largest_jump(beat_map, np.concatenate([changes, *(end.changes[None] for end in ends)]))
+    if failure is None and not jump <= options.jump:
+        failure = f"the wing jumps by {jump:.1g} rad or rad/s between two beats: leave out an input"
+    gains = np.zeros((len(states), len(units), len(scales) + delay * len(units)))
+    if failure is None:
+        held = beat_map(ends[-1].state, ends[-1].changes)
+        A, B = (np.concatenate([getattr(chain, name) for chain in chains]) for name in "AB")
+        gains = gains_along((*A, held.A), (*B, held.B), np.diag(scales**-2), np.diag(units**-2), delay)
+    status = Status.CONVERGED if failure is None else Status.NOT_CONVERGED
+    message = failure or f"certified: {len(changes)} beats, each ends where the next begins, to {defect:.0e}"
+    way = tuple(ends), tuple(free), tuple(legs), delay, states, changes, advances
+    return Manoeuvre(beat_map, *way, gains, lower, upper, defect, status, message)
 
 
 def check_manoeuvre(faults: FaultList, speeds: Any, beats: int | None, delay: int) -> None:
@@ -334,7 +352,7 @@ def _leg(
 ) -> Transition:
     """Return the beats along a road; if their number is not given, twice as many as long as they do not suffice."""
     units = scales_of(beat_map, options)[1]
-    lower, upper = _limits(beat_map, tuple(ends), units, options)
+    lower, upper = _limits(beat_map, ends, units, options)
     first, last = road.flights[0], road.flights[-1]
     seconds = abs(last.speed - first.speed) / options.acceleration
     count = min(max(math.ceil(seconds * 0.5 * (first.frequency + last.frequency)), 5), _MOST_BEATS)
@@ -348,45 +366,8 @@ def _leg(
     return transition(beat_map, *schedule(road.flights, count), options)
 
 
-def _joined(
-    beat_map: BeatMap,
-    ends: tuple[SteadyFlight, ...],
-    free: tuple[float, ...],
-    legs: tuple[int, ...],
-    chains: list[Transition],
-    failure: str | None,
-    delay: int,
-    options: ManoeuvreOptions,
-) -> Manoeuvre:
-    scales, units = scales_of(beat_map, options)
-    first = beat_map.start[None]
-    states = np.concatenate([first, *(chain.states[1:] for chain in chains)])
-    changes = np.concatenate([np.zeros((0, len(units))), *(chain.changes for chain in chains)])
-    lower, upper = _limits(beat_map, ends, units, options)
-    defect = max([*(chain.defect for chain in chains), *(end.defect for end in ends)], default=math.inf)
-    if failure is None:
-        failure = _excess(beat_map.inputs, changes, lower, upper)
-    if failure is None and defect > options.defect:
-        failure = f"a beat misses the next by {defect:.1g} of the scales of the state: give more beats"
-    jump = _largest_jump(beat_map, np.concatenate([changes, *(end.changes[None] for end in ends)]))
-    if failure is None and not jump <= options.jump:
-        failure = f"the wing jumps by {jump:.1g} rad or rad/s between two beats: leave out an input"
-    gains = np.zeros((len(states), len(units), len(scales) + delay * len(units)))
-    if failure is None:
-        held = beat_map(ends[-1].state, ends[-1].changes)
-        A, B = (np.concatenate([getattr(chain, name) for chain in chains]) for name in "AB")
-        costs = np.diag(scales**-2), np.diag(units**-2)
-        gains = gains_along((*A, held.A), (*B, held.B), *costs, delay)
-    status = Status.CONVERGED if failure is None else Status.NOT_CONVERGED
-    message = failure or f"certified: {len(changes)} beats, each ends where the next begins, to {defect:.0e}"
-    advances = np.concatenate([np.zeros(0), *(chain.advances for chain in chains)])
-    return Manoeuvre(
-        beat_map, ends, free, legs, delay, states, changes, advances, gains, lower, upper, defect, status, message
-    )
-
-
 def _limits(
-    beat_map: BeatMap, ends: tuple[SteadyFlight, ...], units: np.ndarray, options: ManoeuvreOptions
+    beat_map: BeatMap, ends: list[SteadyFlight], units: np.ndarray, options: ManoeuvreOptions
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the limits of the changes: some units beyond the steady flights, and never beyond a wingbeat."""
     steady = np.array([np.zeros(len(units)), *(end.changes for end in ends)])

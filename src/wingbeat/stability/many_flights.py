@@ -1,4 +1,7 @@
-"""Many flights through moving air at once, with or without feedback: `simulate_many` and `survey_gusts`."""
+"""Many flights through moving air at once, with or without feedback: `simulate_many` and `survey_gusts`.
+
+One compiled program, `fly_held`, flies them with linear feedback over the segments of a beat, or once a beat.
+"""
 
 from __future__ import annotations
 
@@ -6,21 +9,22 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from wingbeat._base import FaultList, Report, Reported
+from wingbeat._jax.arrays import jax, jnp
+from wingbeat._jax.exported import exported
 from wingbeat.aero.winds import CosineGust, Wind
-from wingbeat.mechanics.flights import air_at, check_wind, fly_through
+from wingbeat.animal.kinematics import Wingbeat, unpack
+from wingbeat.mechanics.flight_model import FlightModel
+from wingbeat.mechanics.flights import air_at, check_wind, fly_beat_in_steps, fly_through
 from wingbeat.orbits.flight.period import PITCH_STATE
-from wingbeat.orbits.options import Status
 from wingbeat.plots.draw_stability import survey_page
 from wingbeat.stability.beat_feedback import Feedback, feedback
-from wingbeat.stability.checks import check_late, noise_of
-from wingbeat.stability.held_flights import Hold, fly_held
-from wingbeat.stability.inputs import Compensation, smoother
-from wingbeat.stability.options import MANY, ManyOptions
+from wingbeat.stability.inputs import Compensation, Smoother, parameters_of, smoother
+from wingbeat.stability.options import MANY, MOST_DELAY, ManyOptions, check_certified, noise_of
 from wingbeat.stability.reports import survey_report
 from wingbeat.stability.segment_feedback import SegmentFeedback, bump_parameters
 
@@ -28,7 +32,90 @@ if TYPE_CHECKING:
     import pandas as pd
     from matplotlib.figure import Figure
 
+    from wingbeat._jax.arrays import (
+        AirOfFlights,
+        Flights,
+        FlownCommands,
+        FlownTimes,
+        FlownTops,
+        NoiseOfFlights,
+        Scalar,
+        StateVector,
+    )
     from wingbeat.results.orbit import Orbit
+
+
+class Hold(NamedTuple):
+    """Linear feedback as arrays; feedback from beat to beat has one segment."""
+
+    gains: np.ndarray  # of each segment, shape (segments, commands, 5 + delay * commands)
+    lower: np.ndarray  # largest commands, shape (commands,)
+    upper: np.ndarray
+    shares: np.ndarray  # changes of the inputs per unit of each command, shape (inputs, commands)
+    smoother: Smoother  # makes the parameters of a wingbeat from changes of the inputs
+    phases: np.ndarray  # ends of the segments, shape (segments + 1,)
+    path: np.ndarray  # (z, body_pitch, u, w, pitch_rate) at their starts, z from that at phase 0, (segments, 5)
+    pitch: np.ndarray  # body pitch of the orbit at the ends of all steps [rad], shape (segments, steps + 1)
+
+
+@exported(static=("inputs", "harmonics", "delay", "late"))
+def fly_held(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    hold: Hold,
+    start: StateVector,
+    climb: Scalar,
+    air: AirOfFlights,
+    spacing: Scalar,
+    noise: NoiseOfFlights,
+    *,
+    inputs: tuple[str, ...],
+    harmonics: tuple[str, ...],
+    delay: int,
+    late: int,
+) -> tuple[FlownTops, FlownTimes, FlownCommands, Flights]:
+    """Fly many flights from the start of an orbit that climbs by `climb` [m/s], each through its own air.
+
+    Return states at the end of each beat, and its time; commands of each segment, as they act; and the largest
+    deviation of the body pitch from the orbit's. Commands act later by so many segments: `delay`, of which the
+    feedback knows, and `late`, of which it does not.
+    """
+    flights, count = air.shape[0], hold.lower.shape[0]
+
+    def segment(carry: Any, asked: Any) -> tuple[Any, Any]:
+        state, time, waiting, largest = carry
+        gains, first, last, path, pitch, error = asked
+        along = jnp.broadcast_to(path[:, None], (5, flights)).at[0].add(start[1] + climb * time)
+        known = jnp.concatenate([state[1:] - along + error, *waiting[late:]])
+        command = jnp.clip(-gains @ known, hold.lower[:, None], hold.upper[:, None])
+        command = jnp.where(jnp.isfinite(command), command, 0.0)  # the vehicle has tumbled
+        queue = jnp.concatenate([waiting, command[None]])
+        acting, waiting = queue[0], queue[1:]
+        changed = wingbeat
+        if inputs:
+            changes = hold.shares @ acting
+            numbers = parameters_of(wingbeat, hold.smoother, changes, inputs=inputs, harmonics=harmonics)
+            changed = unpack((*inputs, *harmonics), wingbeat, numbers)
+        ended, away = fly_beat_in_steps(model, changed, state, time, air, spacing, pitch, first, last)
+        period = jnp.broadcast_to(1.0 / changed.frequency, (flights,))
+        return (ended, time, waiting, jnp.maximum(largest, away)), (acting, period)
+
+    def beat(carry: Any, errors: Any) -> tuple[Any, Any]:
+        segments = hold.gains, hold.phases[:-1], hold.phases[1:], hold.path, hold.pitch, errors
+        if errors.shape[0] == 1:  # no loop within the loop
+            only = hold.gains[0], 0.0, 1.0, hold.path[0], hold.pitch[0], errors[0]
+            (state, time, waiting, largest), (acting, period) = segment(carry, only)
+            commands, periods = acting[None], period[None]
+        else:
+            (state, time, waiting, largest), (commands, periods) = jax.lax.scan(segment, carry, segments)
+        time = time + periods[-1]
+        return (state, time, waiting, largest), (state, time, commands)
+
+    zeros = jnp.zeros(flights)
+    begin = jnp.broadcast_to(start[:, None], (6, flights)), zeros, jnp.zeros((delay + late, count, flights)), zeros
+    (*_, largest), (states, times, commands) = jax.lax.scan(beat, begin, noise)
+    return states, times, commands, largest
+
 
 _STATE = ("z", *PITCH_STATE)
 # Shortest and longest gust, and the time in which it may begin [beats].
@@ -110,9 +197,8 @@ def simulate_many(
     """
     faults = FaultList()
     faults.whole("beats", beats, 1, 10_000)
-    check_late(faults, late)
-    if orbit.status is not Status.CONVERGED:
-        faults.add("orbit", orbit.status.value, "is not certified", "fly a certified orbit")
+    faults.whole("late", late, 0, MOST_DELAY)
+    check_certified(faults, orbit, "fly a certified orbit")
     if not isinstance(winds, Sequence) or not winds:
         faults.add("winds", winds, "must be a list of at least one wind", "for example [wb.winds.CosineGust(w=2)]")
     else:
@@ -148,10 +234,7 @@ def simulate_many(
 
 
 def _hold(orbit: Orbit, feedback: Feedback | SegmentFeedback | None, steps: int) -> tuple[Hold, dict[str, Any]]:
-    """Return a feedback as arrays, with its inputs, harmonics and delay; no feedback has no inputs.
-
-    Steps within a beat are no longer than those of a whole beat.
-    """
+    """Return a feedback as arrays, with its inputs, harmonics and delay; no feedback has no inputs."""
     start, ends, path = np.array(orbit.initial_state, dtype=float), np.array([0.0, 1.0]), np.zeros((1, 5))
     path[0, 1:] = start[2:]
     inputs: tuple[str, ...] = ()
@@ -164,15 +247,12 @@ def _hold(orbit: Orbit, feedback: Feedback | SegmentFeedback | None, steps: int)
     elif feedback is not None:
         gains, limits, delay = feedback.gains[None], (feedback.lower, feedback.upper), feedback.delay
         inputs, harmonics, shares = feedback.inputs, feedback.flight.compensation, np.eye(len(feedback.inputs))
-    count = math.ceil(steps * np.diff(ends).max() - 1e-6)
+    count = math.ceil(steps * np.diff(ends).max() - 1e-6)  # no step is longer than those of a whole beat
     phases = np.concatenate([np.linspace(*pair, count + 1)[:-1] for pair in itertools.pairwise(ends)] + [ends[-1:]])
     flown, _ = fly_through(orbit.problem.model, orbit.wingbeat, orbit.initial_state, phases)
     pitch = np.stack([flown[j * count : (j + 1) * count + 1, 2] for j in range(len(gains))])
-    smooth = smoother(orbit.wingbeat, inputs, harmonics)
-    return (
-        Hold(gains, *limits, shares, smooth, ends, path, pitch),
-        {"inputs": inputs, "harmonics": harmonics.names, "delay": delay},
-    )
+    hold = Hold(gains, *limits, shares, smoother(orbit.wingbeat, inputs, harmonics), ends, path, pitch)
+    return hold, {"inputs": inputs, "harmonics": harmonics.names, "delay": delay}
 
 
 def _tables(
@@ -283,10 +363,8 @@ def _shares(values: np.ndarray, survived: np.ndarray, edges: np.ndarray) -> tupl
 
 
 def _record(edges: np.ndarray, shares: np.ndarray) -> dict[str, list[float | None]]:
-    return {
-        "edges": edges.tolist(),
-        "shares": [share if math.isfinite(share) else None for share in shares.tolist()],
-    }
+    finite = [share if math.isfinite(share) else None for share in shares.tolist()]
+    return {"edges": edges.tolist(), "shares": finite}
 
 
 def survey_gusts(

@@ -88,9 +88,8 @@ def modes_of(monodromy: np.ndarray, frequency: float, transition: np.ndarray, sc
     Theory: equation ``mode-rates``.
     """
     multipliers, vectors = np.linalg.eig(monodromy)
-    order = np.lexsort((-np.imag(multipliers), -np.round(np.abs(multipliers), 12)))
     found = []
-    for i in order:
+    for i in np.lexsort((-np.imag(multipliers), -np.round(np.abs(multipliers), 12))):
         multiplier, vector = complex(multipliers[i]), vectors[:, i].astype(complex)
         if multiplier.imag < -_REAL * abs(multiplier):
             continue
@@ -149,9 +148,7 @@ def _rates_by_state(model: FlightModel, wingbeat: Wingbeat, phase: Samples, path
 def averaged_jacobian(model: FlightModel, wingbeat: Wingbeat, path: np.ndarray) -> np.ndarray:
     """Return the mean over the beat of the derivatives of the four rates (rows) by the four states, shape (4, 4).
 
-    `path` holds the states at equal phases from 0 to 1, shape (K, 4).
-
-    Theory: equation ``averaged-model``.
+    `path` holds the states at equal phases from 0 to 1, shape (K, 4). Theory: equation ``averaged-model``.
     """
     phase = np.linspace(0.0, 1.0, len(path))[:-1]
     return np.asarray(_rates_by_state.bind(model, wingbeat)(phase, path[:-1].T)).mean(axis=-1).T

@@ -25,17 +25,11 @@ _MOST = 10
 def linear_report(record: dict[str, Any]) -> Report:
     """Return the verdict, the numbers of each mode, and the verdict of the averaged model."""
     modes = [block for mode in record["modes"] for block in mode_report(mode)]
-    averaged, kinds = record["averaged"], (record["averaged"]["modes"][0]["kind"], record["modes"][0]["kind"])
-    last = (
-        f"averaged over the beat, spectral radius {averaged['spectral_radius']:.3f} ({kinds[0]}) in place of "
-        f"{record['spectral_radius']:.3f} ({kinds[1]})"
+    averaged, whole = (
+        f"{part['spectral_radius']:.3f} ({part['modes'][0]['kind']})" for part in (record["averaged"], record)
     )
+    last = f"averaged over the beat, spectral radius {averaged} in place of {whole}"
     return [Line(headline(record), wraps=False), *modes, Line(""), Line(last, wraps=False)]
-
-
-def mode_report(mode: dict[str, Any]) -> Report:
-    """Return the numbers of a mode under its kind."""
-    return [grouped({mode["kind"]: _rows(mode)})._replace(label_width=0)]
 
 
 def headline(record: dict[str, Any]) -> str:
@@ -48,8 +42,8 @@ def headline(record: dict[str, Any]) -> str:
     return f"{where}: unstable, disturbances double in {seconds:.3g} s ({seconds / record['dt']:.3g} beats)"
 
 
-def _rows(mode: dict[str, Any]) -> list[tuple[str, str]]:
-    """Return what is said of a mode."""
+def mode_report(mode: dict[str, Any]) -> Report:
+    """Return the numbers of a mode under its kind."""
     real, imaginary = mode["multiplier"]
     rows = [("multiplier", f"{real:.3f}" + (f" ± {imaginary:.3f}i" if mode["kind"] == "oscillation" else ""))]
     for label, name in (("doubles in", "time_to_double"), ("halves in", "time_to_half")):
@@ -62,50 +56,57 @@ def _rows(mode: dict[str, Any]) -> list[tuple[str, str]]:
         rows.append(("damping ratio", "-" if mode["damping"] is None else f"{mode['damping']:.2g}"))
     parts = sorted(mode["shares"].items(), key=lambda part: -part[1])
     rows.append(("what moves", ", ".join(f"{MOVING[name]} {share:.0%}" for name, share in parts)))
-    return rows
+    return [grouped({mode["kind"]: rows})._replace(label_width=0)]
 
 
 def causes_report(record: dict[str, Any]) -> Report:
     """Return the numbers that move the spectral radius most over their plausible ranges."""
-    rows = tuple(Row(_cause(parameter)) for parameter in record["parameters"][:_MOST])
+    rows = []
+    for parameter in record["parameters"][:_MOST]:
+        unit, ends, (low, high) = parameter["unit"], parameter["plausible"], parameter["change_to_ends"]
+        factor, unit = (math.degrees(1.0), " deg") if unit == "rad" else (1.0, "" if unit == "1" else f" {unit}")
+        cells = (
+            parameter["parameter"],
+            f"{factor * parameter['value']:.4g}{unit}",
+            f"{parameter['spectral_radius'] / factor:+.3g}" + (f" per{unit}" if unit else ""),
+            "+-1 %" if ends is None else f"{factor * ends[0]:.3g} to {factor * ends[1]:.3g}{unit}",
+            f"{low + 0.0:+.2g}, {high + 0.0:+.2g}",
+        )
+        rows.append(Row(cells))
     return [
         Line(f"what moves the spectral radius {record['spectral_radius']:.3f} most", tone="title"),
-        Table(rows, ("parameter", "value", "derivative", "plausible", "change at both ends"), "nrrrr"),
+        Table(tuple(rows), ("parameter", "value", "derivative", "plausible", "change at both ends"), "nrrrr"),
         Line("the changes are extrapolated linearly: for ranking only"),
         Line("for the share of stable orbits run `wingbeat uncertainty`"),
     ]
 
 
-def _cause(parameter: dict[str, Any]) -> tuple[str, ...]:
-    unit = parameter["unit"]
-    factor, unit = (math.degrees(1.0), " deg") if unit == "rad" else (1.0, "" if unit == "1" else f" {unit}")
-    ends = parameter["plausible"]
-    low, high = parameter["change_to_ends"]
-    per = f" per{unit}" if unit else ""
-    return (
-        parameter["parameter"],
-        f"{factor * parameter['value']:.4g}{unit}",
-        f"{parameter['spectral_radius'] / factor:+.3g}{per}",
-        "+-1 %" if ends is None else f"{factor * ends[0]:.3g} to {factor * ends[1]:.3g}{unit}",
-        f"{low + 0.0:+.2g}, {high + 0.0:+.2g}",
-    )
-
-
 def feedback_report(record: dict[str, Any]) -> Report:
     """Return what the feedback does, its gains, and the multipliers with it and without."""
-    rows = tuple(Row(_gains(name, row)) for name, row in zip(record["inputs"], record["gains"], strict=True))
+    rows = []
+    for name, gains in zip(record["inputs"], record["gains"], strict=True):
+        # The gains of pending inputs, behind those of the state, are in the record alone.
+        unit, size = ("deg", math.radians(1.0)) if name in ANGLES else ("Hz" if name == "frequency" else "-", 1.0)
+        changes = (f"{-gain * one / size:.3g}" for gain, (_, one) in zip(gains, STATE_UNITS.values(), strict=False))
+        rows.append(Row((f"{name} [{unit}]", *changes)))
     headings = ("", *(label for label, _ in STATE_UNITS.values()))
     delay = record["delay"]
+    where = f"{record['species']} at {record['speed']:g} m/s, {record['frequency']:.4g} Hz"
+    acting = f"{beats_of(delay)} later" if delay else "in the same beat"
+    first = (
+        f"{where}: spectral radius {record['open_loop']['spectral_radius']:.3f} without feedback, "
+        f"{record['spectral_radius']:.3f} with feedback that acts {acting}"
+    )
     beats = "beat" if delay == 1 else beats_of(delay)
     last = [
         Line(f"and of the inputs of the last {beats}: see --json, whose `gains`"),
         Line("have the opposite sign (inputs = -gains x deviations), SI units and radians"),
     ]
     return [
-        Line(_held_headline(record), wraps=False),
+        Line(first, wraps=False),
         Line(""),
         Line("change of the inputs per unit of"),
-        Table(rows, headings, "n" + "r" * len(STATE_UNITS)),
+        Table(tuple(rows), headings, "n" + "r" * len(STATE_UNITS)),
         *(last if delay else []),
         Line(""),
         Line("multipliers without feedback: " + _numbers(record["open_loop"]["multipliers"]), wraps=False),
@@ -121,46 +122,29 @@ def survey_report(record: dict[str, Any]) -> Report:
     return [Line(f"share survived of {gusts}"), Table(shares, align="lr")]
 
 
-def _held_headline(record: dict[str, Any]) -> str:
-    """Return what a feedback does to an orbit in a line."""
-    where = f"{record['species']} at {record['speed']:g} m/s, {record['frequency']:.4g} Hz"
-    acting = "in the same beat" if not record["delay"] else f"{beats_of(record['delay'])} later"
-    return (
-        f"{where}: spectral radius {record['open_loop']['spectral_radius']:.3f} without feedback, "
-        f"{record['spectral_radius']:.3f} with feedback that acts {acting}"
-    )
-
-
 def beats_of(count: int) -> str:
     """Return a number of beats in words."""
     return f"{count} beat" if count == 1 else f"{count} beats"
 
 
-def _gains(name: str, row: list[float]) -> tuple[str, ...]:
-    """Return the change of an input per unit of each state; the gains of pending inputs follow in the record."""
-    unit, size = ("deg", math.radians(1.0)) if name in ANGLES else ("Hz" if name == "frequency" else "-", 1.0)
-    changes = [f"{-gain * one / size:.3g}" for gain, (_, one) in zip(row, STATE_UNITS.values(), strict=False)]
-    return f"{name} [{unit}]", *changes
-
-
 def _numbers(pairs: list[list[float]]) -> str:
     """Return the multipliers, one of each complex pair, without those near 0, which belong to pending inputs."""
-    shown = [
-        (real, imaginary) for real, imaginary in pairs if imaginary >= 0 and math.hypot(real, imaginary) > 5e-4
-    ]
-    return ", ".join(f"{real:.3f}" + (f" ± {imaginary:.3f}i" if imaginary > 0 else "") for real, imaginary in shown)
+    return ", ".join(
+        f"{real:.3f}" + (f" ± {imaginary:.3f}i" if imaginary > 0 else "")
+        for real, imaginary in pairs
+        if imaginary >= 0 and math.hypot(real, imaginary) > 5e-4
+    )
 
 
 def manoeuvre_report(record: dict[str, Any]) -> Report:
     """Return how the search ended, the steady flights, and time and distance."""
-    rows = tuple(Row(_end(end)) for end in record["ends"])
+    rows = []
+    for end in record["ends"]:
+        free = end["free_frequency"]
+        numbers = f"{end['speed']:g}", f"{end['beats']}", f"{end['frequency']:.4g}"
+        rows.append(Row((*numbers, "" if free is None else f"{free:.4g}")))
     return [
         Line(f"{record['species']} from {record['speed']:g} m/s: {record['message']}", wraps=False),
-        Table(rows, ("to [m/s]", "beats", "f [Hz]", "least f [Hz]"), "rrrr"),
+        Table(tuple(rows), ("to [m/s]", "beats", "f [Hz]", "least f [Hz]"), "rrrr"),
         *([Line(f"{record['time'][-1]:.2f} s, {record['distance']:.1f} m")] if len(record["time"]) > 1 else []),
     ]
-
-
-def _end(end: dict[str, Any]) -> tuple[str, ...]:
-    free = end["free_frequency"]
-    return f"{end['speed']:g}", f"{end['beats']}", f"{end['frequency']:.4g}", "" if free is None else f"{free:.4g}"

@@ -43,15 +43,9 @@ class Reach(NamedTuple):
 
 
 def reaches(A: np.ndarray, B: np.ndarray, inputs: tuple[str, ...], kinds: dict[complex, str]) -> tuple[Reach, ...]:
-    """Return what inputs do to each mode, the fastest growing first.
+    """Return what inputs do to each mode of a map in units, the fastest growing first. Theory: equation ``reach``.
 
-    Theory: equation ``reach``.
-
-    Parameters
-    ----------
-    A, B : of the map, in units, shapes (n, n) and (n, inputs).
-    inputs : their names.
-    kinds : of modes by their multipliers; the nearest one counts.
+    `kinds` are those of modes by their multipliers; the nearest one counts.
     """
     multipliers, left = np.linalg.eig(A.T)
     found = []
@@ -60,22 +54,14 @@ def reaches(A: np.ndarray, B: np.ndarray, inputs: tuple[str, ...], kinds: dict[c
         if multiplier.imag < -1e-12:
             continue
         vector = left[:, i] / np.linalg.norm(left[:, i])
-        kind = kinds[min(kinds, key=lambda known: abs(known - multiplier))]
+        nearest = min(kinds, key=lambda known: abs(known - multiplier))
         effects = dict(zip(inputs, np.abs(vector @ B).tolist(), strict=True))
-        found.append(Reach(kind, multiplier, effects))
+        found.append(Reach(kinds[nearest], multiplier, effects))
     return tuple(found)
 
 
 def check_reach(faults: FaultList, modes: tuple[Reach, ...], inputs: tuple[str, ...], least: float) -> None:
-    """Note modes that do not decay and that no input reaches.
-
-    Parameters
-    ----------
-    faults : receives the faults.
-    modes : what the inputs do to them.
-    inputs : their names.
-    least : an input reaches a mode if its effect is above this number.
-    """
+    """Note modes that do not decay and that no input reaches with an effect above the least."""
     for mode in modes:
         if mode.persists and max(mode.effects.values()) <= least:
             rule = f"reach no {mode.kind} with multiplier {mode.multiplier:.3g}, which does not decay by itself"
@@ -92,11 +78,6 @@ def delayed(A: np.ndarray, B: np.ndarray, delay: int) -> tuple[np.ndarray, np.nd
     """Return the map whose inputs act some beats later; its state has the pending inputs behind, the oldest first.
 
     Theory: equation ``delayed-map``.
-
-    Parameters
-    ----------
-    A, B : of the map without delay, shapes (n, n) and (n, m).
-    delay : number of beats.
     """
     if delay == 0:
         return A, B
@@ -115,16 +96,7 @@ def linear_quadratic(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return the gains K with which ``y = -K x`` has the least cost over all beats, and the matrix P.
 
-    P gives the cost to go, ``x' P x``. The cost of a beat is ``x' Q x + y' R y``; P solves the discrete algebraic
-    Riccati equation.
-
-    Theory: equation ``riccati``.
-
-    Parameters
-    ----------
-    A, B : of the map, shapes (n, n) and (n, m).
-    state_cost : Q, shape (n, n).
-    input_cost : R, shape (m, m).
+    The cost of a beat is ``x' Q x + y' R y``, the cost to go ``x' P x``. Theory: equation ``riccati``.
     """
     from scipy.linalg import solve_discrete_are
 
@@ -140,11 +112,6 @@ def periodic_linear_quadratic(
     The Riccati equation is stepped back through the maps until the cost to go repeats itself.
 
     Theory: equation ``periodic-riccati``.
-
-    Parameters
-    ----------
-    A, B : of the maps, shapes (M, n, n) and (M, n, m).
-    state_cost, input_cost : of each map, as in `linear_quadratic`.
     """
     cost, gains = state_cost.copy(), np.zeros((len(A), B.shape[2], A.shape[1]))
     for _ in range(_MOST_PERIODS):
@@ -159,23 +126,13 @@ def periodic_linear_quadratic(
 
 
 def gains_along(
-    A: Sequence[np.ndarray],
-    B: Sequence[np.ndarray],
-    state_cost: np.ndarray,
-    input_cost: np.ndarray,
-    delay: int = 0,
+    A: Sequence[np.ndarray], B: Sequence[np.ndarray], state_cost: np.ndarray, input_cost: np.ndarray, delay: int = 0
 ) -> np.ndarray:
     """Return gains of each of K + 1 maps that follow each other, the last for ever; shape (K + 1, m, n + delay m).
 
     The last map has the gains of `linear_quadratic`; the Riccati equation is stepped back from its cost to go.
 
     Theory: equation ``riccati-along``.
-
-    Parameters
-    ----------
-    A, B : of the maps without delay, shapes (n, n) and (n, m) each.
-    state_cost, input_cost : of each map, as in `linear_quadratic`.
-    delay : beats by which inputs act later; then the pending inputs belong to the state, the oldest first.
     """
     maps = [delayed(one, entering, delay) for one, entering in zip(A, B, strict=True)]
     order, whole = len(state_cost), len(maps[-1][0])
@@ -201,16 +158,9 @@ def multipliers_over(maps: Sequence[np.ndarray]) -> np.ndarray:
 
 
 def closed_loop(A: np.ndarray, B: np.ndarray, gains: np.ndarray, delay: int, late: int = 0) -> np.ndarray:
-    """Return the map of the state and all pending inputs with feedback.
+    """Return the map of the state and all pending inputs with feedback, `late` beats beyond the delay of its gains.
 
     Theory: equation ``closed-loop``.
-
-    Parameters
-    ----------
-    A, B : of the map without delay, shapes (n, n) and (n, m).
-    gains : on the state and the inputs of the last `delay` beats, shape (m, n + delay m).
-    delay : for which the gains were computed, in beats.
-    late : beats by which inputs act even later.
     """
     order, count = B.shape
     later, entering = delayed(A, B, delay + late)

@@ -18,8 +18,7 @@ from wingbeat.animal.kinematics import Wingbeat, parameter, stroke_phase, with_p
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import air_at, air_phases, check_wind, fly_through
 from wingbeat.orbits.flight.period import PITCH_STATE, flier
-from wingbeat.orbits.options import Status
-from wingbeat.stability.options import FEEDBACK, FeedbackOptions
+from wingbeat.stability.options import FEEDBACK, FeedbackOptions, check_certified
 from wingbeat.stability.riccati import multipliers_over, periodic_linear_quadratic
 
 if TYPE_CHECKING:
@@ -96,10 +95,9 @@ class SegmentFeedback:
         ----------
         bumps : of flap and pitch [rad], shape (2,).
         """
-        names, shares = bump_parameters(len(self.gains))
-        numbers = [float(parameter(self.orbit.wingbeat, name)) for name in names]
-        changed = (numbers + shares @ bumps).tolist()
-        return with_parameters(self.orbit.wingbeat, dict(zip(names, changed, strict=True)))
+        beat, (names, shares) = self.orbit.wingbeat, bump_parameters(len(self.gains))
+        changed = [float(parameter(beat, name)) for name in names] + shares @ bumps
+        return with_parameters(beat, dict(zip(names, changed.tolist(), strict=True)))
 
     def fly(self, wind: Wind | tuple[float, float], beats: int = 30) -> SegmentFlight:
         """Fly the orbit through a wind with this feedback, the whole equations of motion.
@@ -118,13 +116,12 @@ class SegmentFeedback:
         check_wind(faults, wind)
         faults.raise_if_any()
         model, period = self.orbit.problem.model, 1.0 / self.orbit.wingbeat.frequency
-        state, start = np.array(self.orbit.initial_state, dtype=float), self.orbit.initial_state
-        climb, count = float(self.orbit.inputs["climb"]) * period, len(self.gains)
+        state, climb = np.array(self.orbit.initial_state, dtype=float), float(self.orbit.inputs["climb"]) * period
         states, deviations, bumps = [state], [np.zeros(5)], []
         for beat in range(beats):
             table = air_at(wind, period * (beat + air_phases()))
-            raised = np.array([float(start.z) + climb * beat, 0.0, 0.0, 0.0, 0.0])
-            for j in range(count):
+            raised = np.array([states[0][1] + climb * beat, 0.0, 0.0, 0.0, 0.0])
+            for j in range(len(self.gains)):
                 taken = np.clip(-self.gains[j] @ deviations[-1], -self.limit, self.limit)
                 taken = np.where(np.isfinite(taken), taken, 0.0)  # the vehicle has tumbled
                 phases = np.linspace(self.phases[j], self.phases[j + 1], _SAMPLES + 1)
@@ -158,8 +155,7 @@ def feedback_in_beat(orbit: Orbit, segments: int = 4, *, options: FeedbackOption
     True
     """
     faults = FaultList()
-    if orbit.status is not Status.CONVERGED:
-        faults.add("orbit", orbit.status.value, "is not certified", "hold a certified orbit")
+    check_certified(faults, orbit, "hold a certified orbit")
     faults.whole("segments", segments, 2, HIGHEST_ORDER, "4 for example")
     faults.raise_if_any()
     phases, path, by_state, by_bumps = _segment_maps(orbit, segments, options.linear.blocks)
@@ -178,9 +174,7 @@ def bump_parameters(segments: int) -> tuple[tuple[str, ...], np.ndarray]:
     return names, np.kron(np.eye(len(_LAWS)), [[0.5], [-0.5]])
 
 
-def _segment_maps(
-    orbit: Orbit, segments: int, blocks: int
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+def _segment_maps(orbit: Orbit, segments: int, blocks: int) -> tuple[np.ndarray, ...]:
     """Return the ends of the segments, the orbit's state there, and the linear map over each segment."""
     from scipy.integrate import cumulative_simpson
     from scipy.interpolate import CubicSpline

@@ -16,7 +16,7 @@ from wingbeat.mechanics.flight_model import body_rates, motion_table
 from wingbeat.mechanics.flights import state_rates
 from wingbeat.mechanics.glide import held_still
 from wingbeat.orbits.flight.certificate import certify, stroke_map
-from wingbeat.stability.modes import averaged_jacobian, averaged_modes, modes_of
+from wingbeat.stability.linear_flight import averaged_jacobian, averaged_modes, modes_of
 
 # Steps of differences of flights by SciPy: (z, body_pitch, u, w, pitch_rate), and of the wingbeat's parameters.
 STEPS = np.array([1e-3, 1e-5, 1e-4, 1e-4, 1e-4])

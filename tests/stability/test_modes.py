@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.linalg import expm
 
-from wingbeat.stability.modes import modes_of
+from wingbeat.stability.linear_flight import modes_of
 
 ONES = np.ones(4)
 

@@ -7,6 +7,7 @@ from .causes import StabilitySensitivities as StabilitySensitivities
 from .causes import stability_sensitivities as stability_sensitivities
 from .gust_flights import fly_pushes as fly_pushes
 from .linear_flight import LinearFlight as LinearFlight
+from .linear_flight import Mode as Mode
 from .linear_flight import linearise as linearise
 from .manoeuvres import Manoeuvre as Manoeuvre
 from .manoeuvres import manoeuvre as manoeuvre
@@ -14,7 +15,6 @@ from .many_flights import GustSurvey as GustSurvey
 from .many_flights import ManyFlights as ManyFlights
 from .many_flights import simulate_many as simulate_many
 from .many_flights import survey_gusts as survey_gusts
-from .modes import Mode as Mode
 from .options import FeedbackOptions as FeedbackOptions
 from .options import LinearOptions as LinearOptions
 from .options import ManoeuvreOptions as ManoeuvreOptions

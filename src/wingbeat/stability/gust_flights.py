@@ -129,7 +129,7 @@ def fly_pushes(
         faults.choice("directions", name, tuple(DIRECTIONS))
     for size in sizes:
         faults.number("sizes", size, above=0, unit="m/s")
-    check_certified(faults, orbit, "solve it again with more starts")
+    check_certified(faults, orbit.status, "solve it again with more starts")
     faults.raise_if_any()
     held: list[Feedback | None] = [None] if delay is None else [None, feedback(orbit, delay=delay)]
     asked = list(itertools.product(directions, sizes, held))

@@ -288,7 +288,7 @@ def manoeuvre(
     """
     faults = FaultList()
     check_manoeuvre(faults, speeds, beats, delay)
-    check_certified(faults, orbit, "solve it again with more starts")
+    check_certified(faults, orbit.status, "solve it again with more starts")
     faults.raise_if_any()
     beat_map = BeatMap(orbit, inputs, options.blocks)
     here = steady_start(beat_map, options)

@@ -198,7 +198,7 @@ def simulate_many(
     faults = FaultList()
     faults.whole("beats", beats, 1, 10_000)
     faults.whole("late", late, 0, MOST_DELAY)
-    check_certified(faults, orbit, "fly a certified orbit")
+    check_certified(faults, orbit.status, "fly a certified orbit")
     if not isinstance(winds, Sequence) or not winds:
         faults.add("winds", winds, "must be a list of at least one wind", "for example [wb.winds.CosineGust(w=2)]")
     else:

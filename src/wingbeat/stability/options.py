@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -14,9 +14,6 @@ from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, Wingbeat, parameter, 
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.orbits.options import Status
 from wingbeat.orbits.search_options import Options
-
-if TYPE_CHECKING:
-    from wingbeat.results.orbit import Orbit
 
 
 @dataclass(frozen=True)
@@ -233,10 +230,10 @@ def check_inputs(faults: FaultList, inputs: Any, vehicle: Vehicle | None = None)
         faults.add("inputs", "tail_tilt", rule, "leave it out, or give a tail")
 
 
-def check_certified(faults: FaultList, orbit: Orbit, fix: str) -> None:
+def check_certified(faults: FaultList, status: Status, fix: str) -> None:
     """Note an orbit that is not certified."""
-    if orbit.status is not Status.CONVERGED:
-        faults.add("orbit", orbit.status.value, "is not certified", fix)
+    if status is not Status.CONVERGED:
+        faults.add("orbit", status.value, "is not certified", fix)
 
 
 def check_delay(faults: FaultList, delay: int) -> None:

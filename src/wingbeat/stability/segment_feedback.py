@@ -155,7 +155,7 @@ def feedback_in_beat(orbit: Orbit, segments: int = 4, *, options: FeedbackOption
     True
     """
     faults = FaultList()
-    check_certified(faults, orbit, "hold a certified orbit")
+    check_certified(faults, orbit.status, "hold a certified orbit")
     faults.whole("segments", segments, 2, HIGHEST_ORDER, "4 for example")
     faults.raise_if_any()
     phases, path, by_state, by_bumps = _segment_maps(orbit, segments, options.linear.blocks)

@@ -57,10 +57,8 @@ _ADAPTERS = {shape: TypeAdapter(kind, config=ConfigDict(strict=True)) for shape,
 
 
 def _bare_or_table(bare: Any, table: type[BaseModel]) -> Any:
-    def kind(value: Any) -> str:
-        return TABLE if isinstance(value, dict) else NUMBER
-
-    return Annotated[Annotated[bare, Tag(NUMBER)] | Annotated[table, Tag(TABLE)], Discriminator(kind)]
+    kind = Discriminator(lambda value: TABLE if isinstance(value, dict) else NUMBER)
+    return Annotated[Annotated[bare, Tag(NUMBER)] | Annotated[table, Tag(TABLE)], kind]
 
 
 @functools.cache
@@ -145,10 +143,6 @@ def _shape() -> Any:
     return _table("Shape", fields, required), None
 
 
-def _bounds(name: str, keys: Iterable[Key]) -> Any:
-    return _table(name, _leaves(keys, lambda _: _bare_or_table(_Pair, BoundTable)), []), None
-
-
 _Alternative = create_model(
     "Alternative",
     __config__=_STRICT,
@@ -163,8 +157,8 @@ SpeciesFile = _table(
         "scientific_name": (str, ""),
         "kind": (Literal[KINDS], Field(default=None, description="kind of flyer; selects the scaling laws")),
         **_sections(complete=True),
-        "free": _bounds("Free", FREE),
-        "path": _bounds("Path", PATH),
+        "free": (_table("Free", _leaves(FREE, lambda _: _bare_or_table(_Pair, BoundTable)), []), None),
+        "path": (_table("Path", _leaves(PATH, lambda _: _bare_or_table(_Pair, BoundTable)), []), None),
         "plausible": (_table("Plausible", _leaves(PLAUSIBLE, lambda _: RangeTable), []), None),
         "shape": _shape(),
         "alternatives": (dict[str, _Alternative], None),

@@ -217,15 +217,10 @@ def _check_angles(where: str, ends: Iterable[Any], key: Key, path: str, faults: 
 
 def _check_unit(where: str, unit: Any, key: Key, path: str, faults: FaultList) -> None:
     expected = "deg" if path.endswith("_deg") else key.unit
-    if isinstance(unit, str) and unit and _tidy(unit) != _tidy(expected):
+    # m^2, m² and m**2 are m2.
+    plain = str.maketrans("²³", "23", "*^ ·")
+    if isinstance(unit, str) and unit and unit.translate(plain) != expected.translate(plain):
         faults.add(f"{where}.unit", unit, f"must be {expected!r}", "give the value in this unit")
-
-
-def _tidy(unit: str) -> str:
-    """Return a unit in its plain form: m^2, m² and m**2 become m2."""
-    for old, new in (("**", ""), ("^", ""), ("²", "2"), ("³", "3"), (" ", ""), ("·", ""), ("*", "")):
-        unit = unit.replace(old, new)
-    return unit
 
 
 def parse_setting(text: str) -> tuple[str, Any]:

@@ -206,24 +206,19 @@ class ManoeuvreController:
         self._waiting: list[np.ndarray] = []  # corrections that do not act yet, the oldest first
 
     def __call__(self, beats: int, state: State) -> Wingbeat:
-        """Return the wingbeat of the next beat.
-
-        Parameters
-        ----------
-        beats : number of beats flown.
-        state : at the top of the stroke [m, rad, m/s, rad/s].
-        """
+        """Return the wingbeat after so many beats, from the state at the top of the stroke [m, rad, m/s, rad/s]."""
         plan = self.manoeuvre
         if beats == 0:
             self.commands, self._ground, self._time = [], float(state.z), 0.0
             self._waiting = [np.zeros(len(plan.inputs))] * plan.delay
         at = min(beats, len(plan.changes))
-        planned = self._planned(beats)
+        wanted = *plan.changes, plan.ends[-1].changes
+        planned = wanted[at]
         if self.feedback:
             height = float(state.z) - self._ground - plan.beat_map.climb * self._time
             deviation = np.concatenate([[height], np.array(state, dtype=float)[2:]]) - plan.states[at]
             correction = -plan.gains[at] @ np.concatenate([deviation, *self._waiting])
-            then = self._planned(beats + plan.delay)
+            then = wanted[min(beats + plan.delay, len(plan.changes))]
             correction = np.clip(then + correction, plan.lower, plan.upper) - then
             if not np.isfinite(correction).all():  # the vehicle has tumbled
                 correction = np.zeros_like(then)
@@ -233,11 +228,6 @@ class ManoeuvreController:
         wingbeat = plan.beat_map.wingbeat(planned)
         self._time += 1.0 / wingbeat.frequency
         return wingbeat
-
-    def _planned(self, beats: int) -> np.ndarray:
-        """Return the planned changes of a beat."""
-        plan = self.manoeuvre
-        return plan.changes[beats] if beats < len(plan.changes) else plan.ends[-1].changes
 
 
 def manoeuvre(

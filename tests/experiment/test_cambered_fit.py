@@ -11,7 +11,7 @@ from wingbeat._base import InvalidInputError, find
 from wingbeat.aero import CamberedCoefficients, CamberedTerms, Feathered, load_coefficients
 from wingbeat.experiment import FORMS, CoefficientTable, draw, fit_wing
 from wingbeat.experiment.curve_forms import value_and_slopes
-from wingbeat.experiment.wing_forms import fit_drag
+from wingbeat.experiment.regression import fit_drag
 
 TRUTH = CamberedTerms(-4.0, 4.2, -0.45, 1.35, 0.15, 0.03, 0.055, 2.0, 0.6, 17.0, 1.6, 2.0)
 HELD = {"lift_rounding", "onset_rounding_deg"}

@@ -10,7 +10,6 @@ from wingbeat._base.errors import (
     Fault,
     FaultList,
     FileError,
-    ForkError,
     InvalidInputError,
     WingbeatError,
     WorkerError,
@@ -18,11 +17,10 @@ from wingbeat._base.errors import (
     first_line,
     install_extra,
     is_number,
-    largest_angle,
     suggest,
     system_reason,
 )
-from wingbeat._base.files import MAX_LINE, make_folder, read_text, toml_tables, write_atomically, writing
+from wingbeat._base.files import make_folder, read_text, toml_tables, write_atomically, writing
 from wingbeat._base.nomenclature import (
     FIRST_ORDER,
     GLIDE,
@@ -56,18 +54,15 @@ from wingbeat._base.nomenclature import (
     written_range,
 )
 from wingbeat._base.reports import (
-    WIDTH,
     Block,
     Line,
     Notes,
-    Printed,
     Report,
     Reported,
     Row,
     Table,
     Tone,
     grouped,
-    html_of,
     lines_of,
     text_of,
 )

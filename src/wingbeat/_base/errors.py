@@ -113,11 +113,7 @@ class WorkerError(WingbeatError, RuntimeError):
 
 
 def install_extra(extra: str) -> str:
-    """Return the command that installs an extra; wingbeat is installed from a clone.
-
-    >>> install_extra("app")
-    "in the clone run uv sync --inexact --extra app, or pip install '.[app]'"
-    """
+    """Return the command that installs an extra; wingbeat is installed from a clone."""
     return f"in the clone run uv sync --inexact --extra {extra}, or pip install '.[{extra}]'"
 
 
@@ -137,20 +133,12 @@ def suggest(word: str, known: Iterable[str], *, most: int = 3, otherwise: str | 
 
 
 def first_line(error: BaseException) -> str:
-    """Return an error's kind and the first line of its message.
-
-    >>> first_line(KeyError("mass"))
-    "KeyError: 'mass'"
-    """
+    """Return an error's kind and the first line of its message."""
     return f"{type(error).__name__}: {error}".split("\n")[0]
 
 
 def system_reason(error: Exception) -> str:
-    """Return the system's reason for a failure, in lower case and without the path, which our messages contain.
-
-    >>> system_reason(FileNotFoundError(2, "No such file or directory", "bat.toml"))
-    'no such file or directory'
-    """
+    """Return the system's reason for a failure, in lower case and without the path, which our messages contain."""
     return (getattr(error, "strerror", None) or str(error)).lower()
 
 
@@ -161,11 +149,7 @@ _CONTROLS = re.compile(
 
 
 def control_in(value: object) -> str | None:
-    r"""Return a control character in a text, or in the texts of a list or dictionary; None if there is none.
-
-    >>> control_in({"name": ["plain\ttext", "\x1b[31mred"]}), control_in("two\nlines")
-    ('\x1b', None)
-    """
+    """Return a control character in a text, or in the texts of a list or dictionary; None if there is none."""
     if isinstance(value, str):
         found = _CONTROLS.search(value)
         return found and found[0]
@@ -184,15 +168,6 @@ IN_RADIANS = {
     math.pi: "must be an angle in radians, from -pi to pi",
     2 * math.pi: "must be a phase in radians, from -2 pi to 2 pi",
 }
-
-
-def largest_angle(name: str) -> float:
-    """Return the largest angle [rad] that a number of this name can be: a whole turn for phases, else half a turn.
-
-    >>> round(largest_angle("wingbeat.sweep_phase") / math.pi), round(largest_angle("flap_mean") / math.pi)
-    (2, 1)
-    """
-    return 2 * math.pi if name.endswith("_phase") else math.pi
 
 
 # The rule for counts and seeds; where their range is known, `FaultList.whole` says it too.
@@ -232,11 +207,8 @@ class FaultList:
         if not math.isfinite(number):
             self.add(where, value, "must be finite", fix)
         elif not (above < number < below and at_least <= number <= at_most):
-            limits = [
-                f"{sign} {limit:g}"
-                for sign, limit in ((">", above), (">=", at_least), ("<", below), ("<=", at_most))
-                if math.isfinite(limit)
-            ]
+            pairs = {">": above, ">=": at_least, "<": below, "<=": at_most}
+            limits = [f"{sign} {limit:g}" for sign, limit in pairs.items() if math.isfinite(limit)]
             self.add(where, value, f"must be {' and '.join(limits)} {unit}".rstrip(), fix)
         else:
             return True
@@ -245,14 +217,14 @@ class FaultList:
     def angle(
         self, where: str, value: Any, *, at_least: float = -math.inf, fix: str = "", advice: str = ""
     ) -> bool:
-        """Note a fault unless `value` is an angle in radians of at most `largest_angle`; return whether it is.
+        """Note a fault unless `value` is an angle [rad] of at most pi, or 2 pi for a phase; return whether it is.
 
         `advice` says how to write it in degrees, if there is another way than those of a number's own name.
         """
         if not self.number(where, value, at_least=at_least, unit="rad", fix=fix):
             return False
         name = where.removesuffix(".range").rpartition(".")[2].partition("[")[0]
-        most = largest_angle(name)
+        most = 2 * math.pi if name.endswith("_phase") else math.pi
         if abs(value) <= most:
             return True
         advice = advice or f"write np.radians({value:g}), or {name}_deg in a species file or --set"
@@ -265,6 +237,12 @@ class FaultList:
             self.add(where, value, f"{WHOLE} from {least} to {most}", fix)
             return False
         return True
+
+    def first(self, where: str, column: Any, wrong: Any, rule: str, fix: str = "") -> None:
+        """Note the first number of a column, shape (n,), for which `wrong` is true, if there is one."""
+        if wrong.any():
+            row = int(wrong.argmax())
+            self.add(f"{where}[{row}]", float(column[row]), rule, fix)
 
     def choice(self, where: str, value: Any, allowed: tuple[str, ...]) -> None:
         """Note a fault unless `value` is one of the names in `allowed`."""

@@ -50,12 +50,10 @@ def read_text(path: str | os.PathLike[str], *, limit: int = 1 << 20) -> str:
     try:
         text = content.decode("utf-8-sig")  # Windows editors put a byte-order mark in front
     except UnicodeDecodeError as error:
-        for start, kind in _BINARY.items():
-            if content.startswith(start):
-                raise FileError(f"cannot read {_shown(path)}: it is {kind}, not a text file") from None
-        raise FileError(
-            f"cannot read {_shown(path)}: byte {error.start} is not UTF-8 text; save the file as UTF-8 text"
-        ) from None
+        why = f"byte {error.start} is not UTF-8 text; save the file as UTF-8 text"
+        kinds = [kind for start, kind in _BINARY.items() if content.startswith(start)]
+        why = f"it is {kinds[0]}, not a text file" if kinds else why
+        raise FileError(f"cannot read {_shown(path)}: {why}") from None
     if (control := control_in(text.replace("\r", "\n"))) is not None:
         where = f"line {text[: text.index(control)].count(chr(10)) + 1}"
         raise FileError(f"cannot read {_shown(path)}: {where} holds the control character {control!r}; {_PLAIN}")
@@ -63,16 +61,11 @@ def read_text(path: str | os.PathLike[str], *, limit: int = 1 << 20) -> str:
 
 
 def toml_tables(text: str, label: str) -> dict[str, Any]:
-    r"""Return the tables of a TOML text; raise `FileError` if it is none, or one that would take too long to read.
-
-    >>> toml_tables("[wing]\nspan = 0.3", "a text")
-    {'wing': {'span': 0.3}}
-    """
+    """Return the tables of a TOML text; raise `FileError` if it is none, or would take too long to read."""
     longest = max(map(len, text.split("\n")))
     if longest > MAX_LINE:
-        raise FileError(
-            f"cannot read {label!r}: a line has {longest} characters, more than {MAX_LINE}; break it up"
-        )
+        why = f"a line has {longest} characters, more than {MAX_LINE}; break it up"
+        raise FileError(f"cannot read {label!r}: {why}")
     try:
         tables = tomllib.loads(text)
         # TOML writes them as escapes too, so the check of `read_text` does not see them.
@@ -101,13 +94,6 @@ def writing(path: str | os.PathLike[str]) -> Iterator[Path]:
     The temporary path has the same suffix, because writers choose their format by it. After an error or an
     interrupt the temporary file is deleted, and a file already at `path` is not changed. It raises `FileError` if
     the folder is missing or cannot be written, `path` is a folder or a device, or the disk is full.
-
-    >>> import tempfile
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     with writing(Path(folder) / "note.txt") as beside:
-    ...         _ = beside.write_text("whole")
-    ...     (Path(folder) / "note.txt").read_text()
-    'whole'
     """
     beside: Path | None = None
     try:

@@ -69,15 +69,9 @@ _GROUPS: dict[str, list[Term]] = {}
 with Path(__file__).with_suffix(".csv").open(encoding="utf-8", newline="") as _file:
     for _row in list(csv.reader(_file))[1:]:
         _GROUPS.setdefault(_row[0], []).append(Term(*_row[1:]))
-_GROUPS["wingbeat"] += (
-    Term(
-        name,
-        "1" if name.startswith(SHARES) else "rad",
-        f"harmonic {name} of the wingbeat",
-        meaning="one number of the harmonics",
-    )
-    for name in HARMONIC_NAMES
-)
+for _name in HARMONIC_NAMES:
+    _unit, _label = "1" if _name.startswith(SHARES) else "rad", f"harmonic {_name} of the wingbeat"
+    _GROUPS["wingbeat"].append(Term(_name, _unit, _label, meaning="one number of the harmonics"))
 NOMENCLATURE: dict[str, Term] = {term.name: term for terms in _GROUPS.values() for term in terms}
 # Series of an orbit or a flight. Most flights do not have the second: moving air, laws that are mostly off, and the
 # missing loads of a body that moves as filmed.
@@ -110,7 +104,14 @@ def find(path: str) -> Term | None:
     >>> find("vehicle.wing.mass").label, find("wingbeat.flap_mean_deg").unit, find("nonsense")
     ('mass of one wing', 'deg', None)
     """
-    parts = _named_parts(path)
+    if path.startswith("constraints."):
+        path = re.split("[<>=]", path.partition(".")[2])[0]
+    # Without list indices, and without words for bounds and axes. The numbers in power_cost(0.5) may hold dots.
+    parts = [part for part in re.sub(r"\(.*\)|\[.*\]", "", path).split(".") if not part.isdigit()]
+    if parts[0] == "bounds" and parts[-1] in ("lower", "upper"):
+        parts = parts[1:-1]
+    elif parts[-1] in _AXES and "shoulder" in parts:
+        parts = parts[:-1]
     for start in range(len(parts)):
         end = ".".join(parts[start:])
         if end in NOMENCLATURE:
@@ -186,29 +187,12 @@ def axis_label(name: str, full: bool = False) -> str:
     return " ".join(word for word in (*words, f"[{plain(term.unit)}]") if word)
 
 
-def _named_parts(path: str) -> list[str]:
-    """Return a dotted name's parts without list indices and without the words for bounds and limits."""
-    if path.startswith("constraints."):
-        path = re.split("[<>=]", path.partition(".")[2])[0]
-    # The numbers in the brackets of power_cost(0.5) may hold dots.
-    parts = re.sub(r"\(.*\)|\[.*\]", "", path).split(".")
-    parts = [part for part in parts if not part.isdigit()]
-    if parts[0] == "bounds" and parts[-1] in ("lower", "upper"):
-        return parts[1:-1]
-    return parts[:-1] if parts[-1] in _AXES and "shoulder" in parts else parts
-
-
 # --- what readers call things ---
 
-# What readers call quantities whose names in the program are too short.
-_QUANTITIES = {
-    "metabolic_power": "metabolic power of the flight muscle",
-    "strouhal": "Strouhal number",
-    "reynolds": "Reynolds number",
-}
-# What readers call the coefficient models that carry the names of people.
-_PEOPLE = {"su-fan": "Su-Fan", "dickinson": "Dickinson", "wang": "Wang", "whitney-wood": "Whitney and Wood"}
-_PEOPLE |= {"parslew-crowther": "Parslew and Crowther", "byl": "Byl"}
+# What readers call the coefficient models that carry the names of people, and quantities with too short a name.
+_WORDS = {"su-fan": "Su-Fan", "dickinson": "Dickinson", "wang": "Wang", "whitney-wood": "Whitney and Wood"}
+_WORDS |= {"parslew-crowther": "Parslew and Crowther", "byl": "Byl", "strouhal": "Strouhal number"}
+_WORDS |= {"metabolic_power": "metabolic power of the flight muscle", "reynolds": "Reynolds number"}
 
 
 def in_words(name: str) -> str:
@@ -217,16 +201,11 @@ def in_words(name: str) -> str:
     >>> in_words("common-murre"), in_words("su-fan"), in_words("power_cost(-1)")
     ('common murre', 'Su-Fan', 'power cost(-1)')
     """
-    known = _PEOPLE | _QUANTITIES
-    return known[name] if name in known else re.sub("(?<=[a-z])-(?=[a-z])|_", " ", name)  # a minus sign stays
+    return _WORDS.get(name) or re.sub("(?<=[a-z])-(?=[a-z])|_", " ", name)  # a minus sign stays
 
 
 def heading(name: str) -> str:
-    """Return the name of an animal as the first words of a title.
-
-    >>> heading("common-swift")
-    'Common swift'
-    """
+    """Return the name of an animal as the first words of a title."""
     words = in_words(name)
     return words[:1].upper() + words[1:]
 
@@ -237,8 +216,6 @@ def climb_text(climb: float) -> str:
 
 
 # --- units in three spellings: for data sets, for plain text, and for readers ---
-
-_IN_DEGREES = math.degrees(1.0)
 
 
 def cf(unit: str) -> str:
@@ -280,7 +257,7 @@ def for_people(unit: str) -> tuple[float, str]:
     ((1.0, 'm/s'), (1.0, ''), 'deg/s')
     """
     if unit.split()[:1] == ["rad"]:
-        return _IN_DEGREES, plain(unit.replace("rad", "deg", 1))
+        return math.degrees(1.0), plain(unit.replace("rad", "deg", 1))
     return 1.0, "" if unit == "1" else plain(unit)
 
 
@@ -300,11 +277,6 @@ def written(value: float, error: float | None = None, unit: str = "", digits: in
     error below `PRECISION` of the value is rounding, so it is not written. Without an error the value has `digits`
     significant digits; an error of not-a-number is not known; an infinite error means that the value is not
     determined.
-
-    >>> written(25.1234, 0.812, "W"), written(25.1234, 0.149), written(4.99999999999999645, 8.9e-16, "Hz")
-    ('25.1 +- 0.8 W', '25.12 +- 0.15', '5 Hz (no spread seen)')
-    >>> written(12345.6, 967.0), written(0.0000123, 0.0000004), written(25.1234, float("nan")), written(5.04499)
-    ('12300 +- 1000', '(1.23 +- 0.04)e-05', '25.12 +- ?', '5.045')
     """
     after = f" {unit}" if unit and unit != "1" else ""
     if math.isnan(value):
@@ -319,8 +291,7 @@ def written(value: float, error: float | None = None, unit: str = "", digits: in
         return "not determined"
     if error <= PRECISION * abs(value):
         return f"{_significant(value, digits)}{after} (no spread seen)"
-    place = _last_place(error)
-    shown, power = _together([value, error], place)
+    shown, power = _together([value, error], _last_place(error))
     both = " +- ".join(shown)
     return f"({both})e{power:+03d}{after}" if power else f"{both}{after}"
 
@@ -329,11 +300,6 @@ def written_range(low: float, high: float, unit: str = "", value: float | None =
     """Return an interval, with the value in it if there is one, all to the decimal that half its width decides.
 
     An infinite end is left out, and not-a-number is not known.
-
-    >>> written_range(7.2134, 9.4871, "m/s", 8.5132), written_range(0.0, math.inf, "W")
-    ('8.5 m/s (7.2 to 9.5)', 'at least 0 W')
-    >>> written_range(-math.inf, 4.04999), written_range(3.0, 3.0, "Hz")
-    ('at most 4.05', '3 Hz')
     """
     after = f" {unit}" if unit and unit != "1" else ""
     half = 0.5 * (high - low)
@@ -365,21 +331,12 @@ def _last_place(error: float) -> int:
 
 def _together(numbers: list[float], place: int) -> tuple[list[str], int]:
     """Return numbers rounded at a power of ten, and the exponent that they share, 0 for none."""
-    largest = max(abs(rounded_at(number, place)) for number in numbers)
+    rounded = [float(round(number, -place)) for number in numbers]
+    largest = max(map(abs, rounded))
     top = math.floor(math.log10(largest)) if largest else place
     power = 0 if top < _HIGHEST and place >= 2 * _LOWEST and top >= _LOWEST else top
     decimals = max(power - place, 0)
-    scaled = [rounded_at(number, place) / 10.0**power for number in numbers]
-    return [f"{number + 0.0:.{decimals}f}" for number in scaled], power
-
-
-def rounded_at(number: float, place: int) -> float:
-    """Return a number rounded at a power of ten.
-
-    >>> rounded_at(12345.6, 2), rounded_at(0.0449, -3)
-    (12300.0, 0.045)
-    """
-    return float(round(number, -place))
+    return [f"{number / 10.0**power + 0.0:.{decimals}f}" for number in rounded], power
 
 
 def _significant(number: float, digits: int) -> str:
@@ -389,5 +346,4 @@ def _significant(number: float, digits: int) -> str:
     top = math.floor(math.log10(abs(number))) if number else 0
     if not _LOWEST <= top < _HIGHEST:
         return f"{number:.{digits}g}"
-    rounded = rounded_at(number, top - digits + 1)
-    return f"{rounded + 0.0:.10g}"
+    return f"{float(round(number, digits - 1 - top)) + 0.0:.10g}"

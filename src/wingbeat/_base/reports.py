@@ -54,11 +54,7 @@ LABEL_WIDTH = 33  # letters; so many hold nearly every label of an orbit, and al
 
 
 def grouped(groups: Mapping[str, Iterable[tuple[str, str]]]) -> Table:
-    """Return a table of labels and values under the titles of their groups; groups without rows are left out.
-
-    >>> grouped({"wingbeat": [("frequency", "6.1 Hz")], "stability": []}).rows
-    (Row(cells=('wingbeat',), tone='title'), Row(cells=('frequency', '6.1 Hz'), tone=''))
-    """
+    """Return a table of labels and values under the titles of their groups; groups without rows are left out."""
     rows: list[Row] = []
     for title, pairs in groups.items():
         listed = [Row(pair) for pair in pairs]
@@ -82,12 +78,7 @@ class Printed(NamedTuple):
 
 
 def text_of(report: Report, width: int = WIDTH) -> str:
-    """Return a report as text of a width [letters], without colours.
-
-    >>> print(text_of([Line("closes", "certified: "), Table((Row(("frequency", "6.1 Hz")),))]))
-    certified: closes
-    frequency  6.1 Hz
-    """
+    """Return a report as text of a width [letters], without colours."""
     return "\n".join(line.text for line in lines_of(report, width))
 
 
@@ -95,7 +86,11 @@ def lines_of(report: Report, width: int = WIDTH) -> Iterator[Printed]:
     """Yield the lines of a report of a width [letters]."""
     for block in report:
         if isinstance(block, Line):
-            yield from _lines(block, width)
+            whole = block.head + block.text
+            left = len(block.head) if block.head else len(whole)
+            for part in _wrapped(whole, width) if block.wraps else [whole]:
+                yield Printed(part, block.tone, min(left, len(part)) if block.tone else 0)
+                left = max(left - len(part) - 1, 0)  # a blank ends at the break
         elif isinstance(block, Notes):
             for text in block.texts:
                 for i, part in enumerate(_wrapped(text, width - 2)):
@@ -103,16 +98,6 @@ def lines_of(report: Report, width: int = WIDTH) -> Iterator[Printed]:
                     yield Printed(line, block.tone, len(line))
         else:
             yield from _table_lines(block, width)
-
-
-def _lines(line: Line, width: int) -> Iterator[Printed]:
-    whole = line.head + line.text
-    parts = _wrapped(whole, width) if line.wraps else [whole]
-    left = len(line.head) if line.head else len(whole)
-    for part in parts:
-        toned = min(left, len(part)) if line.tone else 0
-        yield Printed(part, line.tone, toned)
-        left = max(left - len(part) - 1, 0)  # a blank ends at the break
 
 
 def _wrapped(text: str, width: int) -> list[str]:
@@ -175,77 +160,54 @@ _HEAD = f"{_CELL};font-weight:600;border-bottom:1px solid currentColor;opacity:0
 _TITLE = f"{_CELL};font-weight:600;padding-top:0.6em;text-align:left"
 _LINE = "margin:0.15em 0;color:inherit"
 # No colours, which would have to suit light and dark pages: a mark, its weight, and how faint it is.
-_TONES: dict[Tone, str] = {
-    "": "",
-    "title": "font-weight:600",
-    "good": "font-weight:600",
-    "doubtful": "font-weight:600",
-    "bad": "font-weight:600",
-    "warning": "font-style:italic",
-}
+_TONES: dict[str, str] = {"": "", "warning": "font-style:italic"}
+_TONES |= dict.fromkeys(("title", "good", "doubtful", "bad"), "font-weight:600")
 _MARKS: dict[Tone, str] = {"good": "✓ ", "doubtful": "△ ", "bad": "✗ "}
-_NUMBERS = "text-align:right;font-variant-numeric:tabular-nums;white-space:pre"
-_WORDS = "text-align:left"
-_SIDES = {"l": _WORDS, "n": _WORDS, "r": _NUMBERS}
+_SIDES = {"l": "text-align:left", "n": "text-align:left"}
+_SIDES["r"] = "text-align:right;font-variant-numeric:tabular-nums;white-space:pre"
 _LABEL = "opacity:0.75"
 
 
 def html_of(report: Report, name: str) -> str:
-    """Return a report as one HTML element; screen readers say the name of what it is about.
-
-    >>> html_of([Line("a < b")], "Orbit").count("a &lt; b")
-    1
-    """
+    """Return a report as one HTML element; screen readers say the name of what it is about."""
     body = "".join(_block_html(block) for block in report)
     return f'<div class="wingbeat-report" role="group" aria-label="{html.escape(name)}" style="{_BOX}">{body}</div>'
 
 
-def _block_html(block: Line | Notes | Table) -> str:
+def _block_html(block: Block) -> str:
     if isinstance(block, Line):
+        first, tone = _MARKS.get(block.tone, "") + _text(block.head or block.text), _TONES[block.tone]
         if not block.head:
-            return f'<div style="{_styles(_LINE, _TONES[block.tone])}">{_marked(block.text, block.tone)}</div>'
-        head = f'<span style="{_TONES[block.tone]}">{_marked(block.head, block.tone)}</span>'
-        return f'<div style="{_LINE}">{head}{_text(block.text)}</div>'
+            return f'<div style="{_styles(_LINE, tone)}">{first}</div>'
+        return f'<div style="{_LINE}"><span style="{tone}">{first}</span>{_text(block.text)}</div>'
     if isinstance(block, Notes):
         items = "".join(f"<li>{_text(text)}</li>" for text in block.texts)
         style = _styles("margin:0.3em 0;padding-left:1.4em", _TONES[block.tone])
         return f'<ul style="{style}">{items}</ul>' if items else ""
-    return _table_html(block)
-
-
-def _table_html(table: Table) -> str:
     heads = "".join(
         f'<th scope="col" style="{_styles(_HEAD, _SIDES[side])}">{_text(text)}</th>'
-        for text, side in zip(table.headings, table.align, strict=bool(table.headings))
+        for text, side in zip(block.headings, block.align, strict=bool(block.headings))
     )
     head = f"<thead><tr>{heads}</tr></thead>" if heads else ""
-    body = "".join(_row_html(row, table) for row in table.rows)
+    columns, body = len(block.align), ""
+    for row in block.rows:
+        if len(row.cells) == 1 and columns > 1:
+            cells = f'<th scope="rowgroup" colspan="{columns}" style="{_TITLE}">{_text(row.cells[0])}</th>'
+        else:
+            styles = [_styles(_CELL, _SIDES[side], _TONES[row.tone]) for side in block.align]
+            styles[0] = _styles(styles[0], "" if block.headings else _LABEL)
+            pairs = zip(styles, row.cells, strict=True)
+            cells = "".join(f'<td style="{style}">{_text(text)}</td>' for style, text in pairs)
+        body += f'<tr style="background:transparent">{cells}</tr>'
     return f'<table style="{_TABLE}">{head}<tbody>{body}</tbody></table>'
-
-
-def _row_html(row: Row, table: Table) -> str:
-    columns = len(table.align)
-    if len(row.cells) == 1 and columns > 1:
-        cell = f'<th scope="rowgroup" colspan="{columns}" style="{_TITLE}">{_text(row.cells[0])}</th>'
-        return f'<tr style="background:transparent">{cell}</tr>'
-    faint = "" if table.headings else _LABEL
-    cells = "".join(
-        f'<td style="{_styles(_CELL, _SIDES[side], _TONES[row.tone], faint if i == 0 else "")}">{_text(text)}</td>'
-        for i, (text, side) in enumerate(zip(row.cells, table.align, strict=True))
-    )
-    return f'<tr style="background:transparent">{cells}</tr>'
 
 
 def _styles(*parts: str) -> str:
     return ";".join(part for part in parts if part)
 
 
-def _marked(text: str, tone: Tone) -> str:
-    return _MARKS.get(tone, "") + _text(text)
-
-
 def _text(text: str) -> str:
-    return html.escape(text.strip()).replace("\n", "<br>") if text.strip() else ""
+    return html.escape(text.strip()).replace("\n", "<br>")
 
 
 # --- results that say what they hold ---

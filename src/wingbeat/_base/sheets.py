@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base.errors import FaultList, FileError
+from wingbeat._base.errors import Fault, FaultList, FileError, InvalidInputError
 from wingbeat._base.files import read_text
 
 # A record of 30 s at 10 kHz has some 20 MB.
@@ -22,22 +22,9 @@ MAX_CONSTANTS = 1000
 # No instrument gives larger numbers, and their squares would overflow.
 _LARGEST = 1e100
 # What programs write where there is no value, in lower case: pandas, NumPy, MATLAB, R, LabVIEW, spreadsheets.
-NO_VALUE = frozenset(
-    {"", "nan", "-nan", "na", "n/a", "#n/a", "null", "none", "<na>", "1.#qnan", "-1.#ind", "nan(ind)"}
-)
-_SAME = {
-    "n·m": "n m",
-    "n*m": "n m",
-    "nm": "n m",
-    "n.m": "n m",
-    "°": "deg",
-    "degrees": "deg",
-    "seconds": "s",
-    "-": "",
-    "1": "",
-}
-
-
+NO_VALUE = {"", "nan", "-nan", "na", "n/a", "#n/a", "null", "none", "<na>", "1.#qnan", "-1.#ind", "nan(ind)"}
+_SAME = {"n·m": "n m", "n*m": "n m", "nm": "n m", "n.m": "n m", "-": "", "1": ""}
+_SAME |= {"°": "deg", "degrees": "deg", "seconds": "s"}
 # What programs and instruments write: a pattern at the beginning, # lines left out, and what to do with the file.
 _COPY_POLAR = (
     "write its angle, lift and drag as a CSV table with the columns alpha_deg, C_L, C_D, separated by commas"
@@ -95,13 +82,7 @@ class Sheet(NamedTuple):
 
 
 def split_unit(text: str) -> Heading:
-    """Return a column name or key without its unit, and the unit.
-
-    >>> split_unit("normal_force [N]")
-    Heading(name='normal_force', unit='N')
-    >>> split_unit("time")
-    Heading(name='time', unit=None)
-    """
+    """Return a column name or key without its unit, and the unit."""
     match = re.fullmatch(r"\s*(.*?)\s*(?:\[(.*)\]|\((.*)\))?\s*", text)
     name, square, round_ = match.groups() if match else (text.strip(), None, None)
     unit = square if square is not None else round_
@@ -131,11 +112,7 @@ def same_name(text: str) -> str:
 
 
 def seems_to_be(text: str) -> str | None:
-    r"""Return what a file that is not a CSV table seems to be, and what to do with it; None if nothing shows it.
-
-    >>> seems_to_be("a;b;c\n1,5;2;3\n")
-    'a table with semicolons between its columns and decimal commas; write commas between the columns and ...'
-    """
+    """Return what a file that is not a CSV table seems to be, and what to do with it; None if nothing shows it."""
     lines = [line for line in text[:_FIRST].splitlines() if line.strip() and not line.lstrip().startswith("#")]
     head = "\n".join(lines).lstrip()
     for pattern, words in _KNOWN_FILES:
@@ -173,8 +150,8 @@ def read_sheet(path: str | Path) -> Sheet:
         if words is None or not path.is_file():
             raise
     if words:
-        faults.add(path.name, whole.lstrip().partition("\n")[0].strip(), f"this seems to be {words}")
-        faults.raise_if_any()
+        first = whole.lstrip().partition("\n")[0].strip()
+        raise InvalidInputError([Fault(path.name, first, f"this seems to be {words}")])
     for row, line in enumerate(whole.splitlines(), start=1):
         text = line.strip()
         if text.startswith("#"):
@@ -200,9 +177,11 @@ def read_sheet(path: str | Path) -> Sheet:
     faults.raise_if_any()
     header = _cells(table[0][1])
     if all(_is_number(cell) for cell in header):
-        rule = "holds numbers, but the first row of the table must name the columns"
-        faults.add(f"{path.name} row {table[0][0]}", table[0][1], rule, "write the names without # in front")
-    faults.raise_if_any()
+        rule, fix = (
+            "holds numbers, but the first row of the table must name the columns",
+            "write the names without #",
+        )
+        raise InvalidInputError([Fault(f"{path.name} row {table[0][0]}", table[0][1], rule, f"{fix} in front")])
     return Sheet(path.name, constants, table[0][0], header, table[1:])
 
 
@@ -235,9 +214,8 @@ def parse_numbers(
     enough = len(faults.faults) + MAX_CELL_FAULTS
     for i, (row, text) in enumerate(sheet.rows):
         if len(faults.faults) > enough:
-            faults.add(
-                sheet.file, f"{MAX_CELL_FAULTS} faults and more", "too many to list", "is it the right file?"
-            )
+            shown = f"{MAX_CELL_FAULTS} faults and more"
+            faults.add(sheet.file, shown, "too many to list", "is it the right file?")
             break
         cells = _cells(text)
         if len(cells) != len(names):
@@ -266,21 +244,15 @@ def _is_number(cell: str) -> bool:
 
 
 def _number(faults: FaultList, where: str, cell: str) -> float:
-    try:
-        number = float(cell)
-    except ValueError:
-        number = None
     if cell.lower() in NO_VALUE:
         rule = "has no value" if cell else "is empty"
         faults.add(where, cell, f"{rule}, but this column needs one in each row", "give the value or drop the row")
-        return np.nan
-    if number is None:
+    elif not _is_number(cell):
         faults.add(where, cell, "is not a number", "write one number with a decimal point, or drop the row")
-        return np.nan
-    if not np.isfinite(number):
+    elif not np.isfinite(number := float(cell)):
         faults.add(where, number, "must be finite", "drop the row or give a value")
-        return np.nan
-    if abs(number) > _LARGEST:
+    elif abs(number) > _LARGEST:
         faults.add(where, number, "is larger than any measurement", "drop the row or give a value")
-        return np.nan
-    return number
+    else:
+        return number
+    return np.nan

@@ -14,7 +14,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import Future
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass, field
 from multiprocessing import spawn
 from typing import Any, NamedTuple, TypeVar
@@ -288,11 +288,8 @@ def process_map(processes: int, most: int) -> Iterator[Callable[[Callable[[T], R
     if processes == 1:
         yield map
         return
-    pool = _Callers(min(processes, max(most, 1)))
-    try:
+    with closing(_Callers(min(processes, max(most, 1)))) as pool:
         yield pool.map
-    finally:
-        pool.close()
 
 
 class _Callers(Pool):
@@ -307,12 +304,7 @@ class _Callers(Pool):
     def map(self, work: Callable[[T], R], items: Iterable[T]) -> Iterator[R]:
         """Begin with all items; return an iterator over the results in order."""
         answers = deque(self._answer((work, item)) for item in items)
-
-        def results() -> Iterator[R]:
-            while answers:
-                yield answers.popleft().result()
-
-        return results()
+        return (answers.popleft().result() for _ in range(len(answers)))
 
     def _answer(self, what: Any) -> Future[Any]:
         answer: Future[Any] = Future()

@@ -122,11 +122,6 @@ class _Speaker:
             faulthandler.dump_traceback_later(self._silence, exit=True, file=self._nowhere)
         self.send(pickle.dumps(Message(kind, value)))
 
-    def rest(self, pickled: bytes) -> None:
-        """Send the message that ends the work."""
-        faulthandler.cancel_dump_traceback_later()
-        self.send(pickled)
-
     def send(self, pickled: bytes) -> None:
         """Send a message."""
         try:
@@ -154,7 +149,8 @@ def main() -> None:
         ending = _do(work, what, context)
         if leaves := settings["memory"] is not None and _memory() > settings["memory"]:
             speaker.say("leaving")
-        speaker.rest(ending)
+        faulthandler.cancel_dump_traceback_later()
+        speaker.send(ending)
         if leaves:
             os._exit(0)
 
@@ -168,20 +164,15 @@ def _do(work: Callable[[Any, Context], Any], what: Any, context: Context) -> byt
     except Exception as error:
         if isinstance(error, MemoryError) or any(words in str(error) for words in _NO_MEMORY_WORDS):
             os._exit(NO_MEMORY)  # what is left of the process could not be relied on
-        return _pickled_failure(error)
-
-
-def _pickled_failure(error: Exception) -> bytes:
-    """Return the pickled message of a failure: the exception and traceback, or text if it cannot be pickled."""
-    error.add_note(f"in a worker process:\n{traceback.format_exc()}")
-    try:
-        pickled = pickle.dumps(Message("failed", error))
-        pickle.loads(pickled)
-    except Exception:
-        told = RuntimeError(f"{type(error).__name__}: {error}")
-        told.__notes__ = error.__notes__
-        return pickle.dumps(Message("failed", told))
-    return pickled
+        error.add_note(f"in a worker process:\n{traceback.format_exc()}")
+        try:
+            pickled = pickle.dumps(Message("failed", error))
+            pickle.loads(pickled)
+            return pickled
+        except Exception:  # the exception cannot be pickled: send its text
+            told = RuntimeError(f"{type(error).__name__}: {error}")
+            told.__notes__ = error.__notes__
+            return pickle.dumps(Message("failed", told))
 
 
 def _memory() -> int:

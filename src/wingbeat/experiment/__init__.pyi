@@ -5,7 +5,9 @@ from .campaign import save_runs as save_runs
 from .campaign import synthetic_runs as synthetic_runs
 from .coefficient_table import CoefficientTable as CoefficientTable
 from .coefficient_table import load_measurements as load_measurements
+from .curve_forms import FORMS as FORMS
 from .curve_forms import CurveForm as CurveForm
+from .curve_forms import WingForm as WingForm
 from .film import Film as Film
 from .film import synthetic_film as synthetic_film
 from .film_file import read_film as read_film
@@ -23,5 +25,3 @@ from .regression import fit_curve as fit_curve
 from .wing_fit import WingFit as WingFit
 from .wing_fit import draw as draw
 from .wing_fit import fit_wing as fit_wing
-from .wing_forms import FORMS as FORMS
-from .wing_forms import WingForm as WingForm

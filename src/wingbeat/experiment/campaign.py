@@ -12,15 +12,13 @@ from itertools import product
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wingbeat._base import FaultList, write_atomically
 from wingbeat.aero import SuFan
 from wingbeat.aero.formula_models import CentreTerms, FormulaTerms
-from wingbeat.experiment.curve_forms import value_and_slopes
+from wingbeat.experiment.curve_forms import Array, value_and_slopes
 from wingbeat.experiment.load_cell_run import CHANNELS, COLUMN_UNITS, CONSTANT_UNITS, OPTIONAL_UNITS, LoadCellRun
 
-Array = NDArray[np.float64]
 _SU_FAN = SuFan()
 assert _SU_FAN.centre_terms is not None  # Su et al. give one
 # The published formulas themselves, without blends, as a fit meets them.
@@ -86,11 +84,7 @@ class Campaign:
 
 
 def true_coefficients(alpha_deg: Array) -> tuple[Array, Array, Array]:
-    """Return the true coefficients C_L, C_D and x_cp at angles [deg], shape (n,).
-
-    >>> [round(float(c[0]), 4) for c in true_coefficients(np.array([40.0]))]
-    [1.19, 1.0191, 0.4061]
-    """
+    """Return the true coefficients C_L, C_D and x_cp at angles [deg], shape (n,)."""
     lift, drag, centre = (value_and_slopes(terms, alpha_deg)[0] for terms in TRUTH.values())
     return lift, drag, centre
 

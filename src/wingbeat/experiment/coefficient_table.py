@@ -55,11 +55,9 @@ class CoefficientTable:
             if np.shape(column) != np.shape(self.alpha_deg):
                 faults.add(name, f"shape {np.shape(column)}", f"must be {np.shape(self.alpha_deg)}, as alpha_deg")
             elif name not in _MAY_BE_EMPTY and not np.isfinite(column).all():
-                row = int(np.argmin(np.isfinite(column)))
-                faults.add(f"{name}[{row}]", float(column[row]), "must be finite", "drop the row")
-            elif name.endswith(("_sd", "_se")) and (column < 0).any():
-                row = int(np.argmax(column < 0))
-                faults.add(f"{name}[{row}]", float(column[row]), "must be >= 0", "an error has no sign")
+                faults.first(name, column, ~np.isfinite(column), "must be finite", "drop the row")
+            elif name.endswith(("_sd", "_se")):
+                faults.first(name, column, column < 0, "must be >= 0", "an error has no sign")
         faults.raise_if_any()
 
     def columns(self) -> Columns:

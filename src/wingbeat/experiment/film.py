@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base import FaultList, write_atomically
+from wingbeat._base import Fault, FaultList, InvalidInputError, write_atomically
 from wingbeat.animal.kinematics import (
     Wingbeat,
     chord_ratio,
@@ -27,7 +27,7 @@ from wingbeat.experiment.periodic import MIN_BEATS, SURE, Array, Clip, clip_rate
 FILMED = {"flap_deg": "deg", "pitch_deg": "deg", "span_fraction": "", "sweep_deg": "deg"}
 FILMED |= {"tip_pitch_deg": "deg", "stroke_plane_deg": "deg", "area_fraction": ""}
 # The body, for a film that gives times.
-BODY = {"body_x_m": "m", "body_z_m": "m", "body_pitch_deg": "deg"}
+BODY = dict.fromkeys(("body_x_m", "body_z_m"), "m") | dict.fromkeys(("body_pitch_deg",), "deg")
 COLUMNS = FILMED | BODY
 # What a fraction of 1 stands for.
 WHOLE = {"span_fraction": "semi-span", "area_fraction": "full area"}
@@ -109,9 +109,9 @@ class Film:
         if set(self.columns) & set(BODY) and self.frequency is None:
             rule = "is needed: velocities of the body need times, not only phases"
             faults.add(f"{self.name}, frequency", None, rule, "give it in Hz")
-        if not np.isfinite(self.phase).all():
-            row = int(np.argmin(np.isfinite(self.phase)))
-            faults.add(f"{self.name}, phase[{row}]", float(self.phase[row]), "must be finite", "drop the frame")
+        faults.first(
+            f"{self.name}, phase", self.phase, ~np.isfinite(self.phase), "must be finite", "drop the frame"
+        )
         if "tip_pitch_deg" in self.columns and "pitch_deg" not in self.columns:
             rule = "needs pitch_deg: the twist is the pitch at the tip minus the pitch at the root"
             faults.add(f"{self.name}, columns", "tip_pitch_deg", rule, "add the column pitch_deg")
@@ -127,8 +127,7 @@ class Film:
             elif name == "flap_deg":
                 check_flap(faults, where, *self.seen(name))
         faults.raise_if_any()
-        self._check_clock(faults)
-        faults.raise_if_any()
+        self._check_clock()
         notes = [note for name in self.columns for note in self._check(name, faults)]
         faults.raise_if_any()
         warnings = [*self.read_warnings, *self._suspicions()]
@@ -152,7 +151,7 @@ class Film:
         there = np.isfinite(self.columns[name])
         return self.phase[there], self.columns[name][there]
 
-    def _check_clock(self, faults: FaultList) -> None:
+    def _check_clock(self) -> None:
         """Compare the beats of the frames with those of the phases; phases within one beat say nothing about it."""
         order = np.argsort(self.phase, kind="stable")
         clock = self.phase[order]
@@ -169,7 +168,7 @@ class Film:
         every = f"{1 / clip.rate:.4g}"
         rule = f"the frames repeat every {every} of phase, but a phase counts beats"
         fix = f"the phases seem to be {unit[0]}; divide them by {every}" if unit else "correct the phases"
-        faults.add(f"{self.name}, phase", f"{clock[0]:g} to {clock[-1]:g}", rule, fix)
+        raise InvalidInputError([Fault(f"{self.name}, phase", f"{clock[0]:g} to {clock[-1]:g}", rule, fix)])
 
     def _check(self, name: str, faults: FaultList) -> list[str]:
         where = f"{self.name}, column {name}"
@@ -289,9 +288,6 @@ def unwrapped(faults: FaultList, where: str, phase: Array, angle: Array) -> tupl
     In the order of phase within the beat, each frame is moved by whole turns until it lies within half a turn of
     the frame before. Then all frames are moved together, so that their mean lies within half a turn of 0. A frame
     that is not moved keeps every digit.
-
-    >>> unwrapped(FaultList(), "pitch", np.arange(4) / 4, np.array([170.0, -175.0, 172.0, 165.0]))
-    (array([170., 185., 172., 165.]), 1)
     """
     order = np.argsort(phase % 1.0, kind="stable")
     smooth = np.empty_like(angle)

@@ -10,14 +10,12 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from wingbeat._base import Fault, FaultList, InvalidInputError, written
 from wingbeat._base.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
 from wingbeat.experiment.film import BODY, COLUMNS, FILMED, WRAPPED, Film, check_flap, even_only
-from wingbeat.experiment.periodic import MIN_BEATS, SURE, Clip, clip_rate
+from wingbeat.experiment.periodic import MIN_BEATS, SURE, Array, Clip, clip_rate
 
-Array = NDArray[np.float64]
 # 100 s at 1000 frames a second: no animal repeats one wingbeat for longer. The fit of so many takes a second.
 MAX_FRAMES = 100_000
 SIDES = ("both", "left", "right")

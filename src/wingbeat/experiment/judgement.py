@@ -15,12 +15,11 @@ from numpy.typing import NDArray
 from wingbeat._base import InvalidInputError
 from wingbeat.aero.coefficient_model import MAX_DRAG, MAX_LIFT
 from wingbeat.aero.polar_sheet import doubtful_drag, reynolds_groups
-from wingbeat.experiment.regression import CurveFit, fit_curve
+from wingbeat.experiment.regression import Array, CurveFit, fit_curve
 
 if TYPE_CHECKING:
     from wingbeat.aero import CoefficientModel
 
-Array = NDArray[np.float64]
 # Least difference worth a warning, as a share of the range of the measured values. Repeated tests of one wing in
 # one tunnel differ by some per cent.
 LEAST_SHARE = 0.06
@@ -87,8 +86,7 @@ def _of_reynolds(
 ) -> list[str]:
     words = []
     for (low, high), rows in zip(groups, members, strict=True):
-        inside = np.zeros(len(curve.values), dtype=bool)
-        inside[rows] = True
+        inside = np.isin(np.arange(len(curve.values)), rows)
         found = group_difference(curve.alpha_deg, curve.residuals, inside)
         if found is not None and found.chance < _CHANCE / len(groups) and abs(found.size) > least:
             name = f"{low:.0f}" if low == high else f"{low:.0f} to {high:.0f}"
@@ -109,11 +107,6 @@ def group_difference(alpha_deg: Array, residuals: Array, inside: NDArray[np.bool
     Over the angles that both have, the residuals are fitted by hat functions of the angle, once the same for all
     rows, once with further hats for the group. ``F = ((S1 - S2)/(n1 - n2))/(S2/n2)`` with the sums of squares S and
     their degrees of freedom n has Snedecor's distribution if the group does not differ.
-
-    >>> a, wave = np.tile(np.arange(10.0), 2), np.tile([0.01, -0.01], 10)
-    >>> found = group_difference(a, wave + np.repeat([0.0, 0.3], 10), np.repeat([False, True], 10))
-    >>> round(found.size, 1), found.chance < 1e-9
-    (0.3, True)
     """
     from scipy.stats import f
 
@@ -165,8 +158,7 @@ def _branches(curve: CurveFit, rows: NDArray[np.intp], least: float) -> Branches
         sweeps = [np.concatenate([s for s, w in zip(sweeps, way, strict=True) if w == sign]) for sign in set(way)]
     found: list[tuple[float, NDArray[np.bool_]]] = []
     for part in sweeps if len(sweeps) > 1 else ():
-        inside = np.zeros(len(a), dtype=bool)
-        inside[part] = True
+        inside = np.isin(np.arange(len(a)), part)
         one = group_difference(a, left, inside)
         if one is not None and one.chance < _CHANCE / len(sweeps) and abs(one.size) > least:
             found.append((abs(one.size), inside))
@@ -231,8 +223,7 @@ def failures(curve: CurveFit) -> tuple[str, ...]:
     """
     found = []
     share = float(np.sqrt((curve.residuals**2).mean()) / max(np.abs(curve.values).max(), 1e-12))
-    low = curve.r_squared < LEAST_R_SQUARED
-    if low and (share > SMALL_SCATTER or curve.r_squared < 0):
+    if curve.r_squared < LEAST_R_SQUARED and (share > SMALL_SCATTER or curve.r_squared < 0):
         found.append(
             f"{curve.label}: the curve does not fit: R-squared is {curve.r_squared:.2f}, and the residuals scatter "
             f"by {100 * share:.0f} % of the largest value; try another --form, or look at the rows with --plot"
@@ -316,13 +307,6 @@ def two_branches(alpha_deg: Array, residuals: Array, least: float) -> Branches |
     In windows over the angle, two lines are put through the residuals, each row to the nearer line. Of scatter
     alone they leave a third of what one parabola leaves; of two branches, almost nothing. A gap below `least` does
     not count.
-
-    >>> a = np.repeat(np.arange(12.0), 2)
-    >>> noise = 0.01 * np.sin(9.0 * np.arange(24) ** 2)
-    >>> two_branches(a, noise, 0.1) is None
-    True
-    >>> two_branches(a, noise + np.tile([0.2, -0.2], 12), 0.1).upper > 0.1
-    True
     """
     order = np.argsort(alpha_deg, kind="stable")
     a, y = alpha_deg[order], residuals[order]

@@ -110,9 +110,8 @@ def _check_series(faults: FaultList, run: LoadCellRun) -> None:
         column = getattr(run, name)
         if column.shape != shape:
             faults.add(f"{run.name}, {name}", f"shape {column.shape}", f"must have the shape of time, {shape}")
-        elif not np.isfinite(column).all():
-            first = int(np.argmin(np.isfinite(column)))
-            faults.add(f"{run.name}, {name}[{first}]", float(column[first]), "must be finite", "drop the sample")
+        else:
+            faults.first(f"{run.name}, {name}", column, ~np.isfinite(column), "must be finite", "drop the sample")
     if faults.faults:
         return
     steps = np.diff(run.time)
@@ -304,13 +303,12 @@ def check_constants(faults: FaultList, run: LoadCellRun) -> None:
     def note(name: str, rule: str, fix: str) -> None:
         faults.add(f"{run.name}, {name}", getattr(run, name), rule, fix)
 
-    before = len(faults.faults)
     for name, (least, most) in _RANGES.items():
         value, unit = getattr(run, name), plain_unit(name)
         if not least <= value <= most:
             length = "; is it in mm or cm?" if value > most and unit == "m" else ""
             note(name, f"must lie between {least:g} and {most:g} {unit}", f"give it in {unit}{length}")
-    if len(faults.faults) > before:
+    if faults.faults:
         return
     density, viscosity = run.density, run.viscosity
     dynamic = density * viscosity

@@ -81,11 +81,6 @@ def clip_rate(clock: Array, columns: Mapping[str, Array]) -> Clip | None:
     projection, Golub and Pereyra 1973, doi 10.1137/0710036), and Gauss-Newton steps give f and g. The standard
     errors are those of least squares, larger by the lag-one correlation of the residuals. The rate is that of the
     fit with g = 0. Columns are NaN in frames where they were not seen.
-
-    >>> at = np.arange(90) / 240
-    >>> clip = clip_rate(at, {"flap_deg": 40 * np.cos(2 * math.pi * 8.2 * at)})
-    >>> round(clip.rate, 2), round(clip.beats, 1), round(abs(clip.change), 3)
-    (8.2, 3.1, 0.0)
     """
     if "flap_deg" in columns:
         columns = {"flap_deg": columns["flap_deg"]}
@@ -133,22 +128,16 @@ def _peak(seen: list[tuple[Array, Array]], span: float, frames: int) -> float:
     return float(rates[best])
 
 
-def _columns(at: Array, turn: Array) -> tuple[Array, Array]:
-    """Return the model's columns at phases ``f t + g t^2/2``, and their derivatives with respect to the phase."""
-    angle = 2 * math.pi * (turn[0] * at + 0.5 * turn[1] * at**2)[:, None] * np.arange(1, _ORDERS + 1)
-    order = 2 * math.pi * np.arange(1, _ORDERS + 1)
-    cosines, sines = np.cos(angle), np.sin(angle)
-    ones = np.ones((len(at), 1))
-    return np.hstack([ones, cosines, sines]), np.hstack([0 * ones, -order * sines, order * cosines])
-
-
 def _linearised(seen: list[tuple[Array, Array]], turn: Array, steady: bool) -> tuple[Array, Array, float]:
     """Return residuals, their derivatives with respect to f (and g) projected off the columns, and correlation."""
     residuals, slopes, alike = [], [], []
+    order = 2 * math.pi * np.arange(1, _ORDERS + 1)
     for at, values in seen:
-        columns, rates = _columns(at, turn)
+        angle = 2 * math.pi * (turn[0] * at + 0.5 * turn[1] * at**2)[:, None] * np.arange(1, _ORDERS + 1)
+        ones, cosines, sines = np.ones((len(at), 1)), np.cos(angle), np.sin(angle)
+        columns = np.hstack([ones, cosines, sines])
         found, *_ = np.linalg.lstsq(columns, values, rcond=None)
-        left, speed = values - columns @ found, rates @ found
+        left, speed = values - columns @ found, np.hstack([0 * ones, -order * sines, order * cosines]) @ found
         slope = speed[:, None] * np.stack([at, 0.5 * at**2], axis=1)[:, : 1 if steady else 2]
         slope -= columns @ np.linalg.lstsq(columns, slope, rcond=None)[0]
         residuals.append(left)
@@ -220,23 +209,19 @@ class FilmedLaw(NamedTuple):
         return columns @ self.coefficients, np.sqrt(np.einsum("ni,ij,nj->n", columns, self.covariance, columns))
 
 
-def fit_law(phase: Array, values: Array) -> FilmedLaw:
-    """Fit a periodic smoothing spline; restricted maximum likelihood chooses the weight of the penalty."""
-    return _smoothed(fourier_columns(phase), values)
-
-
 def fit_travel(phase: Array, values: Array) -> tuple[float, FilmedLaw]:
     """Fit uniform travel plus such a spline; return the travel in a beat, and the spline. The phase counts on."""
-    found = _smoothed(np.hstack([(phase - phase.mean())[:, None], fourier_columns(phase)]), values)
+    found = fit_law(phase, values, (phase - phase.mean())[:, None])
     travel, waves = found.coefficients[0], found.coefficients[1:].copy()
     waves[0] -= travel * phase.mean()
     return float(travel), found._replace(coefficients=waves, covariance=found.covariance[1:, 1:])
 
 
-def _smoothed(columns: Array, values: Array) -> FilmedLaw:
-    """Fit values by columns; the penalty applies only to the last 14, which are of order 2 and up."""
+def fit_law(phase: Array, values: Array, *before: Array) -> FilmedLaw:
+    """Fit a periodic smoothing spline, and columns `before` it; the penalty is on orders 2 and up of the spline."""
     from scipy.optimize import minimize_scalar
 
+    columns = np.hstack([*before, fourier_columns(phase)])
     count, plain = len(values), columns.shape[1] - 2 * (HIGHEST_ORDER - 1)
     orders = np.repeat(np.arange(2, HIGHEST_ORDER + 1), 2)
     penalty = np.concatenate([np.zeros(plain), orders**2 * (orders**2 - 1.0) ** 2])

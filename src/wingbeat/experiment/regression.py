@@ -1,4 +1,4 @@
-"""Weighted least squares of one curve, with measures of how far to trust it."""
+"""Weighted least squares of one curve, with measures of how far to trust it; and of drag beside its fitted lift."""
 
 from __future__ import annotations
 
@@ -10,12 +10,11 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from wingbeat._base import Fault, FaultList, InvalidInputError
-from wingbeat.experiment.curve_forms import CurveForm
+from wingbeat.experiment.curve_forms import BENDS, Array, CurveForm, DragForm, any_terms, value_and_slopes
 
-Array = NDArray[np.float64]
 # Above this condition number, the scaled Jacobian loses half of its digits.
 ILL_CONDITIONED = 1e4
 # Parts of drag that a wing may not have, such as a section without induced drag: 0 is a value like others.
@@ -251,19 +250,14 @@ def fit_curve(
 
 
 def _check_data(a: Array, y: Array, errors: Array, form: CurveForm, label: str) -> None:
-    faults = FaultList()
     if not a.shape == y.shape == errors.shape or a.ndim != 1:
-        shapes = f"{a.shape}, {y.shape}, {errors.shape}"
-        faults.add(label, shapes, "angles, values and errors must be lists of equal length")
-        faults.raise_if_any()
+        rule = "angles, values and errors must be lists of equal length"
+        raise InvalidInputError([Fault(label, f"{a.shape}, {y.shape}, {errors.shape}", rule)])
+    faults = FaultList()
     for name, column in (("alpha_deg", a), (label, y), (f"{label}_se", errors)):
-        if not np.isfinite(column).all():
-            row = int(np.argmin(np.isfinite(column)))
-            faults.add(f"{name}[{row}]", float(column[row]), "must be finite", "drop the row")
-    if (errors <= 0).any():
-        row = int(np.argmax(errors <= 0))
-        fix = "give every row its standard error, or leave the column out"
-        faults.add(f"{label}_se[{row}]", float(errors[row]), "must be > 0: it sets the weight of the row", fix)
+        faults.first(name, column, ~np.isfinite(column), "must be finite", "drop the row")
+    fix = "give every row its standard error, or leave the column out"
+    faults.first(f"{label}_se", errors, errors <= 0, "must be > 0: it sets the weight of the row", fix)
     count, angles = len(form.names), len(np.unique(np.round(a, 6)))
     if len(y) < count + 2:
         rule = f"are too few for the {count} parameters of {form.formula}"
@@ -324,3 +318,66 @@ def distrust(fit: CurveFit) -> tuple[str, ...]:
             "parameters; measure over more angles, or choose a form with fewer parameters"
         )
     return tuple(notes)
+
+
+# --- a cambered wing ---
+
+
+def stall_notes(lift: CurveFit) -> tuple[str, ...]:
+    """Return notes on the sides whose stall the measurements of lift do not reach."""
+    terms, notes = lift.parameters, []
+    for angle, end, side in ((lift.alpha_deg.min(), "lift_lowest", -1), (lift.alpha_deg.max(), "lift_highest", 1)):
+        line = terms["lift_slope"] * math.radians(float(angle) - terms["zero_lift_deg"])
+        if side * (line - terms[end]) < 2 * BENDS["lift_rounding"]:
+            notes.append(
+                f"{lift.label}: at {angle:g} degrees, where the measurements end, lift has not levelled off; "
+                f"{end} depends on the assumed form, so measure farther on that side"
+            )
+    return tuple(notes)
+
+
+@dataclass(frozen=True)
+class DragFit(CurveFit):
+    """A fit of drag that depends on fitted lift; `covariance` includes the uncertainty of the lift.
+
+    `joint` is the covariance of the parameters in `joint_names`: those of lift, then those of drag.
+    """
+
+    joint_names: tuple[str, ...]
+    joint: Array
+
+    def curve_variance(self, alpha_deg: Array) -> Array:
+        """Return the variance of the curve itself, to first order in the parameters of lift and drag."""
+        slopes = _slopes(self, alpha_deg, self.joint_names)
+        return np.einsum("ij,jk,ik->i", slopes, self.joint, slopes)
+
+
+def _slopes(fit: CurveFit, alpha_deg: Array, names: tuple[str, ...]) -> Array:
+    """Return the derivatives of a fitted drag with respect to terms of lift and drag, shape (n, names)."""
+    assert isinstance(fit.form, DragForm)
+    terms = any_terms(fit.form.kind, fit.form.fixed | fit.parameters)
+    slopes = value_and_slopes(terms, alpha_deg, fit.form.curve)[1]
+    return np.column_stack([getattr(slopes, name) for name in names])
+
+
+def fit_drag(form: DragForm, lift: CurveFit, values: Array, sigma: Array | None, copies: int = 1) -> DragFit:
+    """Fit the drag of a cambered wing at its fitted lift, with a covariance that includes the uncertainty of lift.
+
+    If the terms of lift change by ``d``, those of drag follow by ``G d``, ``G = -(J^T W J)^-1 J^T W L``, where J
+    and L are the derivatives of drag with respect to its own terms and to those of lift. So if the errors of lift
+    and drag are independent, the covariance of all terms is ``[[V_l, V_l G^T], [G V_l, V_d + G V_l G^T]]``: Murphy
+    and Topel 1985, J. Bus. Econ. Stat. 3:370. Each measurement is `copies` times among the values: 2 if half of
+    them are a mirror image.
+    """
+    drag = fit_curve(lift.alpha_deg, values, form.beside(lift.parameters, lift.alpha_deg), sigma, "C_D")
+    own, other = tuple(drag.parameters), tuple(lift.parameters)
+    weighted = _slopes(drag, drag.alpha_deg, (*own, *other)) / drag.sigma[:, None]
+    sizes = np.maximum(np.linalg.norm(weighted, axis=0), 1e-300)
+    scaled = weighted / sizes
+    follow = -np.linalg.lstsq(scaled[:, : len(own)], scaled[:, len(own) :])[0]
+    follow *= sizes[len(own) :] / sizes[: len(own), None]
+    cross = follow @ lift.covariance
+    marginal = copies * drag.covariance + cross @ follow.T
+    joint = np.block([[lift.covariance, cross.T], [cross, marginal]])
+    found = DragFit(**vars(drag) | {"covariance": marginal}, joint_names=(*other, *own), joint=joint)
+    return dataclasses.replace(found, notes=distrust(found))

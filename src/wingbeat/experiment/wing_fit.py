@@ -19,10 +19,9 @@ from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.aero.model_file import KIND, Fitted, FittedCurve, FittedModel, FittedWing, read_model
 from wingbeat.aero.polar_sheet import zero_lift
 from wingbeat.experiment.coefficient_table import CoefficientTable
-from wingbeat.experiment.curve_forms import BoxForm, CurveForm
+from wingbeat.experiment.curve_forms import FORMS, BoxForm, CurveForm, DragForm, LiftForm, WingForm
 from wingbeat.experiment.judgement import failures, judge, model_failures
-from wingbeat.experiment.regression import CurveFit, fit_curve
-from wingbeat.experiment.wing_forms import FORMS, DragFit, DragForm, LiftForm, WingForm, fit_drag, stall_notes
+from wingbeat.experiment.regression import CurveFit, DragFit, fit_curve, fit_drag, stall_notes
 
 # A spline through steps of one degree stays within 1e-4 of a smooth polar.
 _STEP_DEG = 1.0
@@ -163,17 +162,14 @@ class WingFit:
 
     def _as_table(self) -> str:
         low, high = self.alpha_range_deg
-        faults = FaultList()
         if low > 0 or high < 90:
             rule = "does not cover 0 to 90 degrees, which a table model needs"
             fix = "measure farther, or fit a built-in form and save it as a model file (.toml)"
-            faults.add("alpha range", f"{low:g} to {high:g}", rule, fix)
-        faults.raise_if_any()
+            raise InvalidInputError([Fault("alpha range", f"{low:g} to {high:g}", rule, fix)])
         alpha = np.arange(0.0, math.floor(high / _STEP_DEG) + 0.5) * _STEP_DEG
         columns = [alpha, *(curve.predict(alpha) for curve in self.curves.values())]
-        if (columns[2] < 0).any():
-            faults.add("C_D", float(columns[2].min()), "the fitted drag is negative", "choose another form")
-        faults.raise_if_any()
+        if (least := float(columns[2].min())) < 0:
+            raise InvalidInputError([Fault("C_D", least, "the fitted drag is negative", "choose another form")])
         head = ["# " + self.citation, "alpha_deg,c_l,c_d" + ",x_cp" * (self.centre is not None)]
         rows = [",".join(f"{value:.10g}" for value in row) for row in zip(*columns, strict=True)]
         return "\n".join([*head, *rows]) + "\n"

@@ -7,10 +7,10 @@ process ends at once, whatever it is doing, because nobody would receive its ans
 from __future__ import annotations
 
 import faulthandler
-import importlib
 import json
 import os
 import pickle
+import pkgutil
 import queue
 import signal
 import subprocess
@@ -139,8 +139,7 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for whoever started this process
     collect_seldom()
     requests, speaker = _Requests(), _Speaker(settings["silence"])
-    module, _, function = settings["work"].partition(":")
-    work = getattr(importlib.import_module(module), function)
+    work = pkgutil.resolve_name(settings["work"])
     context = Context(lambda value: speaker.say("progress", value), requests.stopped)
     speaker.send(pickle.dumps(Message("ready")))
     while True:

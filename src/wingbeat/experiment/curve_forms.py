@@ -237,8 +237,6 @@ class LiftForm(BoxForm):
 
     def check(self, faults: FaultList, alpha_deg: Array, values: Array, label: str) -> None:
         """Note a fault if angles are too large, or if one side of the wing is not known."""
-        if not len(alpha_deg):
-            return
         low, high = float(alpha_deg.min()), float(alpha_deg.max())
         if max(-low, high) > FARTHEST_DEG:
             rule = f"reaches beyond {FARTHEST_DEG:g} degrees, where the form cambered does not hold"
@@ -259,9 +257,8 @@ class LiftForm(BoxForm):
         """Return the three best nodes of a grid of zero-lift angles and slopes, and the extremes of the data."""
         ends = {"lift_lowest": float(values.min()), "lift_highest": float(values.max())}
         zeros = np.linspace(np.median(alpha_deg[values < 0]), np.median(alpha_deg[values > 0]), _NODES)
-        found = [
-            {"zero_lift_deg": float(zero), "lift_slope": slope} | ends for zero, slope in product(zeros, _SLOPES)
-        ]
+        nodes = product(zeros, _SLOPES)
+        found = [{"zero_lift_deg": float(zero), "lift_slope": slope} | ends for zero, slope in nodes]
         left = [(self.value(alpha_deg, one) - values) * weight for one in found]
         best = np.argsort([float(one @ one) for one in left], kind="stable")
         return [found[i] for i in best[:3]]

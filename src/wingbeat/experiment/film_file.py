@@ -80,10 +80,9 @@ def read_film(path: str | Path, side: str = "both") -> Film:
     given = _constants(faults, sheet)
     if len(sheet.rows) > MAX_FRAMES:
         where = f"{sheet.file} row {sheet.rows[MAX_FRAMES][0]}"
-        rule = (
-            f"has more than {MAX_FRAMES} rows, 100 s at 1000 frames a second; no animal repeats a beat for longer"
-        )
-        faults.add(where, f"{len(sheet.rows)} frames", rule, "cut the clip")
+        rule = f"has more than {MAX_FRAMES} rows, 100 s at 1000 frames a second"
+        why = "no animal repeats a beat for longer"
+        faults.add(where, f"{len(sheet.rows)} frames", f"{rule}; {why}", "cut the clip")
     clocks = [name for _, name in sides if name in _CLOCKS]
     if set(name for _, name in sides) & set(BODY) and clocks == ["phase"]:
         rule = "has the path of a body but no times"
@@ -201,8 +200,7 @@ def _clock(
         raise InvalidInputError([Fault(rate.where, rate.value, rule, "correct the line or the times")])
     filmed = {name: columns[name] for name in FILMED if name in columns}
     clip = clip_rate(clock, filmed) if len(clock) >= _FEWEST_PAIRS else None
-    if clip is not None and not clip.clear:
-        clip = None
+    clip = clip if clip is not None and clip.clear else None
     if header is not None and clip is not None:
         _compare(header, frequency_se, clip, float(clock[-1] - clock[0]), counts, columns)
     elif header is None and (clip is None or clip.beats < MIN_BEATS):
@@ -292,8 +290,8 @@ def _mean_wing(
         if name == "flap_deg" and opposed < -0.5 * count * left[both].std() * right[both].std():
             rule = "falls where the left wing's rises: it seems to have the other sign"
             faults.add(f"{where}, right", f"{len(right)} frames", rule, "count both flap angles up positive")
-        shown = written(mean, error, unit)
-        notes.append(f"{where}: the mean of both wings; left minus right is {shown} on average")
+        shown = f"left minus right is {written(mean, error, unit)} on average"
+        notes.append(f"{where}: the mean of both wings; {shown}")
         least = _UNEQUAL * (1.0 if unit == "deg" else 0.01)
         for what, size in (("on average", mean), ("in amplitude", math.sqrt(2.0) * wider)):
             if abs(size) > max(least, SURE * error):

@@ -20,7 +20,7 @@ from wingbeat._base import HIGHEST_ORDER, Fault, FaultList, InvalidInputError
 from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat, span_ratio
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.experiment.film import FILMED, WHOLE, Film
-from wingbeat.experiment.periodic import Array, FilmedLaw, fit_law, fit_travel, fourier_columns, from_phase
+from wingbeat.experiment.periodic import Array, FilmedLaw, fit_law, fourier_columns, from_phase
 
 # How far below zero, in standard errors, noise may bring a retraction.
 _NOISE = 3.0
@@ -260,10 +260,7 @@ def fit_film(film: Film) -> FilmedBeat:
     >>> round(beat.numbers["flap_amplitude"], 2), round(beat.laws["flap_deg"].residual_sd, 1)
     (0.8, 1.0)
     """
-    faults, laws = FaultList(), {}
-    for name in (name for name in FILMED if name in film.columns):
-        phase, values = film.seen(name)
-        laws[name] = fit_law(phase, values)
+    faults, laws = FaultList(), {name: fit_law(*film.seen(name)) for name in FILMED if name in film.columns}
     if "flap_deg" in laws:
         where, once = f"{film.name}, flap_deg", math.hypot(*laws["flap_deg"].coefficients[1:3])
         size, rest = _amplitude(laws["flap_deg"]), laws["flap_deg"].residual_sd
@@ -376,8 +373,9 @@ def fit_body_path(
             if covered < _SHORTEST:
                 rule = f"covers only {covered:.2g} beats: too little to separate travel from periodic motion"
                 faults.add(f"{film.name}, column {name}", f"{len(phase)} frames", rule, "film a whole wingbeat")
-            travel, law = fit_travel(phase, values - values.mean())
-            series = law.coefficients
+            found = fit_law(phase, values - values.mean(), (phase - phase.mean())[:, None]).coefficients
+            travel, series = float(found[0]), found[1:].copy()
+            series[0] -= travel * phase.mean()
         velocity.append(travel * frequency)
         laws.append(series)
     faults.raise_if_any()

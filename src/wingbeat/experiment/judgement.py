@@ -91,9 +91,8 @@ def _of_reynolds(
         if found is not None and found.chance < _CHANCE / len(groups) and abs(found.size) > least:
             name = f"{low:.0f}" if low == high else f"{low:.0f} to {high:.0f}"
             way = "below" if found.size < 0 else "above"
-            words.append(
-                f"at Re {name} it lies {abs(found.size):.2g} {way} the other rows near {found.at_deg:.3g} deg"
-            )
+            lies = f"it lies {abs(found.size):.2g} {way} the other rows"
+            words.append(f"at Re {name} {lies} near {found.at_deg:.3g} deg")
     if not words:
         return []
     low, high = groups[int(np.argmax([len(rows) for rows in members]))]

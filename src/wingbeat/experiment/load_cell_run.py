@@ -348,10 +348,9 @@ def constant_notes(run: LoadCellRun) -> list[str]:
     of_air = 1.458e-6 * kelvin**1.5 / (kelvin + 110.4)
     is_dynamic = abs(run.viscosity / of_air - 1) < 0.04 and abs(run.viscosity * run.density / of_air - 1) > 0.08
     if 1.1 < run.density < 1.35 and is_dynamic:
-        right = of_air / run.density
         notes.append(
             f"{run.name}: the viscosity, {run.viscosity:g}, seems to be the dynamic one of air in Pa s; the "
-            f"kinematic one is {right:.3g} m2/s"
+            f"kinematic one is {of_air / run.density:.3g} m2/s"
         )
     return notes
 

@@ -209,14 +209,6 @@ class FilmedLaw(NamedTuple):
         return columns @ self.coefficients, np.sqrt(np.einsum("ni,ij,nj->n", columns, self.covariance, columns))
 
 
-def fit_travel(phase: Array, values: Array) -> tuple[float, FilmedLaw]:
-    """Fit uniform travel plus such a spline; return the travel in a beat, and the spline. The phase counts on."""
-    found = fit_law(phase, values, (phase - phase.mean())[:, None])
-    travel, waves = found.coefficients[0], found.coefficients[1:].copy()
-    waves[0] -= travel * phase.mean()
-    return float(travel), found._replace(coefficients=waves, covariance=found.covariance[1:, 1:])
-
-
 def fit_law(phase: Array, values: Array, *before: Array) -> FilmedLaw:
     """Fit a periodic smoothing spline, and columns `before` it; the penalty is on orders 2 and up of the spline."""
     from scipy.optimize import minimize_scalar

@@ -23,6 +23,8 @@ from wingbeat.experiment.load_cell_run import (
     constant_notes,
 )
 from wingbeat.experiment.steadiness import (
+    Array,
+    Spans,
     added_variance,
     refuse_rest,
     signal_notes,
@@ -111,14 +113,14 @@ class _Steady(NamedTuple):
     `zero_se` holds the standard errors of the zero at the middle of the window, as coefficients, shape (3,).
     """
 
-    time: NDArray[np.float64]
+    time: Array
     alpha_deg: float
-    loads: NDArray[np.float64]
-    zero_se: NDArray[np.float64]
+    loads: Array
+    zero_se: Array
     notes: list[str]
 
 
-def _steady(faults: FaultList, run: LoadCellRun, last: float, spans: list[tuple[float, float]]) -> _Steady:
+def _steady(faults: FaultList, run: LoadCellRun, last: float, spans: Spans) -> _Steady:
     """Return the window of a run without the zero; note a window at rest, and rest that is none."""
     raw = np.stack([getattr(run, name) for name in CHANNELS])
     force = 0.5 * run.density * run.speed**2 * run.chord * run.span
@@ -184,9 +186,7 @@ def _means(runs: list[LoadCellRun], steady: list[_Steady], zeroed: bool) -> list
     return means
 
 
-def _window(
-    run: LoadCellRun, last: float, spans: list[tuple[float, float]], moving: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
+def _window(run: LoadCellRun, last: float, spans: Spans, moving: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Return which samples are in the window: the last seconds of the part before, between or after the rest."""
     if not moving.any():
         where, value = f"{run.name}, rest", f"{spans[0][0]:g}:{spans[-1][1]:g}"
@@ -246,13 +246,11 @@ def reduce_runs(runs: Sequence[LoadCellRun], last: float = LAST_SECONDS, rest: I
     return _pooled(means, stream, point, tuple(notes))
 
 
-def _clusters(values: NDArray[np.float64], gap: float) -> NDArray[np.intp]:
+def _clusters(values: Array, gap: float) -> NDArray[np.intp]:
     """Return the cluster number of each value; a new cluster begins at a large step between sorted values."""
     order = np.argsort(values, kind="stable")
     number = np.concatenate([[0], np.cumsum(np.diff(values[order]) > gap)])
-    clusters = np.empty(len(values), dtype=np.intp)
-    clusters[order] = number
-    return clusters
+    return number[np.argsort(order)]
 
 
 def _pooled(
@@ -260,7 +258,7 @@ def _pooled(
 ) -> CoefficientTable:
     count = np.bincount(point)
 
-    def average(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def average(values: Array) -> Array:
         return np.bincount(point, values) / count
 
     value, sd, se, c_n, c_n_se, alpha, reynolds = (

@@ -265,7 +265,8 @@ def _check_data(a: Array, y: Array, errors: Array, form: CurveForm, label: str) 
     elif angles < count:
         rule = f"are too few to tell {count} parameters apart"
         faults.add(label, f"{angles} angles", rule, f"measure at {count} angles or more")
-    form.check(faults, a, y, label)
+    if len(y):
+        form.check(faults, a, y, label)
     faults.raise_if_any()
 
 

@@ -11,10 +11,12 @@ from wingbeat._base import FaultList
 from wingbeat.experiment.coefficient_table import QUANTITIES
 from wingbeat.experiment.load_cell_run import CHANNELS, LoadCellRun
 
+Array = NDArray[np.float64]
+Spans = list[tuple[float, float]]
 MIN_BLOCKS = 8
 
 
-def standard_error(series: NDArray[np.float64]) -> NDArray[np.float64]:
+def standard_error(series: Array) -> Array:
     """Return the standard error of the mean of each row of `series`, shape (..., n), by block means.
 
     The samples are averaged in blocks of B = 1, 2, 4, ... The standard error estimated from the block means grows
@@ -37,11 +39,11 @@ def standard_error(series: NDArray[np.float64]) -> NDArray[np.float64]:
     return found
 
 
-def _error_of_independent(blocks: NDArray[np.float64]) -> NDArray[np.float64]:
+def _error_of_independent(blocks: Array) -> Array:
     return blocks.std(axis=-1, ddof=1) / np.sqrt(blocks.shape[-1])
 
 
-def added_variance(values: NDArray[np.float64], errors: NDArray[np.float64], groups: NDArray[np.intp]) -> float:
+def added_variance(values: Array, errors: Array, groups: NDArray[np.intp]) -> float:
     """Return the variance between repeats that their own standard errors do not explain, one value for all groups.
 
     With ``w = 1/se^2``, their sum ``W`` in a group and ``Q = sum w (x - mean)^2``, the result is the moment
@@ -62,7 +64,6 @@ def added_variance(values: NDArray[np.float64], errors: NDArray[np.float64], gro
     return excess / float((total - np.bincount(groups, weight**2) / total).sum())
 
 
-Array = NDArray[np.float64]
 _BLOCKS = 16
 # Student's t with 14 degrees of freedom passes 4.5 by chance in one of 2000 channels; a step at the best of 15
 # places passes 7 in one of 10 000.
@@ -82,7 +83,7 @@ _REPEATED = 0.5
 _MOVING = 0.1
 
 
-def rest_spans(time: Array, force: Array) -> list[tuple[float, float]]:
+def rest_spans(time: Array, force: Array) -> Spans:
     """Return the intervals at the ends of a record in which the force, shape (2, n), is that of rest, if any."""
     size = max(time.size // _REST_BLOCKS, 1)
     count = time.size // size
@@ -234,9 +235,7 @@ def signal_notes(run: LoadCellRun, keep: NDArray[np.bool_], raw: Array) -> list[
     return notes
 
 
-def stated_rest(
-    faults: FaultList, run: LoadCellRun, spans: list[tuple[float, float]], raw: Array, flow: Array
-) -> tuple[Array, Array]:
+def stated_rest(faults: FaultList, run: LoadCellRun, spans: Spans, raw: Array, flow: Array) -> tuple[Array, Array]:
     """Return the channels' readings in intervals of rest [s] and their standard errors, shape (intervals, 3).
 
     An interval that is not at rest beside the mean force in the stream, `flow`, is noted.

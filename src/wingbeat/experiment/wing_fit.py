@@ -258,15 +258,14 @@ def fit_wing(
     return dataclasses.replace(found, failures=tuple(failed))
 
 
-def _fit(
-    table: CoefficientTable, label: str, form: CurveForm, rows: NDArray[np.bool_] | slice = slice(None)
-) -> CurveFit:
+Rows = NDArray[np.bool_] | slice
+
+
+def _fit(table: CoefficientTable, label: str, form: CurveForm, rows: Rows = slice(None)) -> CurveFit:
     return fit_curve(table.alpha_deg[rows], table.mean[label][rows], form, _sigma(table, label, rows), label)
 
 
-def _sigma(
-    table: CoefficientTable, label: str, rows: NDArray[np.bool_] | slice = slice(None)
-) -> NDArray[np.float64] | None:
+def _sigma(table: CoefficientTable, label: str, rows: Rows = slice(None)) -> NDArray[np.float64] | None:
     """Return the standard errors of a coefficient, or None where there are none."""
     errors = table.se.get(label)
     # Errors that are all 0 belong to computed data without noise.

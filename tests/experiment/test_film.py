@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.figures import check_legends
 from wingbeat.animal.kinematics import flap_angle, parameter, pitch_angle, span_ratio
 from wingbeat.cli.app import main
 from wingbeat.cli.filmed import plus_minus
@@ -217,6 +218,7 @@ def test_a_span_that_noise_puts_above_the_whole_is_the_whole():
 def test_the_page_shows_frames_spline_and_band():
     figure = film_page(fit_film(synthetic_film(RICH, 40, 1.0, columns=ALL)))
     assert len(figure.axes) == 6
+    check_legends(figure)
     assert "not filmed" in figure.get_suptitle()
     assert figure.axes[0].get_ylabel() == "flap angle, wing up [deg]"
 

@@ -6,6 +6,7 @@ import math
 import numpy as np
 import pytest
 
+from tests.helpers.figures import check_legends
 from tests.helpers.model_files import assert_refused
 from wingbeat._base import FileError, InvalidInputError
 from wingbeat.aero import (
@@ -29,6 +30,7 @@ from wingbeat.experiment import (
 )
 from wingbeat.experiment.campaign import true_coefficients
 from wingbeat.experiment.curve_forms import BoxForm, value_and_slopes
+from wingbeat.plots import fit_page
 
 ALPHA = np.arange(0.0, 111.0, 2.0)
 
@@ -49,6 +51,10 @@ def fit():
 def model(fit, tmp_path):
     fit.save(tmp_path / "mine.toml")
     return tmp_path / "mine.toml"
+
+
+def test_the_page_names_each_mark_once(fit):
+    assert len(check_legends(fit_page(fit))) == 3
 
 
 @pytest.mark.parametrize("name", ["dickinson", "wang", "byl", "parslew-crowther"])

@@ -8,6 +8,7 @@ import pytest
 import xarray as xr
 
 import wingbeat as wb
+from tests.helpers.figures import check_legends
 from wingbeat.cli import main
 from wingbeat.mechanics.glide import held_still
 
@@ -104,6 +105,7 @@ def test_lowered_wings_trim_what_the_body_cannot():
 
 def test_the_slowest_sink_and_the_flattest_path():
     polar = wb.glide_polar(PIGEON, trim="tail")
+    assert len(check_legends(wb.plots.glide_page(polar.dataset))) == 6
     sink, ratio = polar.least_sink, polar.best_ratio
     coefficients = wb.aero.SuFan()
     fine = np.radians(np.linspace(4.0, 12.0, 200_001))

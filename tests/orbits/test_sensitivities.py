@@ -9,6 +9,7 @@ import pytest
 from rich.console import Console
 
 import wingbeat as wb
+from tests.helpers.figures import check_legends
 from tests.helpers.hasty import make_hasty
 from wingbeat._base import InvalidInputError
 from wingbeat.aero.model_file import FittedCurve, FittedModel, FittedWing
@@ -158,7 +159,9 @@ def test_a_limit_that_binds_has_a_price():
     assert slopes.error_bar("mean_positive_power").set_by_limit
     assert not slopes.error_bar("frequency").set_by_limit
     compared = wb.uncertainty_by_samples(slopes, samples=10, share=0.02)
-    panels = wb.plots.tornado_page(slopes).axes
+    page = wb.plots.tornado_page(slopes)
+    assert check_legends(page) == ["low end of its range", "high end"]
+    panels = page.axes
     assert panels[1].get_xlabel() == "mean positive power: 46 W, set by the limit"
     assert max(abs(bar.get_width()) for bar in panels[0].patches) == pytest.approx(1.0)
     assert max(abs(bar.get_width()) for bar in panels[1].patches) == 0.0

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 import wingbeat as wb
+from tests.helpers.figures import check_legends
 from wingbeat._base.style import ALARM
 from wingbeat.plots import save_figure, wingbeat_page
 
@@ -193,6 +194,7 @@ def test_strokes_begin_at_the_marks(orbit, page):
 )
 def test_no_text_is_clipped_or_covered(orbit, flight, change):
     figure = wingbeat_page(change(orbit.dataset, flight))
+    check_legends(figure, most=7)
     found = texts_of(figure)
     width, height = figure.get_size_inches() * figure.dpi
     for text, box in found:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.figures import check_legends
 from tests.helpers.hasty import make_hasty
 from wingbeat._base import FileError, InvalidInputError, find, label_of, text_of
 from wingbeat.cli import main
@@ -255,8 +256,14 @@ def test_a_minimised_quantity_other_than_power_and_frequency_has_a_column():
 
 
 def test_such_a_quantity_has_a_panel_of_its_own(curve):
-    assert len(wb.plots.curve_page(curve.dataset).axes) == 2
+    page = wb.plots.curve_page(curve.dataset)
+    assert len(page.axes) == 2
+    entries = check_legends(page)
+    assert entries[0] == "best wingbeat"
+    assert "another kind of wingbeat takes over" in entries
+    assert not any("bound" in entry for entry in entries)
     other = wb.plots.curve_page(curve.dataset.assign_attrs(objective="metabolic_power"))
+    check_legends(other)
     labels = [axes.get_ylabel() for axes in other.axes]
     assert labels[1] == "metabolic power of the flight muscle [Hz]"
     best = next(line for line in other.axes[1].get_lines() if str(line.get_label()).startswith("best"))

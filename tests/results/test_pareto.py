@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.figures import check_legends
 from wingbeat._base import InvalidInputError
 from wingbeat.cli import main
 from wingbeat.plots import pareto_page
@@ -62,7 +63,9 @@ def test_a_limit_without_an_orbit_is_a_point_with_its_status(problem):
     assert record["points"][1]["status"] != "converged"
     assert record["points"][1]["quantity_value"] is None
     json.dumps(record, allow_nan=False)
-    assert len(pareto_page(record).axes) == 2
+    page = pareto_page(record)
+    assert len(page.axes) == 2
+    assert "limit that no orbit keeps" in check_legends(page)
 
 
 @pytest.mark.parametrize(

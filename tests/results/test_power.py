@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.figures import check_legends
 from tests.helpers.spent_power import spends_what_it_says
 from wingbeat.cli import main
 from wingbeat.plots import power_page
@@ -61,6 +62,7 @@ def test_the_commands_tell_and_draw_it(orbit, tmp_path, capsys, monkeypatch):
 
 def test_the_figure_shows_the_account(orbit):
     page, account = power_page(orbit.dataset), wb.power_account(orbit.dataset)
+    check_legends(page)
     shares, loop, costs = page.axes
     lines = {line.get_label(): line.get_ydata() for axes in (shares, loop) for line in axes.get_lines()}
     np.testing.assert_array_equal(lines["inertial share"], orbit.dataset["inertial_power"])

@@ -5,6 +5,7 @@ import json
 import pytest
 
 import wingbeat as wb
+from tests.helpers.figures import check_legends
 from wingbeat.cli import main
 from wingbeat.orbits.branches import SHARE, carry
 from wingbeat.plots import terms_page
@@ -59,6 +60,7 @@ def test_the_figure_tears_lines_where_the_branch_changes(trace):
     assert len(whole.axes[0].get_lines()) == 1
     torn = terms_page({**record, "marks": [{"kind": "branch", "lower": 0.5, "upper": 1.0, "what": ""}]})
     assert len(torn.axes[0].get_lines()) == 2
+    check_legends(torn)
 
 
 def test_share_scales_both_terms():

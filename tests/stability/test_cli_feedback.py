@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.figures import check_legends
 from wingbeat.cli import main
 from wingbeat.plots import gust_page
 from wingbeat.stability.gust_flights import fly_gust
@@ -72,8 +73,7 @@ def test_the_figure_shows_flights_and_shares(cruise, held):
     figure = gust_page(flights, title="Pigeon at 12 m/s")
     assert len(figure.axes) == 2
     assert figure.get_suptitle() == "Pigeon at 12 m/s"
-    labels = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert labels == ["no feedback", "feedback", "time of the gust"]
+    assert check_legends(figure) == ["no feedback", "feedback", "time of the gust"]
 
 
 def test_deviations_of_a_flight_are_from_the_orbit(cruise, held):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.figures import check_legends
 from wingbeat._jax.arrays import jnp
 from wingbeat.cli import main
 from wingbeat.plots import stability_page
@@ -57,11 +58,13 @@ def test_a_row_of_speeds_is_a_root_locus(capsys, tmp_path):
     assert drawn.read_bytes().startswith(b"\x89PNG")
     figure = stability_page(records)
     plane, sizes, bars = figure.axes
-    shown = sum(len(line.get_xdata()) for line in sizes.get_lines()[:-1])
+    shown = sum(len(line.get_xdata()) for line in sizes.get_lines())
     assert shown == sum(len(record["modes"]) for record in records)
     assert len(bars.patches) == 4 * len(records[1]["modes"])
     assert "real part" in plane.get_xlabel()
+    check_legends(figure)
     alone = stability_page(records[:1])
+    check_legends(alone)
     assert alone.axes[1].get_xlabel() == "time [s]"
 
 

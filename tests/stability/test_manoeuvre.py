@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.figures import check_legends
 from tests.helpers.reflight import refly
 from wingbeat._base import InvalidInputError
 from wingbeat.cli import main
@@ -203,6 +204,7 @@ def test_the_record_and_the_page(plan):
     assert np.shape(record["gains"]) == (33, 5, 5)
     figure = manoeuvre_page(plan, {"with feedback": plan.fly(after=2)})
     assert len(figure.axes) == 4
+    check_legends(figure)
     assert all(axes.get_xlabel() == "time [s]" for axes in figure.axes)
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.figures import check_legends
 from tests.helpers.notebooks import check_figure, check_table
 
 
@@ -63,6 +64,7 @@ def test_a_survey_shows_the_shares(survey):
     assert table["survived.held"].mean() == survey.share("held")
     assert np.array_equal(table["direction"], survey.direction)
     check_figure(survey.plot())
+    check_legends(survey.plot())
 
 
 @pytest.mark.slow

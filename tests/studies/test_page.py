@@ -4,6 +4,7 @@ import pandas as pd
 import pytest
 
 import wingbeat as wb
+from tests.helpers.figures import check_legends
 from wingbeat.plots import study_page
 from wingbeat.studies.table import varied_numbers
 
@@ -25,16 +26,18 @@ def page(frame, *varied):
 
 
 def test_one_parameter_is_lines_with_failures_at_the_foot():
-    (axes,) = page(table([4.0, 6.0, 8.0], [0.01], failing=[8.0]), "speed").axes
+    figure = page(table([4.0, 6.0, 8.0], [0.01], failing=[8.0]), "speed")
+    (axes,) = figure.axes
     assert (axes.get_xlabel(), axes.get_ylabel()) == ("speed [m/s]", "least frequency [Hz]")
-    assert [t.get_text() for t in axes.get_legend().get_texts()] == ["Su-Fan", "not certified", "Dickinson"]
-    assert [list(line.get_xdata()) for line in axes.get_lines()] == [[4.0, 6.0, 8.0], [8.0]] * 2
+    assert check_legends(figure) == ["Su-Fan", "Dickinson", "not certified"]
+    assert [list(line.get_xdata()) for line in axes.get_lines()] == [*[[4.0, 6.0, 8.0]] * 2, [8.0, 8.0]]
 
 
 @pytest.mark.parametrize("whole", [True, False])
 def test_two_parameters_are_maps(whole):
     frame = table([4.0, 6.0, 8.0], [0.01, 0.02], failing=[8.0])
     figure = page(frame if whole else frame.drop(index=[0]), "speed", "wing.mass")
+    assert check_legends(figure) == ["not certified"]
     maps = [axes for axes in figure.axes if axes.get_xlabel()]
     assert [axes.get_title() for axes in maps] == ["Su-Fan", "Dickinson"]
     assert all((a.get_xlabel(), a.get_ylabel()) == ("speed [m/s]", "mass of one wing [kg]") for a in maps)
@@ -68,8 +71,8 @@ def test_points_that_wait_are_counted_and_are_no_failures():
     frame = table([4.0, 6.0, 8.0], [0.01], failing=[8.0])
     frame.loc[frame["speed"] == 6.0, "status"] = "waiting"
     figure = page(frame, "speed")
-    assert figure.get_suptitle() == "2 of 6 points certified, 2 not solved yet"
-    assert [list(line.get_xdata()) for line in figure.axes[0].get_lines()] == [[4.0, 8.0], [8.0]] * 2
+    assert figure.get_suptitle() == "Least frequency: 2 of 6 points certified, 2 not solved yet"
+    assert [list(line.get_xdata()) for line in figure.axes[0].get_lines()] == [*[[4.0, 8.0]] * 2, [8.0, 8.0]]
 
 
 def test_of_a_list_of_numbers_those_that_differ_are_drawn():

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from wingbeat._base import heading
 from wingbeat._base.style import (
     BLUE,
     COLUMN,
@@ -21,13 +22,12 @@ from wingbeat._base.style import (
     letter_panels,
     new_figure,
 )
-from wingbeat.experiment import CurveFit, FilmedBeat, WingFit
+from wingbeat.experiment import FilmedBeat, WingFit
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_POINTS = BLUE
+_BAND: dict[str, Any] = {"color": VERMILION, "alpha": 0.3, "linewidth": 0}
 # More panels side by side than these are too narrow to read.
 _ACROSS = 4
 _FILM_LABELS = {
@@ -46,7 +46,7 @@ def film_page(beat: FilmedBeat) -> Figure:
     """Return a figure with a panel for each column that was filmed.
 
     Points are the frames, folded into one wingbeat. The curve is the spline with its 95 % band. The panel below
-    shows the residuals of the frames, with two standard deviations of a frame.
+    shows the residuals of the frames, with two standard deviations of a frame, which hold 95 % of them.
 
     Parameters
     ----------
@@ -65,15 +65,14 @@ def film_page(beat: FilmedBeat) -> Figure:
         value, error = law.curve(phase)
         seen, frames = beat.film.seen(name)
         residual = frames - law.curve(seen)[0]
-        above.fill_between(
-            phase, value - 2 * error, value + 2 * error, color=VERMILION, alpha=0.3, linewidth=0, label="95 % band"
-        )
+        above.fill_between(phase, value - 2 * error, value + 2 * error, label="95 % band of the curve", **_BAND)
         above.plot(phase, value, color=VERMILION, label="periodic spline")
-        look = {"color": _POINTS, "marker": "o", "markersize": 3, "markerfacecolor": "none", "linestyle": ""}
+        look = {"color": BLUE, "marker": "o", "markersize": 3, "markerfacecolor": "none", "linestyle": ""}
         above.plot(seen % 1.0, frames, **look, label="frames")
         below.plot(seen % 1.0, residual, **look)
-        below.axhspan(-2 * law.residual_sd, 2 * law.residual_sd, color="0.9", zorder=0, label="±2 sd of a frame")
-        below.fill_between(phase, -2 * error, 2 * error, color=VERMILION, alpha=0.3, linewidth=0)
+        spread: dict[str, Any] = {"color": "0.9", "zorder": 0, "label": "95 % of frames"}
+        below.axhspan(-2 * law.residual_sd, 2 * law.residual_sd, **spread)
+        below.fill_between(phase, -2 * error, 2 * error, **_BAND)
         below.axhline(0.0, color=VERMILION)
         above.set_ylabel(_FILM_LABELS[name])
         unit = "deg" if name.endswith("_deg") else "-"
@@ -85,7 +84,7 @@ def film_page(beat: FilmedBeat) -> Figure:
     letter_panels(pairs[: len(columns), 0])
     legend_below(figure, grid[:2, 0], columns=4 if len(columns) > 1 else 2)
     label = ": synthetic, not filmed" if beat.film.synthetic else ""
-    figure.suptitle(beat.film.name + label, fontsize=8)
+    figure.suptitle(heading(beat.film.name) + label, fontsize=8, parse_math=False)
     return figure
 
 
@@ -114,45 +113,37 @@ def fit_page(fit: WingFit) -> Figure:
     figure = new_figure(PAGE, 20.0 + 63.0 * rows)
     panels = figure.subplots(rows, 2, sharex=True, squeeze=False).ravel()
     for axes, name in zip(panels, shown, strict=False):
-        _draw_data(axes, fit, name)
+        error = fit.table.se.get(name)
+        for label, rows, (colour, mark) in _streams(fit):
+            bars, more = (None, "") if error is None else (2 * error[rows], ", ±2 s.e.")
+            look: dict[str, Any] = {"color": colour, "marker": mark, "markersize": 3, "linestyle": ""}
+            look |= {"markerfacecolor": "none", "markeredgewidth": 0.7, "elinewidth": 0.7, "label": label + more}
+            axes.errorbar(fit.table.alpha_deg[rows], fit.table.mean[name][rows], bars, zorder=2, **look)
         if name in fit.curves:
-            _draw_curve(axes, fit.curves[name])
-        elif name == "C_M":
-            _draw_moment(axes, fit)
+            curve = fit.curves[name]
+            alpha = np.linspace(curve.alpha_deg.min(), curve.alpha_deg.max(), 801)
+            value, reach = curve.predict(alpha), curve.band(alpha)
+            band = {**_BAND, "alpha": 0.25, "label": "95 % of new points"}
+            axes.fill_between(alpha, value - reach, value + reach, zorder=1, **band)
+            axes.plot(alpha, value, color=VERMILION, label="fit", zorder=3)
+            if np.isfinite(curve.r_squared):  # cut rather than rounded, so that 0.99996 is not shown as 1
+                shown_fit = f"$R^2$ = {np.floor(curve.r_squared * 1e4) / 1e4:.4f}"
+                axes.set_title(shown_fit, loc="right", fontsize=FONT)
+        elif name == "C_M" and fit.centre is not None:
+            alpha = np.linspace(fit.centre.alpha_deg.min(), fit.centre.alpha_deg.max(), 801)
+            axes.plot(alpha, fit.moment(alpha), color=VERMILION, linestyle="--", zorder=3, label="from the fits")
         if name != "x_cp":  # x_cp is never near 0; with 0 on the axis, its curve would look flat
             axes.axhline(0.0, color="0.6", linewidth=0.6, zorder=0)
         axes.grid()
-        axes.set(ylabel=_LABELS[name])
+        axes.set(ylabel=_LABELS[name], xlabel=r"angle of attack $\alpha$ [deg]")
         axes.tick_params(labelbottom=True)
     for axes in panels[len(shown) :]:
         axes.set_axis_off()
-    for axes in panels[: len(shown)]:
-        axes.set_xlabel(r"angle of attack $\alpha$ [deg]")
     letter_panels(panels[: len(shown)])
-    figure.suptitle(f"{fit.name}: form {fit.form}" + (f"; {fit.citation}" if fit.citation else ""), fontsize=8)
+    source = f"; {fit.citation}" if fit.citation else ""
+    figure.suptitle(f"{fit.name}: curves of the form {fit.form}{source}", fontsize=8, parse_math=False)
     legend_below(figure, panels[: len(shown)])
     return figure
-
-
-def _draw_data(axes: Axes, fit: WingFit, name: str) -> None:
-    table = fit.table
-    values, errors = table.mean[name], table.se.get(name)
-    for label, rows, (colour, mark) in _streams(fit):
-        bars = None if errors is None else 2 * errors[rows]
-        axes.errorbar(
-            table.alpha_deg[rows],
-            values[rows],
-            bars,
-            color=colour,
-            marker=mark,
-            markersize=3,
-            markerfacecolor="none",
-            markeredgewidth=0.7,
-            linestyle="",
-            elinewidth=0.7,
-            label=label + ("" if errors is None else ", ±2 s.e."),
-            zorder=2,
-        )
 
 
 def _streams(fit: WingFit) -> list[tuple[str, Any, tuple[str, str]]]:
@@ -167,34 +158,4 @@ def _streams(fit: WingFit) -> list[tuple[str, Any, tuple[str, str]]]:
     count = int(group.max()) + 1
     if count > len(_STREAMS):
         return [(f"measured, Re {reynolds.min():.0f} to {reynolds.max():.0f}", slice(None), _STREAMS[0])]
-    return [(f"Re {reynolds[group == k].mean():.0f}", group == k, _STREAMS[k]) for k in range(count)]
-
-
-def _draw_curve(axes: Axes, curve: CurveFit) -> None:
-    alpha = np.linspace(curve.alpha_deg.min(), curve.alpha_deg.max(), 801)
-    value, reach = curve.predict(alpha), curve.band(alpha)
-    axes.fill_between(
-        alpha,
-        value - reach,
-        value + reach,
-        color=VERMILION,
-        alpha=0.25,
-        linewidth=0,
-        label="95 % of new points",
-        zorder=1,
-    )
-    axes.plot(alpha, value, color=VERMILION, label="fit", zorder=3)
-    axes.set_title(f"$R^2$ = {_shown(curve.r_squared)}", loc="right", fontsize=FONT)
-
-
-def _shown(r_squared: float) -> str:
-    """Return R-squared, truncated rather than rounded, so that 0.99996 is not shown as 1."""
-    return f"{np.floor(r_squared * 1e4) / 1e4:.4f}" if np.isfinite(r_squared) else "-"
-
-
-def _draw_moment(axes: Axes, fit: WingFit) -> None:
-    if fit.centre is None:
-        return
-    angles = fit.centre.alpha_deg
-    alpha = np.linspace(angles.min(), angles.max(), 801)
-    axes.plot(alpha, fit.moment(alpha), color=VERMILION, linestyle="--", zorder=3, label="from the fits")
+    return [(f"measured, Re {reynolds[group == k].mean():.0f}", group == k, _STREAMS[k]) for k in range(count)]

@@ -12,21 +12,22 @@ from wingbeat._base.style import (
     FIRST,
     GREEN,
     PAGE,
+    PURPLE,
     SECOND,
+    THIRD,
     VERMILION,
     drawing,
-    legend_above,
+    legend_below,
     letter_panels,
     new_figure,
 )
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_LINE: dict[str, Any] = {**FIRST, "marker": ".", "markersize": 3}
 _MARKS = {"least_sink": ("slowest sink", "o", VERMILION), "best_ratio": ("flattest glide", "s", GREEN)}
+_TAIL: dict[str, Any] = {"color": PURPLE, "linestyle": (0, (6, 1, 1, 1))}
 
 
 def glide_page(dataset: xr.Dataset) -> Figure:
@@ -40,51 +41,39 @@ def glide_page(dataset: xr.Dataset) -> Figure:
     ------
     InvalidInputError : the dataset is not a glide polar.
     """
-    faults = FaultList()
-    if dataset.attrs.get("wingbeat_kind") != "glide":
-        faults.add("dataset", dataset.attrs.get("wingbeat_kind"), "is no glide polar", "give GlidePolar.dataset")
+    faults, about = FaultList(), dataset.attrs
+    if about.get("wingbeat_kind") != "glide":
+        faults.add("dataset", about.get("wingbeat_kind"), "is no glide polar", "give GlidePolar.dataset")
     faults.raise_if_any()
     speed = dataset["speed"].values
     with drawing():
         figure = new_figure(PAGE, 137.0)
-        figure.suptitle(_title(dataset), fontsize=9, parse_math=False)
-        sink, ratio, angles, torques = figure.subplots(2, 2, sharex=True).flat
-        sink.plot(speed, dataset["sink"].values, **_LINE)
+        all_axes = sink, ratio, angles, torques = figure.subplots(2, 2, sharex=True).ravel()
+        for axes, name, label in ((sink, "sink", "sinking speed [m/s]"), (ratio, "glide_ratio", "glide ratio [-]")):
+            axes.plot(speed, dataset[name].values, color="k")
+            axes.set(ylabel=label)
+            for best, (words, marker, color) in _MARKS.items():
+                glide = json.loads(about[best])
+                if glide is not None:
+                    told = f"{words}: {glide['sink']:.3g} m/s, ratio {glide['glide_ratio']:.3g}"
+                    told += f", at {glide['speed']:.3g} m/s"
+                    axes.plot(glide["speed"], glide[name], marker, color=color, markersize=5, label=told, zorder=3)
         sink.invert_yaxis()
-        sink.set(ylabel="sinking speed [m/s]")
-        ratio.plot(speed, dataset["glide_ratio"].values, **_LINE)
-        ratio.set(ylabel="glide ratio [-]")
-        for axes, name in ((sink, "sink"), (ratio, "glide_ratio")):
-            _mark(axes, dataset, name)
         alpha, pitch = (np.degrees(dataset[name].values) for name in ("angle_of_attack", "body_pitch"))
-        angles.plot(speed, alpha, label="angle of attack α", **_LINE)
+        angles.plot(speed, alpha, label="angle of attack α", **FIRST)
         angles.plot(speed, pitch, label="body pitch ψ", **SECOND)
         angles.set(ylabel="angle [deg]", xlabel="speed [m/s]")
-        torques.plot(speed, dataset["flap_torque"].values, label="flap torque that holds both wings", **_LINE)
-        torques.plot(speed, dataset["tail_moment"].values, label="moment needed from a tail", **SECOND)
+        torques.plot(speed, dataset["flap_torque"].values, label="flap torque that holds both wings", **THIRD)
+        torques.plot(speed, dataset["tail_moment"].values, label="moment needed from a tail", **_TAIL)
         torques.set(ylabel="torque, moment [N m]", xlabel="speed [m/s]")
-        for axes, columns in ((sink, 1), (angles, 2), (torques, 1)):
-            legend_above(axes, columns=columns)
-        for axes in figure.axes:
+        for axes in all_axes:
             axes.grid()
-        letter_panels(figure.axes)
+        letter_panels(all_axes)
+        legend_below(figure, all_axes, columns=2)
+        count, asked = int(dataset["trimmed"].sum()), dataset.sizes["angle_of_attack"]
+        where = "" if count == asked else f" at {count} of {asked} angles"
+        coefficients = in_words(json.loads(about["aero"])["coefficients"])
+        title = f"{heading(about['species'])} gliding, wings held still, {coefficients} coefficients"
+        title += f"; pitching moment balanced{where}"
+        figure.suptitle(title, fontsize=8.5, parse_math=False)
     return figure
-
-
-def _mark(axes: Axes, dataset: xr.Dataset, name: str) -> None:
-    for best, (label, marker, color) in _MARKS.items():
-        glide = json.loads(dataset.attrs[best])
-        if glide is not None:
-            told = (
-                f"{label}: {glide['sink']:.3g} m/s, ratio {glide['glide_ratio']:.3g}, at {glide['speed']:.3g} m/s"
-            )
-            axes.plot(glide["speed"], glide[name], marker, color=color, markersize=5, label=told, zorder=3)
-
-
-def _title(dataset: xr.Dataset) -> str:
-    about = dataset.attrs
-    aero = json.loads(about["aero"])
-    count, all_ = int(dataset["trimmed"].sum()), dataset.sizes["angle_of_attack"]
-    trimmed = "trimmed" if count == all_ else f"trimmed at {count} of {all_} angles"
-    coefficients = in_words(aero["coefficients"])
-    return f"{heading(about['species'])} gliding, wings held still, {coefficients} coefficients; {trimmed}"

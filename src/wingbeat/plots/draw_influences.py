@@ -21,7 +21,6 @@ from wingbeat._base.style import (
     VERMILION,
     drawing,
     dress,
-    legend_above,
     legend_below,
     letter_panels,
     new_figure,
@@ -75,42 +74,35 @@ def tornado_page(found: _Ranked) -> Figure:
         title = (
             f"{heading(problem.species.name)} at {problem.speed:g} m/s, minimum {in_words(problem.minimise.name)}"
         )
-        figure.suptitle(title, fontsize=8, parse_math=False)
+        figure.suptitle(f"{title}: which uncertain numbers matter most", fontsize=8, parse_math=False)
         panels = figure.subplots(1, len(found.values), squeeze=False)[0]
         for panel, name in zip(panels, found.values, strict=True):
-            _draw_swings(panel, found, name)
+            ranked = [s for s in found.ranked(name) if s.parameter.plausible is not None][:_MOST_RANKED]
+            largest = max((abs(end) for slope in ranked for end in found.swing(slope, name)), default=0.0) or 1.0
+            label = f"change of {in_words(name)} / largest [-]"
+            if name in found.limited:
+                # Its changes are rounding; as shares of the largest they would look like an answer.
+                largest = math.inf
+                label = f"{in_words(name)}: {written(found.values[name], unit=found.units[name])}, set by the limit"
+                panel.set_xticks([])
+            for row, slope in enumerate(ranked):
+                low, high = found.swing(slope, name)
+                for change, color, end in ((low, BLUE, "low end of its range"), (high, VERMILION, "high end")):
+                    panel.barh(row, change / largest, height=0.7, color=color, label=end if row == 0 else None)
+            panel.spines["left"].set_visible(False)
+            panel.axvline(0.0, color="0.2", linewidth=0.8)
+            names = [textwrap.fill(label_of(s.parameter.path), _LETTERS, break_on_hyphens=False) for s in ranked]
+            panel.set_yticks(range(len(ranked)), names)
+            panel.tick_params(axis="y", length=0)
+            panel.invert_yaxis()
+            panel.margins(y=0.01)
+            panel.set_xlabel(label)
         letter_panels(panels)
         legend_below(figure, panels[0], columns=2)
     return figure
 
 
-def _draw_swings(panel: Any, found: _Ranked, name: str) -> None:
-    ranked = [s for s in found.ranked(name) if s.parameter.plausible is not None][:_MOST_RANKED]
-    largest = max((abs(end) for slope in ranked for end in found.swing(slope, name)), default=0.0) or 1.0
-    label = f"change of {in_words(name)} / largest [-]"
-    if name in found.limited:
-        # Its changes are rounding; as shares of the largest they would look like an answer.
-        largest = math.inf
-        label = f"{in_words(name)}: {written(found.values[name], unit=found.units[name])}, set by the limit"
-    for row, slope in enumerate(ranked):
-        low, high = found.swing(slope, name)
-        for change, color, end in ((low, BLUE, "low end of the range"), (high, VERMILION, "high end")):
-            panel.barh(row, change / largest, height=0.7, color=color, label=end if row == 0 else None)
-    panel.spines["left"].set_visible(False)
-    panel.axvline(0.0, color="0.2", linewidth=0.8)
-    panel.set_yticks(
-        range(len(ranked)),
-        [textwrap.fill(label_of(s.parameter.path), _LETTERS, break_on_hyphens=False) for s in ranked],
-    )
-    panel.tick_params(axis="y", length=0)
-    panel.invert_yaxis()
-    panel.margins(y=0.01)
-    panel.set_xlabel(label)
-
-
-# Bound of the shaded values of a quantity, for which a disturbance decays.
-_DECAYS = {"spectral_radius": 1.0}
-_AXES = ("quantity", "objective")
+_KINDS = ("objective", "quantity")
 _CHANGING = {"frequency": (GREEN, "^"), "mean_positive_power": (VERMILION, "s")}
 
 
@@ -126,56 +118,46 @@ def pareto_page(record: dict[str, Any]) -> Figure:
     record : of `ParetoFront.record`.
     """
     figure = new_figure(PAGE, 76.0)
-    minimised, limited = (in_words(record[kind]) for kind in ("objective", "quantity"))
+    minimised, limited = (in_words(record[kind]) for kind in _KINDS)
     where = f"{heading(record['species'])} at {record['speed']:g} m/s{climb_text(record['climb'])}"
     figure.suptitle(f"{where}: least {minimised} for each limit of the {limited}", fontsize=8.5)
     front, changes = figure.subplots(1, 2)
-    _draw_front(front, record)
-    _draw_changes(changes, record)
-    for axes in (front, changes):
-        if record["quantity"] in _DECAYS:
-            left, right = axes.get_xlim()
-            axes.axvspan(left, _DECAYS[record["quantity"]], color=SHADE, linewidth=0, zorder=0, label="decays")
-            axes.set_xlim(left, right)
-    letter_panels(figure.axes)
-    legend_below(figure, [front, changes], columns=4)
-    return figure
-
-
-def _draw_front(axes: Axes, record: dict[str, Any]) -> None:
     good = [point for point in record["points"] if point["quantity_value"] is not None]
-    looks: dict[str, dict[str, Any]] = {
-        "best orbits": {"color": BLUE, "marker": "o", "linewidth": 1.0},
-        "dominated": {"linestyle": "none", "marker": "o", "mfc": "none", "mec": GREY},
-        "without limit": {"linestyle": "none", "marker": "D", "color": "k"},
+    groups: dict[str, tuple[list[Any], dict[str, Any]]] = {
+        "best orbits": (
+            [p for p in good if not p["dominated"]],
+            {"color": BLUE, "linestyle": "-", "linewidth": 1.0},
+        ),
+        "dominated by another": ([p for p in good if p["dominated"]], {"mfc": "none", "mec": GREY}),
+        "without limit": ([p for p in good if p["limit"] is None], {"marker": "D", "color": "k"}),
     }
-    groups = {
-        "best orbits": [point for point in good if not point["dominated"]],
-        "dominated": [point for point in good if point["dominated"]],
-        "without limit": [point for point in good if point["limit"] is None],
-    }
-    for label, points in groups.items():
+    for label, (points, look) in groups.items():
         if points:
-            at, objective = (_values(points, f"{kind}_value", record[f"{kind}_unit"]) for kind in _AXES)
-            axes.plot(at, objective, ms=3.5, label=label, **looks[label])
+            objective, at = (_values(points, f"{kind}_value", record[f"{kind}_unit"]) for kind in _KINDS)
+            front.plot(at, objective, label=label, **{"marker": "o", "linestyle": "none", "ms": 3.5} | look)
     missed = [p for p in record["points"] if p["quantity_value"] is None and p["limit"] is not None]
     if missed:
         limits = _values(missed, "limit", record["quantity_unit"])
-        bottom = np.full(len(missed), axes.get_ylim()[0])
-        axes.plot(limits, bottom, "x", color=VERMILION, ms=4, clip_on=False, label="limit without an orbit")
-    dress(axes, *(_label(record, kind) for kind in _AXES))
-
-
-def _draw_changes(axes: Axes, record: dict[str, Any]) -> None:
+        bottom = np.full(len(missed), front.get_ylim()[0])
+        front.plot(limits, bottom, "x", color=VERMILION, ms=4, clip_on=False, label="limit that no orbit keeps")
+    dress(front, _label(record, "quantity"), _label(record, "objective"))
     best = [p for p in record["points"] if p["quantity_value"] is not None and not p["dominated"]]
     free = record["points"][0]
     for name, (colour, mark) in _CHANGING.items():
         if free["quantity_value"] is not None and best:
             rise = [100.0 * (point[name] / free[name] - 1.0) for point in best]
             at = _values(best, "quantity_value", record["quantity_unit"])
-            axes.plot(at, rise, color=colour, marker=mark, ms=3.5, linewidth=1.0, label=in_words(name))
-    axes.axhline(0.0, color=GREY, linewidth=0.6)
-    dress(axes, _label(record, "quantity"), "change from the orbit without limit [%]")
+            changes.plot(at, rise, color=colour, marker=mark, ms=3.5, linewidth=1.0, label=in_words(name))
+    changes.axhline(0.0, color=GREY, linewidth=0.6)
+    dress(changes, _label(record, "quantity"), "change from the orbit without limit [%]")
+    for axes in (front, changes):
+        if record["quantity"] == "spectral_radius":
+            left, right = axes.get_xlim()
+            axes.axvspan(left, 1.0, color=SHADE, linewidth=0, zorder=0, label="disturbances decay")
+            axes.set_xlim(left, right)
+    letter_panels(figure.axes)
+    legend_below(figure, [front, changes], columns=5)
+    return figure
 
 
 def _values(points: list[dict[str, Any]], name: str, unit: str) -> np.ndarray:
@@ -188,7 +170,11 @@ def _label(record: dict[str, Any], kind: str) -> str:
 
 
 _TERMS = {"unsteady": ("rotation", "added mass"), "inflow": ("induced flow",)}
-_PARTS = {"profile": FIRST, "induced": SECOND, "unsteady": THIRD}
+_PARTS = {
+    "profile": ("spent on profile drag", FIRST),
+    "induced": ("spent on induced drag", SECOND),
+    "unsteady": ("spent on unsteady terms", THIRD),
+}
 
 
 def terms_page(record: dict[str, Any]) -> Figure:
@@ -209,16 +195,16 @@ def terms_page(record: dict[str, Any]) -> Figure:
         figure.suptitle(title, fontsize=8.5, parse_math=False)
         frequency, amplitude, power = figure.subplots(1, 3)
         runs = _runs(record)
-        _draw_line(frequency, runs, lambda point: point["wingbeat"]["frequency"], "frequency [Hz]")
-        amplitude_of = "flap amplitude [deg]"
-        _draw_line(amplitude, runs, lambda point: math.degrees(point["wingbeat"]["flap_amplitude"]), amplitude_of)
-        for part, look in _PARTS.items():
-            _draw_line(
-                power, runs, lambda point, part=part: point["spent"][part], "mean power [W]", label=part, **look
-            )
-        _draw_line(power, runs, lambda point: point["mean_actuator_power"], "mean power [W]", label="all actuators")
-        legend_above(power, columns=2)
+        _draw_line(frequency, runs, lambda point: point["wingbeat"]["frequency"])
+        _draw_line(amplitude, runs, lambda point: math.degrees(point["wingbeat"]["flap_amplitude"]))
+        for part, (label, look) in _PARTS.items():
+            _draw_line(power, runs, lambda point, part=part: point["spent"][part], label=label, **look)
+        _draw_line(power, runs, lambda point: point["mean_actuator_power"], label="all actuators")
+        labels = ("frequency [Hz]", "flap amplitude [deg]", "mean power [W]")
+        for axes, label in zip(figure.axes, labels, strict=True):
+            axes.set(xlabel="share of the terms [-]", ylabel=label, xlim=(-0.03, 1.03))
         letter_panels(figure.axes)
+        legend_below(figure, power)
     return figure
 
 
@@ -234,12 +220,10 @@ def _runs(record: dict[str, Any]) -> list[list[dict[str, Any]]]:
     return [run for run in runs if run]
 
 
-def _draw_line(axes: Axes, runs: Any, of: Any, label_of_axis: str, label: str = "", **look: Any) -> None:
+def _draw_line(axes: Axes, runs: Any, of: Any, label: str = "_", **look: Any) -> None:
     look = {"color": "k", "marker": "o", "ms": 3, **look}
     for number, run in enumerate(runs):
-        (line,) = axes.plot([point["share"] for point in run], [of(point) for point in run], **look)
-        if label and number == 0:
-            line.set_label(label)
+        named = label if number == 0 else "_"
+        axes.plot([point["share"] for point in run], [of(point) for point in run], label=named, **look)
     highest = max([0.0, *(of(point) for run in runs for point in run)])
-    axes.set(xlabel="share of the terms [-]", ylabel=label_of_axis, xlim=(-0.03, 1.03))
     axes.set_ylim(min(0.0, axes.get_ylim()[0]), max(1.08 * highest, axes.get_ylim()[1]))

@@ -10,16 +10,14 @@ import numpy as np
 
 from wingbeat._base import heading, in_words
 from wingbeat._base.style import (
-    BLUE,
     FIRST,
-    GREEN,
     GREY,
     MARKED,
     ORANGE,
     PAGE,
-    PURPLE,
     SECOND,
     SHADE,
+    SKY,
     THIRD,
     drawing,
     dress,
@@ -32,11 +30,6 @@ from wingbeat.animal.kinematics import ANGLES
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-
-_KINDS = ("divergence", "oscillation", "subsidence", "flip")
-_LOOK = dict(zip(_KINDS, MARKED, strict=False))
-_LEGEND = {"body_pitch": "body pitch", "u": "forward velocity", "w": "upward velocity", "pitch_rate": "pitch rate"}
-_PART_COLOURS = {"body_pitch": BLUE, "u": ORANGE, "w": GREEN, "pitch_rate": PURPLE}
 
 
 class _Flown(Protocol):
@@ -91,6 +84,12 @@ class _Plan(Protocol):
     def changes(self) -> np.ndarray: ...
 
 
+_LOOK = dict(zip(("divergence", "oscillation", "subsidence", "flip"), MARKED, strict=False))
+# Names and colours of what moves in a mode; the colours are no mode's.
+_PARTS = {"body_pitch": ("body pitch", "0.3"), "u": ("forward velocity", SKY)}
+_PARTS |= {"w": ("upward velocity", ORANGE), "pitch_rate": ("pitch rate", "0.75")}
+
+
 @drawing()
 def stability_page(records: Sequence[dict[str, Any]]) -> Figure:
     """Draw multipliers and modes of one linear flight, or of several along speed.
@@ -102,83 +101,58 @@ def stability_page(records: Sequence[dict[str, Any]]) -> Figure:
     ----------
     records : of `LinearFlight.record`, at least one, of one animal.
     """
-    figure = new_figure(PAGE, 68.0)
-    first, several = records[0], len(records) > 1
-    name = heading(first["species"])
-    speeds = f"{first['speed']:g} to {records[-1]['speed']:g} m/s" if several else f"{first['speed']:g} m/s"
-    figure.suptitle(f"{name} at {speeds}: multipliers of a disturbance in one beat", fontsize=8.5)
+    figure = new_figure(PAGE, 74.0)
+    first, last, several = records[0], records[-1], len(records) > 1
+    speeds = f"{first['speed']:g} to {last['speed']:g} m/s" if several else f"{first['speed']:g} m/s"
+    title = f"{heading(first['species'])} at {speeds}: what a disturbance is multiplied by in one beat"
+    figure.suptitle(title + ("; marks grow with speed" if several else ""), fontsize=8.5)
     plane, sizes, bars = figure.subplots(1, 3, width_ratios=(1, 1.1, 1))
-    _draw_plane(plane, records)
-    if several:
-        _draw_sizes(sizes, records)
-    else:
-        _draw_growth(sizes, first)
-    middle = 0.5 * (records[0]["speed"] + records[-1]["speed"])
-    _draw_bars(bars, min(records, key=lambda record: abs(record["speed"] - middle)))
-    letter_panels(figure.axes)
-    legend_below(figure, [plane, sizes], columns=5)
-    return figure
-
-
-def _draw_plane(axes: Axes, records: Sequence[dict[str, Any]]) -> None:
-    sizes = np.linspace(6.0, 30.0, len(records)) if len(records) > 1 else [20.0]
     turn = np.linspace(0.0, 2 * np.pi, 181)
-    axes.fill(np.cos(turn), np.sin(turn), color=SHADE, linewidth=0, zorder=0, label="decays")
-    axes.plot(np.cos(turn), np.sin(turn), color=GREY, linewidth=0.6)
+    plane.fill(np.cos(turn), np.sin(turn), color=SHADE, linewidth=0, zorder=0, label="disturbance decays")
+    plane.plot(np.cos(turn), np.sin(turn), color=GREY, linewidth=0.6)
+    areas = np.linspace(6.0, 30.0, len(records)) if several else [20.0]
     for kind, (colour, mark) in _LOOK.items():
-        points = [
-            (*mode["multiplier"], size)
-            for record, size in zip(records, sizes, strict=True)
+        found = [
+            (*mode["multiplier"], area, record["speed"], mode["modulus"])
+            for record, area in zip(records, areas, strict=True)
             for mode in record["modes"]
             if mode["kind"] == kind
         ]
-        if points:
-            real, imaginary, size = np.array(points).T
+        if found:
+            real, imaginary, area, speed, modulus = np.array(found).T
             both = np.r_[real, real], np.r_[imaginary, -imaginary]
-            axes.scatter(*both, s=np.r_[size, size], color=colour, marker=mark, alpha=0.7, linewidths=0, label=kind)
-    axes.set_aspect("equal", adjustable="datalim")
-    dress(axes, "real part [-]", "imaginary part [-]")
-
-
-def _draw_sizes(axes: Axes, records: Sequence[dict[str, Any]]) -> None:
-    axes.axhspan(0.0, 1.0, color=SHADE, linewidth=0, zorder=0)
-    for kind, (colour, mark) in _LOOK.items():
-        points = [(r["speed"], mode["modulus"]) for r in records for mode in r["modes"] if mode["kind"] == kind]
-        if points:
-            axes.plot(*np.array(points).T, mark, color=colour, ms=3.5, mew=0)
-    axes.plot(
-        [r["speed"] for r in records],
-        [r["averaged"]["spectral_radius"] for r in records],
-        color="k",
-        linewidth=0.8,
-        linestyle=(0, (2, 1.5)),
-        label="spectral radius of the averaged model",
-    )
-    axes.set_ylim(bottom=0.0)
-    dress(axes, "speed [m/s]", "modulus of the multiplier [-]")
-
-
-def _draw_growth(axes: Axes, record: dict[str, Any]) -> None:
-    """Draw the size of each mode over the first beats."""
-    beats = np.arange(9)
-    for mode in record["modes"]:
-        colour, mark = _LOOK[mode["kind"]]
-        axes.plot(beats * record["dt"], mode["modulus"] ** beats, color=colour, marker=mark, ms=3, linewidth=0.9)
-    axes.axhline(1.0, color=GREY, linewidth=0.6)
-    axes.set_yscale("log")
-    axes.set(xlabel="time [s]", ylabel="disturbance over its initial size [-]")
-
-
-def _draw_bars(axes: Axes, record: dict[str, Any]) -> None:
-    modes = record["modes"]
+            look: dict[str, Any] = {"color": colour, "marker": mark}
+            plane.scatter(*both, s=np.r_[area, area], alpha=0.7, linewidths=0, label=kind, **look)
+            if several:
+                sizes.plot(speed, modulus, linestyle="", ms=3.5, mew=0, **look)
+    plane.set_aspect("equal", adjustable="datalim")
+    dress(plane, "multiplier, real part [-]", "multiplier, imaginary part [-]")
+    if several:
+        sizes.axhspan(0.0, 1.0, color=SHADE, linewidth=0, zorder=0)
+        sizes.set_ylim(bottom=0.0)
+        dress(sizes, "speed [m/s]", "modulus of the multiplier [-]")
+    else:  # the size of each mode over the first beats
+        beats = np.arange(9)
+        for mode in first["modes"]:
+            colour, mark = _LOOK[mode["kind"]]
+            sizes.plot(
+                beats * first["dt"], mode["modulus"] ** beats, color=colour, marker=mark, ms=3, linewidth=0.9
+            )
+        sizes.axhline(1.0, color=GREY, linewidth=0.6)
+        sizes.set(yscale="log", xlabel="time [s]", ylabel="size over initial size [-]")
+    middle = min(records, key=lambda record: abs(record["speed"] - 0.5 * (first["speed"] + last["speed"])))
+    modes = middle["modes"]
     left = np.zeros(len(modes))
-    for part, label in _LEGEND.items():
+    for part, (label, colour) in _PARTS.items():
         widths = np.array([mode["shares"][part] for mode in modes])
-        axes.barh(range(len(modes)), widths, left=left, height=0.6, color=_PART_COLOURS[part], label=label)
+        bars.barh(range(len(modes)), widths, left=left, height=0.6, color=colour, label=label)
         left += widths
-    axes.set_yticks(range(len(modes)), [f"{mode['kind']}\n{mode['modulus']:.3f}" for mode in modes])
-    axes.set(xlim=(0, 1), ylim=(len(modes) - 0.4, -0.9), xlabel=f"share at {record['speed']:g} m/s [-]")
-    axes.legend(loc="upper center", ncols=2, fontsize=6, bbox_to_anchor=(0.45, 1.2), handlelength=0.9)
+    bars.set_yticks(range(len(modes)), [f"{mode['kind']}\n{mode['modulus']:.3f}" for mode in modes])
+    bars.invert_yaxis()
+    bars.set(xlim=(0, 1), xlabel=f"share of the motion at {middle['speed']:g} m/s [-]")
+    letter_panels(figure.axes)
+    legend_below(figure, [plane, bars], columns=4)
+    return figure
 
 
 _GUST_LINES = (SECOND, FIRST, THIRD)
@@ -287,50 +261,34 @@ def manoeuvre_page(plan: _Plan, flights: Mapping[str, _Flown]) -> Figure:
     """
     figure = new_figure(PAGE, 110.0)
     orbit = plan.beat_map.orbit
-    name = str(orbit.inputs["species"]["name"])
     speeds = " to ".join(f"{speed:g}" for speed in (orbit.inputs["speed"], *(end.speed for end in plan.ends)))
-    figure.suptitle(f"{heading(name)}: {speeds} m/s", fontsize=8.5)
+    title = f"{heading(str(orbit.inputs['species']['name']))}: from {speeds} m/s"
+    figure.suptitle(title, fontsize=8.5, parse_math=False)
     panels = figure.subplots(2, 2).ravel()
-    path = plan.beat_map.climb
-    _draw_state(panels[0], plan, flights, 2, "forward velocity u [m/s]")
-    _draw_state(panels[1], plan, flights, 1, "body pitch [deg]", np.degrees(1.0))
-    _draw_state(panels[2], plan, flights, 0, "height above the path [m]", climb=path)
-    _draw_changes(panels[3], plan)
-    letter_panels(figure.axes)
-    legend_below(figure, [panels[0], panels[3]], columns=4)
-    return figure
-
-
-def _draw_state(
-    axes: Axes,
-    plan: _Plan,
-    flights: Mapping[str, _Flown],
-    column: int,
-    label: str,
-    factor: float = 1.0,
-    climb: float = 0.0,
-) -> None:
-    start = float(plan.beat_map.orbit.initial_state.z)
-
-    def planned(time: np.ndarray) -> np.ndarray:
-        return np.interp(time, plan.times, plan.states[:, 1])
-
-    for (name, flight), line in zip(flights.items(), _MANOEUVRE_LINES, strict=False):
-        tops = slice(None, None, (len(flight.time) - 1) // len(flight.wingbeats))
-        time, values = flight.time[tops], flight.states[tops, column + 1]
-        if column == 0:
-            values = values - start - climb * time
-        shown = np.cumprod(np.abs(flight.states[tops, 2] - planned(time)) < _LOST).astype(bool)
-        axes.plot(time[shown], factor * values[shown], label=name, **line)
-    axes.plot(plan.times, factor * plan.states[:, column], ".", color="k", ms=2.0, label="plan", zorder=3)
-    dress(axes, "time [s]", label)
-
-
-def _draw_changes(axes: Axes, plan: _Plan) -> None:
+    states = (
+        (2, "forward velocity u [m/s]", 1.0),
+        (1, "body pitch [deg]", np.degrees(1.0)),
+        (0, "height above the path [m]", 1.0),
+    )
+    for axes, (column, label, factor) in zip(panels, states, strict=False):
+        for (name, flight), line in zip(flights.items(), _MANOEUVRE_LINES, strict=False):
+            tops = slice(None, None, (len(flight.time) - 1) // len(flight.wingbeats))
+            time, values = flight.time[tops], flight.states[tops, column + 1]
+            if column == 0:
+                values = values - float(orbit.initial_state.z) - plan.beat_map.climb * time
+            off = np.abs(flight.states[tops, 2] - np.interp(time, plan.times, plan.states[:, 1]))
+            shown = np.cumprod(off < _LOST).astype(bool)
+            axes.plot(time[shown], factor * values[shown], label=name, **line)
+        axes.plot(plan.times, factor * plan.states[:, column], ".", color="k", ms=3.0, label="plan", zorder=1)
+        dress(axes, "time [s]", label)
     middle = 0.5 * (plan.times[1:] + plan.times[:-1])
     for name, values, (colour, mark) in zip(plan.inputs, plan.changes.T, MARKED, strict=False):
         factor = 10.0 if name == "frequency" else (np.degrees(1.0) if name in ANGLES else 1.0)
         label = f"{in_words(name)}{' [0.1 Hz]' if name == 'frequency' else ''}"
-        axes.plot(middle, factor * values, color=colour, marker=mark, ms=2.0, linewidth=0.8, label=label)
-    axes.axhline(0.0, color=GREY, linewidth=0.6)
-    dress(axes, "time [s]", "change [deg, 0.1 Hz]")
+        look: dict[str, Any] = {"color": colour, "marker": mark, "ms": 3.0, "linewidth": 0.8, "label": label}
+        panels[3].plot(middle, factor * values, markevery=max(1, len(middle) // 12), **look)
+    panels[3].axhline(0.0, color=GREY, linewidth=0.6)
+    dress(panels[3], "time [s]", "change [deg, or 0.1 Hz]")
+    letter_panels(figure.axes)
+    legend_below(figure, [panels[0], panels[3]], columns=4)
+    return figure

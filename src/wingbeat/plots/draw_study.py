@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from wingbeat._base import FaultList, in_words, label_of, plain_unit
-from wingbeat._base.style import ALARM, FONT, MARKED, PAGE, drawing, letter_panels, new_figure
+from wingbeat._base.style import ALARM, FONT, MARKED, PAGE, drawing, legend_below, letter_panels, new_figure
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -26,6 +27,13 @@ _MOST, _STRANDS = (12, 4), 2000
 _NAMES = ("species", "aero.coefficients", "species_given", "aero_given")
 # A column holds one number that was rounded if its range is at most this share of its largest value.
 _SAME = 1e-9
+_FAILED: dict[str, Any] = {
+    "marker": "x",
+    "color": ALARM,
+    "markersize": 4,
+    "linestyle": "none",
+    "label": "not certified",
+}
 
 
 def study_page(
@@ -71,12 +79,15 @@ def study_page(
         rows = {1: 1, 2: math.ceil(len(shown) / 2)}.get(len(varied), len(shown))
         figure = new_figure(PAGE, max(_ROW * rows, 90.0))
         if len(varied) == 1:
-            _draw_lines(figure, shown, varied[0], quantity, axes_labels[0], label)
+            axes = [_draw_lines(figure, shown, varied[0], quantity, axes_labels[0], label)]
         else:
-            _draw_panels(figure, shown, [*varied, quantity], axes_labels, label)
+            axes = _draw_panels(figure, shown, [*varied, quantity], axes_labels, label)
+        legend_below(figure, axes)
         left = f"; {len(groups) - len(shown)} more panels are left out" if len(groups) > len(shown) else ""
         later = f", {asked - len(frame)} not solved yet" if len(frame) < asked else ""
-        figure.suptitle(f"{good} of {asked} points certified{later}{left}", fontsize=8, x=0.01, ha="left")
+        what = re.sub(r" \[.*\]$", "", label)
+        title = f"{what[:1].upper()}{what[1:]}: {good} of {asked} points certified{later}{left}"
+        figure.suptitle(title, fontsize=8, x=0.01, ha="left", parse_math=False)
     return figure
 
 
@@ -107,9 +118,8 @@ def _said(name: str, value: Any) -> str:
 
 def _draw_lines(
     figure: Figure, groups: list[tuple[str, pd.DataFrame]], path: str, quantity: str, x_label: str, label: str
-) -> None:
-    axes = figure.subplots()
-    failed = "not certified"
+) -> Axes:
+    axes, missed = figure.subplots(), []
     for i, (name, part) in enumerate(groups):
         part = part.sort_values(path)
         good = (part["status"] == "converged").to_numpy()
@@ -120,19 +130,17 @@ def _draw_lines(
         style |= {"linestyle": _DASHES[again % len(_DASHES)], "marker": marker}
         # Where there is no orbit, not-a-number breaks the line.
         axes.plot(x, np.where(good, part[quantity].to_numpy(dtype=float), np.nan), **style)
-        if not good.all():
-            foot: dict[str, Any] = {"transform": axes.get_xaxis_transform(), "clip_on": False, "label": failed}
-            foot |= {"color": ALARM, "linestyle": "none", "marker": "x", "markersize": 4}
-            axes.plot(x[~good], np.full(int((~good).sum()), 0.02), **foot)
-            failed = "_"
-    axes.set_xlabel(x_label)
-    axes.set_ylabel(label)
-    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=6.5)
+        missed.extend(x[~good])
+    if missed:
+        foot: dict[str, Any] = {"transform": axes.get_xaxis_transform(), "clip_on": False}
+        axes.plot(missed, np.full(len(missed), 0.02), **foot, **_FAILED)
+    axes.set(xlabel=x_label, ylabel=label)
+    return axes
 
 
 def _draw_panels(
     figure: Figure, groups: list[tuple[str, pd.DataFrame]], names: list[str], labels: list[str], label: str
-) -> None:
+) -> list[Axes]:
     """Draw a panel for each combination of the top-level keys."""
     maps = len(names) == 3
     columns = min(2, len(groups)) if maps else 1
@@ -150,22 +158,15 @@ def _draw_panels(
         axes.remove()
     if len(groups) > 1:
         letter_panels(panels[: len(groups)])
+    return list(panels[: len(groups)])
 
 
 def _map(axes: Axes, table: np.ndarray, good: np.ndarray, labels: list[str]) -> Any:
-    """Draw the last column against the first two, with red crosses at points that are not certified."""
-    x, y = table[:, 0], table[:, 1]
-    drawn = _mesh(axes, x, y, np.where(good, table[:, 2], np.nan))
+    """Draw the last column against the first two, as squares if the points form a full grid, else as dots."""
+    x, y, values = table[:, 0], table[:, 1], np.where(good, table[:, 2], np.nan)
     if not good.all():
-        axes.plot(x[~good], y[~good], "x", color=ALARM, markersize=4, label="not certified", linestyle="none")
-        axes.legend(loc="upper right", fontsize=6, frameon=True)
-    axes.set_xlabel(labels[0])
-    axes.set_ylabel(labels[1])
-    return drawn
-
-
-def _mesh(axes: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray) -> Any:
-    """Draw values as squares if the points form a full grid, else as dots."""
+        axes.plot(x[~good], y[~good], **_FAILED)
+    axes.set(xlabel=labels[0], ylabel=labels[1])
     across, up = np.unique(x), np.unique(y)
     if across.size > 1 and up.size > 1 and across.size * up.size == x.size:
         table = np.full((up.size, across.size), np.nan)
@@ -196,9 +197,8 @@ def _strands(axes: Axes, table: np.ndarray, labels: list[str]) -> Any:
     axes.set_xticks(range(len(labels)), [text.replace(" [", "\n[") for text in labels])
     axes.set_yticks([])
     axes.spines["left"].set_visible(False)
-    box = {"facecolor": "white", "edgecolor": "none", "pad": 0.6, "alpha": 0.8}
+    axes.vlines(range(len(labels)), 0.0, 1.0, color="0.3", linewidth=0.6)
     for i in range(len(labels)):
-        axes.axvline(i, color="0.3", linewidth=0.6)
-        for height, value, side in ((0.0, low[i], "top"), (1.0, high[i], "bottom")):
-            axes.text(i, height, f"{value:.4g}", ha="center", va=side, fontsize=6, bbox=box)
+        for height, value, side in ((-0.01, low[i], "top"), (1.01, high[i], "bottom")):
+            axes.text(i, height, f"{value:.4g}", ha="center", va=side, fontsize=6)
     return ScalarMappable(norm, _MAP)

@@ -47,9 +47,9 @@ def wingbeat_page(dataset: xr.Dataset) -> Figure:
 
     a: wing kinematics; b: body pitch; c: power; d to f: phase portraits; g: effective angle of attack; h and i:
     horizontal and vertical force on the strips at 1/4 and 3/4 of the span, both wings together, divided by the
-    weight. Two statements at the top say how well a certified orbit closes and whether it is plausible. Both are
-    green if the orbit is plausible; otherwise the second is red. Without a certificate, one red line gives the
-    reason.
+    weight. A legend above the middle panel of a row holds for the row. Two statements at the top say how well a
+    certified orbit closes and whether it is plausible. Both are green if the orbit is plausible; otherwise the
+    second is red. Without a certificate, one red line gives the reason.
 
     Parameters
     ----------
@@ -108,8 +108,8 @@ def _described(dataset: xr.Dataset) -> tuple[list[tuple[str, dict[str, Any]]], f
     raise AssertionError
 
 
-# What the two statements on an orbit, and what its limits have set, are read from.
-_READ = ("status", "closure", "plausibility", "active_bounds", "objective", "wingbeat")
+# What the two statements on an orbit, and what its limits have set, are read from, beside status and objective.
+_READ = ("closure", "plausibility", "active_bounds", "wingbeat")
 
 
 def _orbit_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[str, Any]]]:
@@ -120,25 +120,18 @@ def _orbit_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[st
     loads = f"Air loads: {names}, {aero['strips']} strips per wing"
     second = f"{loads}; minimised: {in_words(about['objective'])}"
     if about["status"] == "converged":
-        record = {name: _read(about, name) for name in _READ}
+        # Files of early versions have no `plausibility`.
+        record = {name: json.loads(about.get(name, "null")) for name in _READ}
+        record |= {name: about[name] for name in ("status", "objective")}
         said = statements(record)
         parts = [(f"Certified: {said.closes}", _GOOD if said.good else _TEXT)]
-        parts.append((_capital(said.plausible), _GOOD if said.good else _ALARM))
+        parts.append((said.plausible[:1].upper() + said.plausible[1:], _GOOD if said.good else _ALARM))
         if limits := limits_in_words(record):
             parts.append((f"Set by limits, not predicted: {limits}", _TEXT))
     else:
         parts = [(f"NOT CERTIFIED ({about['status']}): {about['message']}", _ALARM)]
     lines = [(line, look) for text, look in ((second, _TEXT), *parts) for line in textwrap.wrap(text, 120)]
     return [(first, _TITLE), *lines]
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
-
-
-def _read(about: dict[str, Any], name: str) -> Any:
-    """Return a part of the record, or None: files of early versions have no ``plausibility``."""
-    return about[name] if name in ("status", "objective") else json.loads(about.get(name, "null"))
 
 
 def _flight_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[str, Any]]]:
@@ -179,6 +172,8 @@ def draw_motion(dataset: xr.Dataset, panels: Any) -> None:
     legend_above(wing, lines)
     _over_phase(pitch, dataset, "body pitch ψ [deg]")
     pitch.plot(phase, np.degrees(dataset["body_pitch"].values), **FIRST)
+    pitch.collections[0].set_label("time of the downstroke")
+    legend_above(pitch, pitch.collections[:1])
     _over_phase(power, dataset, "power of both wings [W]")
     lines = power.plot(phase, dataset["hinge_power"].values, label="hinge", **FIRST)
     lines += power.plot(phase, dataset["actuator_power"].values, label="actuator", **SECOND)
@@ -192,11 +187,13 @@ def draw_portraits(dataset: xr.Dataset, panels: Any) -> None:
     """Draw velocity against position for the three degrees of freedom, marked where the strokes begin."""
     from matplotlib.legend_handler import HandlerTuple
 
-    (x, x_unit), (z, z_unit) = _length(dataset["x"].values), _length(dataset["z"].values)
+    x, z = dataset["x"].values, dataset["z"].values
+    # In millimetres if all are short.
+    (x, x_unit), (z, z_unit) = ((1e3 * v, "mm") if np.fmax.reduce(np.abs(v)) < 0.5 else (v, "m") for v in (x, z))
     u, w = dataset["u"].values, dataset["w"].values
     pitch, rate = np.degrees(dataset["body_pitch"].values), np.degrees(dataset["pitch_rate"].values)
     phase, time, reached = dataset["phase"].values, dataset["time"].values, flown(dataset)
-    strokes = _strokes(dataset)
+    strokes = downstrokes(phase, dataset["flap_rate"].values)
     dress(panels[0], f"displacement x [{x_unit}]", "forward velocity u [m/s]")
     dress(panels[1], f"height z [{z_unit}]", "upward velocity w [m/s]")
     dress(panels[2], "body pitch ψ [deg]", "pitch rate q [deg/s]")
@@ -230,19 +227,15 @@ def _portrait(
         on = mask | np.concatenate([[False], mask[:-1]])
         lines += axes.plot(place, np.where(on, speed, np.nan), label=label, **style)
     size = 1.0 if phase[-1] - phase[0] <= 6 else 0.6
-    tops = sorted({first for first, _ in strokes} | ({phase[-1]} if _ends_at_the_top(phase, strokes) else set()))
+    beats = phase[-1] - np.array([first for first, _ in strokes])
+    at_the_top = np.any(np.abs(beats - np.round(beats)) < 1e-9)  # whole beats after the start of a downstroke
+    tops = sorted({first for first, _ in strokes} | ({phase[-1]} if at_the_top else set()))
     marks = []
     for starts, marker, points in ((tops, (8, 2, 0), 7), ([last for _, last in strokes], "o", 4)):
         look = {"linestyle": "", "marker": marker, "markersize": size * points, "mew": 0.9 * size}
         at = [np.interp(starts, phase, values) for values in (place, speed)]
         marks += axes.plot(*at, color="k", zorder=3, **look)
     return lines, marks
-
-
-def _ends_at_the_top(phase: np.ndarray, strokes: Sequence[tuple[float, float]]) -> bool:
-    """Say whether the last sample is a whole number of beats after the start of a downstroke."""
-    beats = phase[-1] - np.array([first for first, _ in strokes])
-    return bool(np.any(np.abs(beats - np.round(beats)) < 1e-9))
 
 
 def draw_loads(dataset: xr.Dataset, panels: Any, weight: float) -> None:
@@ -262,9 +255,12 @@ def draw_loads(dataset: xr.Dataset, panels: Any, weight: float) -> None:
             # Strip centres need not lie at these span fractions: we interpolate linearly between centres.
             # Beyond the last centre, we take its value.
             line = strips @ np.array([np.interp(station, place, one) for one in np.eye(len(place))])
-            axes.plot(phase, _turned(line) if strips is alpha else line, label=name, **style)
-        legend_above(axes, axes.get_lines()[-2:])
+            if strips is alpha:  # within half a turn of 0, with a gap where a tumbling wing passes +-180 degrees
+                line = np.mod(np.degrees(line) + 180.0, 360.0) - 180.0
+                line = np.where(np.abs(np.diff(line, prepend=line[:1])) > 180.0, np.nan, line)
+            axes.plot(phase, line, label=name, **style)
         _clear_corner(axes)
+    legend_above(panels[1], panels[1].get_lines()[-2:])
 
 
 def _clear_corner(axes: Axes) -> None:
@@ -275,24 +271,9 @@ def _clear_corner(axes: Axes) -> None:
     axes.set_ylim(min(low, lowest - room), high)
 
 
-def _length(values: np.ndarray) -> tuple[np.ndarray, str]:
-    """Return lengths in metres, or in millimetres if all are short; return the unit too."""
-    return (1e3 * values, "mm") if np.fmax.reduce(np.abs(values)) < 0.5 else (values, "m")
-
-
-def _turned(angle: np.ndarray) -> np.ndarray:
-    """Return angles within half a turn of 0 [deg], with a gap where a tumbling wing passes +-180 degrees."""
-    degrees = np.mod(np.degrees(angle) + 180.0, 360.0) - 180.0
-    return np.where(np.abs(np.diff(degrees, prepend=degrees[:1])) > 180.0, np.nan, degrees)
-
-
-def _strokes(dataset: xr.Dataset) -> list[tuple[float, float]]:
-    """Return the phases of the downstrokes; the wing's motion is prescribed, so it goes on where a flight ended."""
-    return downstrokes(dataset["phase"].values, dataset["flap_rate"].values)
-
-
 def _over_phase(axes: Axes, dataset: xr.Dataset, ylabel: str) -> None:
     """Prepare a panel over phase with every downstroke shaded."""
     dress(axes, "phase t/T [-]", ylabel)
     phase = dataset["phase"].values
-    shade_downstrokes(axes, phase[0], phase[-1], _strokes(dataset))
+    # The wing's motion is prescribed, so its strokes go on where a flight ended.
+    shade_downstrokes(axes, phase[0], phase[-1], downstrokes(phase, dataset["flap_rate"].values))

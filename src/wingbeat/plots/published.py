@@ -181,7 +181,7 @@ def published_for(animal: str, vehicle: Vehicle, air: Air, slowest: float, faste
         speeds = np.linspace(low, high, _POINTS) if low < high else np.array([low])
         values = np.array([measured.value(vehicle, air, float(speed)) for speed in speeds])
         quantity = "frequency" if measured.unit == "Hz" else "mean_positive_power"
-        beside.append(Published(quantity, f"{measured.label} ({measured.grade})", speeds, values, measured.spread))
+        beside.append(Published(quantity, measured.label, speeds, values, measured.spread))
     return beside
 
 

@@ -10,13 +10,10 @@ _LEFTOVERS: list[Leftover] = []
 
 
 class Leftover:
-    """A block whose traces, such as temporary files, are cleared if the process is ended inside it.
+    """A block whose traces, such as temporary files, `clear` clears if the process is ended inside it.
 
-    A block that ends by itself, or by an exception, clears its own traces.
-
-    Parameters
-    ----------
-    clear : function that clears the traces; it may be called in any thread, at any time within the block.
+    A block that ends by itself, or by an exception, clears its own traces. `clear` may be called in any thread, at
+    any time within the block.
     """
 
     def __init__(self, clear: Callable[[], object]) -> None:

@@ -68,10 +68,7 @@ def jacobian() -> float:
 
 
 def orbits(animal: str) -> list[Solution]:
-    """Return the orbits of an animal at 20 shuffled speeds, one start each.
-
-    An orbit that is solved before them compiles the programs, and is not returned.
-    """
+    """Return the orbits of an animal at 20 shuffled speeds, one start each, solved after one that compiles."""
     species = load_species(animal)
     speeds = np.random.default_rng(0).permutation(_SPEEDS)
     problems = [OrbitProblem(species, speed=float(speed)) for speed in (10.0, *speeds)]
@@ -79,11 +76,7 @@ def orbits(animal: str) -> list[Solution]:
 
 
 def mixed_problems(count: int, seed: int = 0) -> Iterator[OrbitProblem]:
-    """Yield random problems.
-
-    Each has one of two animals, one of two coefficient models, and a speed from 4 to 16 m/s. Masses and the
-    wing's length are within 10 percent of the animal's.
-    """
+    """Yield random problems: speeds from 4 to 16 m/s, masses and the wing's length within 10 % of the animal's."""
     random = np.random.default_rng(seed)
     species = {name: load_species(name) for name in ANIMALS}
     for i in range(count):
@@ -102,15 +95,25 @@ def mixed_problems(count: int, seed: int = 0) -> Iterator[OrbitProblem]:
 def machine() -> dict[str, Any]:
     """Return the versions of the software, and the device."""
     device = jax.devices()[0]
+    versions = {"wingbeat": __version__, "python": platform.python_version()}
     return {
-        "versions": {
-            "wingbeat": __version__,
-            "python": platform.python_version(),
-            "jax": jax.__version__,
-            "numpy": np.__version__,
-        },
+        "versions": versions | {"jax": jax.__version__, "numpy": np.__version__},
         "device": f"{device.platform}: {platform.processor() or platform.machine()}, {os.cpu_count()} cores",
     }
+
+
+@contextlib.contextmanager
+def _one_core() -> Iterator[None]:
+    """Restrict this process to one core. JAX then uses one thread, unless it has already computed something."""
+    if not hasattr(os, "sched_setaffinity"):
+        yield
+        return
+    cores = os.sched_getaffinity(0)
+    os.sched_setaffinity(0, {max(cores)})
+    try:
+        yield
+    finally:
+        os.sched_setaffinity(0, cores)
 
 
 def measure(batch: int = 1024, progress: Progress | None = None) -> dict[str, Any]:
@@ -130,49 +133,30 @@ def measure(batch: int = 1024, progress: Progress | None = None) -> dict[str, An
     number of certified orbits in the batch.
     """
     with _one_core():
-        return _measure(batch, progress)
+        done = 0
 
+        def told() -> None:
+            nonlocal done
+            done += 1
+            if progress is not None:
+                progress(done, 4 + batch)
 
-@contextlib.contextmanager
-def _one_core() -> Iterator[None]:
-    """Restrict this process to one core. JAX then uses one thread, unless it has already computed something."""
-    if not hasattr(os, "sched_setaffinity"):
-        yield
-        return
-    cores = os.sched_getaffinity(0)
-    os.sched_setaffinity(0, {max(cores)})
-    try:
-        yield
-    finally:
-        os.sched_setaffinity(0, cores)
-
-
-def _measure(batch: int, progress: Progress | None) -> dict[str, Any]:
-    parts = 4 + batch
-    done = 0
-
-    def told(count: int = 1) -> None:
-        nonlocal done
-        done += count
-        if progress is not None:
-            progress(done, parts)
-
-    result: dict[str, Any] = {"rhs_ns": 1e9 * right_hand_side()}
-    told()
-    result["jacobian_ms"] = 1e3 * jacobian()
-    told()
-    solve, certify = {}, {}
-    for animal in ANIMALS:
-        found = orbits(animal)
-        result[f"{animal}_ms"] = 1e3 * statistics.median(s.seconds for s in found)
-        solve[animal] = 1e3 * statistics.median(s.seconds - s.certify_seconds for s in found)
-        certify[animal] = 1e3 * statistics.median(s.certify_seconds for s in found)
+        result: dict[str, Any] = {"rhs_ns": 1e9 * right_hand_side()}
         told()
-    result |= {"solve_ms": solve, "certify_ms": certify}
-    problems = list(mixed_problems(batch))
-    begun, certified = time.perf_counter(), 0
-    for solution in find_orbits(problems, Settings(1, advise=False)):
-        certified += solution.status.value == "converged"
+        result["jacobian_ms"] = 1e3 * jacobian()
         told()
-    result["batch_ms"] = 1e3 * (time.perf_counter() - begun) / batch
-    return result | {"batch": batch, "batch_certified": certified} | machine()
+        solve, certify = {}, {}
+        for animal in ANIMALS:
+            found = orbits(animal)
+            result[f"{animal}_ms"] = 1e3 * statistics.median(s.seconds for s in found)
+            solve[animal] = 1e3 * statistics.median(s.seconds - s.certify_seconds for s in found)
+            certify[animal] = 1e3 * statistics.median(s.certify_seconds for s in found)
+            told()
+        result |= {"solve_ms": solve, "certify_ms": certify}
+        problems = list(mixed_problems(batch))
+        begun, certified = time.perf_counter(), 0
+        for solution in find_orbits(problems, Settings(1, advise=False)):
+            certified += solution.status.value == "converged"
+            told()
+        result["batch_ms"] = 1e3 * (time.perf_counter() - begun) / batch
+        return result | {"batch": batch, "batch_certified": certified} | machine()

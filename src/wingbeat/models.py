@@ -127,12 +127,24 @@ class Model:
         _check_kind(species, self.kind)
         flown, vehicle = species, species.vehicle
         if not vehicle.body.drag_area and not species.is_set_by_hand("vehicle.body.drag_area"):
-            flown = _with_body_drag(flown)
+            if "body-drag" in species.alternatives:
+                flown = species.with_alternative("body-drag")
+            else:  # the law for birds
+                flown = species.with_derived({"vehicle.body.drag_area": BODY_DRAG_AREA.number(vehicle.mass)})
         if self.kind == "bird" and vehicle.tail is None:
             flown = flown.with_tail()
         if self.kind != "robot" and vehicle.muscle is None:
             flown = flown.with_muscle()
-        return _freed(flown)
+        added = [name for name in _FREE if name not in flown.free]
+        if flown.vehicle.tail is None and "tail_tilt" in added:
+            added.remove("tail_tilt")
+        return dataclasses.replace(
+            flown,
+            free=(*flown.free, *added),
+            bounds=flown.bounds | {name: _FREE[name][0] for name in added},
+            guessed_bounds=flown.guessed_bounds | set(added),
+            reasons=flown.reasons | {name: _FREE[name][1] for name in added},
+        )
 
     def _changed(self, flown: Species, changes: Mapping[str, Any]) -> Iterator[str]:
         """Yield the names of the choices in which the user departs from the model."""
@@ -156,8 +168,7 @@ class Model:
                 Choice("vehicle and free parameters", "as in the species file", paper),
                 Choice("objective", objective, paper),
             ]
-        body, tail, muscle = flown.vehicle.body, flown.vehicle.tail, flown.vehicle.muscle
-        numbers = flown.numbers
+        body, tail, muscle, numbers = flown.vehicle.body, flown.vehicle.tail, flown.vehicle.muscle, flown.numbers
         found = [
             Choice("coefficients", aero.coefficients.name, _WINGS[self.kind][1]),
             Choice("unsteady terms", aero.unsteady, "rotation and added mass: wings turn within a beat"),
@@ -171,13 +182,14 @@ class Model:
         if tail is not None:
             found.append(Choice("tail area", f"{1e4 * tail.area:.2g} cm2", numbers["vehicle.tail.area"].source))
         if muscle is not None:
-            mass = Choice(
-                "mass of the depressors", f"{1e3 * muscle.mass:.2g} g", numbers["vehicle.muscle.mass"].source
-            )
-            found.append(mass)
-        for name, (_, reason) in _FREE.items():
+            mass, source = f"{1e3 * muscle.mass:.2g} g", numbers["vehicle.muscle.mass"].source
+            found.append(Choice("mass of the depressors", mass, source))
+        for name, ((low, high), reason) in _FREE.items():
             if name in flown.free and flown.reasons.get(name) == reason:
-                found.append(Choice(f"free: {name}", _limits(name), reason))
+                limits = f"{low:g} to {high:g} of a beat"
+                if name == "tail_tilt":
+                    limits = f"{math.degrees(low):.0f} to {math.degrees(high):.0f} degrees"
+                found.append(Choice(f"free: {name}", limits, reason))
         return [*found, Choice("objective", objective, "what the beat costs")]
 
 
@@ -249,35 +261,6 @@ def _check_kind(species: Species, kind: str) -> None:
         fix = f'write kind = "bird", "bat" or "robot" into the file of {species.name}'
         faults.add("kind", species.kind, 'the model "animal" is only for a bird, a bat or a robot', fix)
     elif species.kind != kind:
-        faults.add(
-            "species", species.name, f"is a {species.kind}, not a {kind}", "call wb.models.animal with this species"
-        )
+        fix = "call wb.models.animal with this species"
+        faults.add("species", species.name, f"is a {species.kind}, not a {kind}", fix)
     faults.raise_if_any()
-
-
-def _with_body_drag(species: Species) -> Species:
-    """Return the species with the body drag of its alternative `body-drag`, or else of the law for birds."""
-    if "body-drag" in species.alternatives:
-        return species.with_alternative("body-drag")
-    return species.with_derived({"vehicle.body.drag_area": BODY_DRAG_AREA.number(species.vehicle.mass)})
-
-
-def _freed(species: Species) -> Species:
-    """Return the species with the tail's tilt, if it has a tail, and the downstroke fraction free."""
-    added = [name for name in _FREE if name not in species.free]
-    if species.vehicle.tail is None and "tail_tilt" in added:
-        added.remove("tail_tilt")
-    return dataclasses.replace(
-        species,
-        free=(*species.free, *added),
-        bounds=species.bounds | {name: _FREE[name][0] for name in added},
-        guessed_bounds=species.guessed_bounds | set(added),
-        reasons=species.reasons | {name: _FREE[name][1] for name in added},
-    )
-
-
-def _limits(name: str) -> str:
-    low, high = _FREE[name][0]
-    if name == "tail_tilt":
-        return f"{math.degrees(low):.0f} to {math.degrees(high):.0f} degrees"
-    return f"{low:g} to {high:g} of a beat"

@@ -13,10 +13,9 @@ import xarray as xr
 import wingbeat as wb
 from wingbeat._base import FileError
 from wingbeat.cli import main
-from wingbeat.records import netcdf as declared
+from wingbeat.records import result_files as declared
 from wingbeat.records.forms import inputs_hash
-from wingbeat.records.netcdf import digest, netcdf_bytes
-from wingbeat.records.result_files import load_dataset, save_result
+from wingbeat.records.result_files import digest, load_dataset, netcdf_bytes, save_result
 
 CHANGED, SEED = 150, 54
 MEASURED = """

@@ -13,8 +13,7 @@ import xarray as xr
 
 import wingbeat as wb
 from wingbeat.records.inputs import vehicle_record
-from wingbeat.records.netcdf import own_content
-from wingbeat.records.result_files import SUFFIXES, save_result
+from wingbeat.records.result_files import SUFFIXES, own_content, save_result
 from wingbeat.records.tables import results_of
 
 ROBOT = wb.robot(name="r", mass=0.02, wing_span=0.4, wing_area=0.03)

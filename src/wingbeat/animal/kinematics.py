@@ -279,6 +279,13 @@ def tip_twist(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
     return with_harmonics(base, wingbeat.twist_harmonics, FIRST_ORDER["twist"], at)
 
 
+# The laws of a wing, by the names of their series; a law that is off may be None.
+LAWS = {
+    **{"flap": flap_angle, "wing_pitch": pitch_angle, "sweep": sweep_angle, "span_ratio": span_ratio},
+    **{"fold": fold_angle, "tip_twist": tip_twist, "chord_ratio": chord_ratio},
+}
+
+
 def in_use(wingbeat: Wingbeat, name: str) -> bool:
     """Return whether a parameter is in use: a harmonic that is given, or a parameter of a law that is on."""
     harmonic = harmonic_place(name)

@@ -151,7 +151,7 @@ def save_runs(runs: list[LoadCellRun], folder: str | Path) -> list[Path]:
 
     Raises
     ------
-    FileError : the folder cannot be made, or a file cannot be written.
+    FileError : the folder is not there, or a file cannot be written.
     """
     paths = []
     for run in runs:

@@ -13,23 +13,14 @@ import io
 import json
 from dataclasses import dataclass
 from os import PathLike
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from wingbeat._base import NOMENCLATURE, FaultList, FileError, Term, install_extra, writing
 from wingbeat._jax.arrays import jnp
 from wingbeat._jax.exported import jit_soon
-from wingbeat.animal.kinematics import (
-    Wingbeat,
-    chord_ratio,
-    flap_angle,
-    fold_angle,
-    pitch_angle,
-    span_ratio,
-    sweep_angle,
-    tip_twist,
-)
+from wingbeat.animal.kinematics import LAWS, Wingbeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.wing_motion import time_rates
 from wingbeat.mechanics.wing_points import surface_points
@@ -42,17 +33,6 @@ if TYPE_CHECKING:
     from wingbeat._jax.arrays import Phases
     from wingbeat.results.orbit import Orbit
 
-# The laws of a wing, by their names in data sets.
-_LAWS = {
-    "flap": flap_angle,
-    "wing_pitch": pitch_angle,
-    "sweep": sweep_angle,
-    "span_ratio": span_ratio,
-    "fold": fold_angle,
-    "tip_twist": tip_twist,
-    "chord_ratio": chord_ratio,
-}
-LAW_NAMES = tuple(_LAWS)
 # Values of a law that is off.
 _OFF = {"span_ratio": 1.0, "chord_ratio": 1.0}
 # For these quantities the record has the sum of both wings.
@@ -62,51 +42,35 @@ _OF_ONE_WING = ("flap_torque", "pitch_torque", "hinge_power", "actuator_power")
 @jit_soon
 def _laws(wingbeat: Wingbeat, phase: Phases) -> tuple[Phases, Phases, Phases]:
     def values(at: Phases) -> Phases:
-        found = {name: law(wingbeat, at) for name, law in _LAWS.items()}
+        found = {name: law(wingbeat, at) for name, law in LAWS.items()}
         off = {name: jnp.full_like(at, _OFF.get(name, 0.0)) for name in found}
         return jnp.stack([off[name] if law is None else law for name, law in found.items()], axis=-1)
 
     return time_rates(values, phase, wingbeat.frequency)
 
 
-# Three arrays of shape (..., laws): the laws of `LAW_NAMES`, and their first and second time derivatives.
+# Three arrays of shape (..., laws): `LAWS`, of which those that are off are constant, and their first and second
+# time derivatives.
 Laws = tuple[np.ndarray, np.ndarray, np.ndarray]
 
 
 def laws_at(wingbeat: Wingbeat, phase: np.ndarray) -> Laws:
-    """Return three arrays of shape (..., laws): the laws of `LAW_NAMES`, their first and second time derivatives.
-
-    A law that is off is constant.
-    """
+    """Return the laws and their time derivatives at phases."""
     value, rate, acceleration = _laws(wingbeat, np.asarray(phase, dtype=float))
     return np.asarray(value), np.asarray(rate), np.asarray(acceleration)
 
 
-class Column(NamedTuple):
-    """One series of a gait: its name, unit and meaning, and its values, shape (K,)."""
-
-    term: Term
-    values: np.ndarray
-
-
 @dataclass(frozen=True)
 class Gait:
-    """One beat of a certified orbit at equal phases, from one top of the stroke to the next.
-
-    Attributes
-    ----------
-    orbit : the orbit.
-    samples : number of equal phases of the beat, K; all series have K + 1 values, the last at the next top.
-    dataset : the time series of the beat at these phases, as in `Orbit.dataset`.
-    """
+    """One beat of a certified orbit at K equal phases; all series have K + 1 values, the last at the next top."""
 
     orbit: Orbit
-    samples: int
+    samples: int  # K
     dataset: xr.Dataset
 
     @property
     def phase(self) -> np.ndarray:
-        """The phases, shape (K + 1,)."""
+        """The phases."""
         return self.dataset["phase"].values
 
     @property
@@ -115,19 +79,22 @@ class Gait:
         return np.stack([self.dataset[name].values for name in self.orbit.initial_state._fields], axis=-1)
 
     @functools.cached_property
-    def columns(self) -> list[Column]:
+    def columns(self) -> list[tuple[Term, np.ndarray]]:
         """Time, each law that moves with its rate and acceleration, and torques and powers of one wing."""
-        found = [Column(NOMENCLATURE["time"], self.dataset["time"].values)]
+        found = [(NOMENCLATURE["time"], self.dataset["time"].values)]
         laws = laws_at(self.orbit.wingbeat, self.phase)
-        for i, name in enumerate(LAW_NAMES):
-            values = laws[0][:, i]
+        for i, name in enumerate(LAWS):
+            values, term = laws[0][:, i], NOMENCLATURE[name]
             # A law that does not move may be held away from where it is if it is off.
             if name in ("flap", "wing_pitch") or np.ptp(values) > 0 or values[0] != _OFF.get(name, 0.0):
-                found += [Column(term, of[:, i]) for term, of in zip(_derivatives(name), laws, strict=True)]
+                base, of = "" if term.unit == "1" else f"{term.unit} ", f"of the {term.label}"
+                rate = NOMENCLATURE.get(f"{name}_rate") or Term(f"{name}_rate", f"{base}s-1", f"rate {of}")
+                twice = Term(f"{name}_acceleration", f"{base}s-2", f"second time derivative {of}")
+                found += [(term, values), (rate, laws[1][:, i]), (twice, laws[2][:, i])]
         for name in _OF_ONE_WING:
             term = NOMENCLATURE[name]
             label = term.label.replace("both wings", "one wing").replace("hinges, one wing", "hinge of one wing")
-            found.append(Column(Term(f"{name}_per_wing", term.unit, label), 0.5 * self.dataset[name].values))
+            found.append((Term(f"{name}_per_wing", term.unit, label), 0.5 * self.dataset[name].values))
         return found
 
     @functools.cached_property
@@ -143,14 +110,6 @@ class Gait:
         if self.orbit.problem.vehicle.tail is not None:
             values["tail_tilt"] = beat.tail_tilt
         return {name: (float(value), NOMENCLATURE[name].unit) for name, value in values.items()}
-
-
-def _derivatives(name: str) -> tuple[Term, Term, Term]:
-    """Return the entries of a law, of its rate and of its acceleration."""
-    term = NOMENCLATURE[name]
-    base = "" if term.unit == "1" else f"{term.unit} "
-    rate = NOMENCLATURE.get(f"{name}_rate") or Term(f"{name}_rate", f"{base}s-1", f"rate of the {term.label}")
-    return term, rate, Term(f"{name}_acceleration", f"{base}s-2", f"second time derivative of the {term.label}")
 
 
 def check_certified(faults: FaultList, orbit: Orbit) -> None:
@@ -173,8 +132,7 @@ def _about(gait: Gait) -> str:
 def gait_csv(gait: Gait) -> bytes:
     """Return a CSV table: a header of comment lines with units, then one row for each equal phase of the beat.
 
-    The beat repeats: one time step after the last row, the first row follows again. The table therefore leaves out
-    the end of the beat.
+    It leaves out the end of the beat, for the first row follows again one time step after the last.
     """
     out = io.StringIO()
     out.write(f"# gait of one wing of {_about(gait)}, written by the package wingbeat; SI units, radians\n")
@@ -202,15 +160,13 @@ def gait_mat(gait: Gait) -> bytes:
     """
     from scipy.io import savemat
 
-    time, *series = gait.columns
+    (_, time), *series = gait.columns
+
+    def signals(term: Term, values: np.ndarray) -> dict[str, Any]:
+        return {"values": values[:, None], "dimensions": 1.0, "label": term.name}
+
     content: dict[str, Any] = {
-        "gait": {
-            term.name: {
-                "time": time.values[:, None],
-                "signals": {"values": values[:, None], "dimensions": 1.0, "label": term.name},
-            }
-            for term, values in series
-        },
+        "gait": {term.name: {"time": time[:, None], "signals": signals(term, values)} for term, values in series},
         "units": {term.name: term.unit for term, _ in gait.columns},
         "meaning": {term.name: term.label for term, _ in gait.columns},
         "constants": {name: value for name, (value, _) in gait.constants.items()},
@@ -222,30 +178,21 @@ def gait_mat(gait: Gait) -> bytes:
     return held.getvalue()
 
 
-class Points(NamedTuple):
-    """Points of a vehicle in the world: labels, and positions (x forward, y left, z up) [m], shape (K, P, 3)."""
+def write_c3d(orbit: Orbit, samples: int, path: str | PathLike[str]) -> None:
+    """Write a C3D file, in single precision and metres: body, shoulders, wing tips, and edges at strips' centres.
 
-    labels: list[str]
-    positions: np.ndarray
-
-
-def check_c3d() -> None:
-    """Refuse to write a C3D file without the library that writes it."""
+    Its frames are the equal phases of the beat. A wing's tip is on its quarter-chord line. Strips are counted from
+    1 at the root.
+    """
     try:
-        import ezc3d  # noqa: F401
+        import ezc3d
     except ImportError:
         raise FileError(f"ezc3d, which writes .c3d, is not installed here: {install_extra('c3d')}") from None
 
-
-def points_of(gait: Gait) -> Points:
-    """Return the points of the beat's K equal phases: body, shoulders, wing tips, and edges at the strips' centres.
-
-    A wing's tip is on its quarter-chord line. Strips are counted from 1 at the root.
-    """
-    problem, strips = gait.orbit.problem, gait.orbit.problem.model.strips
+    gait, problem, strips = gait_of(orbit, samples), orbit.problem, orbit.problem.model.strips
     stations = np.concatenate([[0.0], (np.arange(strips) + 0.5) / strips, [1.0]])
     states, phase = gait.states[:-1], gait.phase[:-1]
-    given = problem.vehicle.passive, gait.orbit.wingbeat, State(*states.T), phase
+    given = problem.vehicle.passive, orbit.wingbeat, State(*states.T), phase
     surface = np.asarray(surface_points(*given, stations, np.array([0.0, 0.25, 1.0])))
     leading, quarter, trailing = (surface[:, row] for row in range(3))
     body = np.stack([states[:, 0], np.zeros(len(states)), states[:, 1]], axis=-1)[:, None]
@@ -253,25 +200,15 @@ def points_of(gait: Gait) -> Points:
     numbers = range(1, strips + 1)
     names = ["shoulder", "tip", *(f"{edge}_{i}" for edge in ("leading", "trailing") for i in numbers)]
     labels = ["body", *(f"{side}_{name}" for side in ("left", "right") for name in names)]
-    return Points(labels, np.concatenate([body, left, left * [1.0, -1.0, 1.0]], axis=1))
-
-
-def write_c3d(gait: Gait, path: str | PathLike[str]) -> None:
-    """Write the points of the beat as a C3D file; its frames are the equal phases, its unit is the metre.
-
-    C3D stores numbers in single precision.
-    """
-    import ezc3d
-
-    points = points_of(gait)
+    positions = np.concatenate([body, left, left * [1.0, -1.0, 1.0]], axis=1)
     file = ezc3d.c3d()
     about = file["parameters"]["POINT"]
-    about["RATE"]["value"] = [gait.samples * gait.orbit.wingbeat.frequency]
-    about["LABELS"]["value"] = points.labels
-    about["DESCRIPTIONS"]["value"] = [label.replace("_", " ") for label in points.labels]
+    about["RATE"]["value"] = [samples * orbit.wingbeat.frequency]
+    about["LABELS"]["value"] = labels
+    about["DESCRIPTIONS"]["value"] = [label.replace("_", " ") for label in labels]
     about["UNITS"]["value"] = ["m"]
-    data = np.ones((4, len(points.labels), gait.samples))
-    data[:3] = points.positions.transpose(2, 1, 0)
+    data = np.ones((4, len(labels), samples))
+    data[:3] = positions.transpose(2, 1, 0)
     file["data"]["points"] = data
     with writing(path) as beside:
         file.write(str(beside))

@@ -7,8 +7,8 @@ from os import PathLike
 from typing import TYPE_CHECKING
 
 from wingbeat._base import FaultList, write_atomically
-from wingbeat.exports.gait import check_c3d, check_certified, gait_csv, gait_mat, gait_of, write_c3d
-from wingbeat.exports.mujoco_model import mujoco_xml
+from wingbeat.exports.gait import check_certified, gait_csv, gait_mat, gait_of, write_c3d
+from wingbeat.exports.mujoco_flight import mujoco_xml
 
 if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit
@@ -23,7 +23,7 @@ _MOST = 4096
 
 def check_export(faults: FaultList, where: str, path: str | PathLike[str], samples: int) -> None:
     """Note a fault unless the suffix of a file name is that of a format for gaits, which can hold the samples."""
-    suffix = _suffix(path)
+    suffix = os.path.splitext(path)[1].lower()
     faults.whole("samples", samples, 2, _MOST_SAMPLES.get(suffix, _MOST), "equal phases of one beat")
     if suffix not in EXPORT_SUFFIXES:
         fix = "end the name in .csv, .mat (MATLAB), .c3d (motion capture) or .xml (MuJoCo)"
@@ -70,12 +70,8 @@ def export(orbit: Orbit, path: str | PathLike[str], samples: int = SAMPLES) -> N
     check_export(faults, "path", path, samples)
     check_certified(faults, orbit)
     faults.raise_if_any()
-    if _suffix(path) == ".c3d":
-        check_c3d()
-        write_c3d(gait_of(orbit, samples), path)
+    suffix = os.path.splitext(path)[1].lower()
+    if suffix == ".c3d":
+        write_c3d(orbit, samples, path)
     else:
-        write_atomically(path, _WRITERS[_suffix(path)](gait_of(orbit, samples)))
-
-
-def _suffix(path: str | PathLike[str]) -> str:
-    return os.path.splitext(os.fspath(path))[1].lower()
+        write_atomically(path, _WRITERS[suffix](gait_of(orbit, samples)))

@@ -25,25 +25,15 @@ _WINDOW = 3
 
 
 class BestLine(NamedTuple):
-    """The best orbits along speed.
+    """The best orbits along speed, shape (K,)."""
 
-    Attributes
-    ----------
-    quantity : name of the minimised quantity.
-    is_power : whether it is a mean power, which divided by speed is least at the speed of maximum range.
-    speed, value : increasing speeds [m/s], and the minimised quantity, not-a-number in gaps; shape (K,).
-    joined : whether each point and the next belong to one branch, shape (K - 1,).
-    limits : names of the bounds and limits that each orbit has reached, shape (K,).
-    others : the quantity of other families of optima, shape (F, K), not-a-number where a family has no optimum.
-    """
-
-    quantity: str
-    is_power: bool
-    speed: np.ndarray
-    value: np.ndarray
-    joined: np.ndarray
-    limits: Sequence[frozenset[str]]
-    others: np.ndarray
+    quantity: str  # name of the minimised quantity
+    is_power: bool  # whether it is a mean power, which divided by speed is least at the speed of maximum range
+    speed: np.ndarray  # increasing [m/s]
+    value: np.ndarray  # the minimised quantity, not-a-number in gaps
+    joined: np.ndarray  # whether each point and the next belong to one branch, shape (K - 1,)
+    limits: Sequence[frozenset[str]]  # names of the bounds and limits that each orbit has reached
+    others: np.ndarray  # of other families of optima, shape (F, K), not-a-number where a family has no optimum
 
     def sought(self) -> dict[str, bool]:
         """Return the names of the minima that the curve has, and whether each is that of the value over speed."""
@@ -82,26 +72,17 @@ class BestLine(NamedTuple):
 def characteristic_speeds(line: BestLine, power_limit: float | None = None) -> dict[str, Any]:
     """Return the speeds at which the minimised quantity is least, and those that a power limit allows.
 
-    Of a power ``minimum_power``, and ``maximum_range``, where power over speed is least (the tangent from the
-    origin); of the cost of transport ``maximum_range``; of another quantity such as ``minimum_frequency``. With a
-    limit also ``fastest_sustained`` and ``slowest_sustained``, None if no speed is within the limit. Each holds
-    ``speed`` [m/s], its error bar ``interval`` [m/s], ``value`` (the minimised quantity) and ``status``:
-    ``found``; ``at_or_below`` or ``at_or_above`` the end of the curve; ``beside_jump`` or ``beside_gap``, where no
-    speed is given; ``set_by_limit``, where a limit has set the minimised quantity itself. A minimum also holds
-    ``lowest`` (the computed speed with the least value), ``limits`` (that are active there), ``changed_limits``
-    (active on one side of it only), ``rivals`` (other minima within 1 %) and ``within_2_percent``: the speeds
-    between which the value is within 2 % of its minimum.
+    Power over speed is least at ``maximum_range``, on the tangent from the origin. Each speed has ``speed`` [m/s],
+    its error bar ``interval`` [m/s], ``value`` (the minimised quantity) and ``status``: ``found``; ``at_or_below``
+    or ``at_or_above`` the end of the curve; ``beside_jump`` or ``beside_gap``, where no speed is given;
+    ``set_by_limit``, where a limit has set the minimised quantity itself. A minimum also has ``lowest`` (the
+    computed speed with the least value), ``limits`` (that are active there), ``changed_limits`` (active on one side
+    of it only), ``rivals`` (other minima within 1 %) and ``within_2_percent``: the speeds between which the value
+    is within 2 % of its minimum.
 
     The error bar covers the neighbours of the lowest point, between which a smooth branch has its minimum; all
     speeds at which a smooth curve is above its minimum by less than twice the scatter of the optima about it; and
     the rivals.
-
-    >>> u = np.arange(4.0, 13.0)
-    >>> free = [frozenset()] * 9
-    >>> line = BestLine("mean_power", True, u, 60 / u + 0.01 * u**3, np.ones(8, bool), free, np.empty((0, 9)))
-    >>> found = characteristic_speeds(line)["minimum_power"]
-    >>> f"{found['speed']:.1f}", found["interval"]
-    ('6.7', [6.0, 8.0])
     """
     found: dict[str, Any] = {name: _least(line, line.over(speed)) for name, speed in line.sought().items()}
     if power_limit is not None and line.is_power:
@@ -117,12 +98,10 @@ def characteristic_speeds(line: BestLine, power_limit: float | None = None) -> d
 
 
 def next_speeds(line: BestLine, tolerance: float, power_limit: float | None = None) -> list[float]:
-    """Return the speeds to solve at next, so that each characteristic speed gets neighbours within a tolerance.
+    """Return the speeds to solve at next, none twice, so that characteristic speeds get near neighbours.
 
-    A minimum is sought by successive parabolas, and then enclosed from both sides; a crossing by the chord.
-
-    Speeds, none twice; no speeds if every characteristic speed is enclosed, or if solving there cannot enclose it:
-    at an end, beside a jump, or at a limit.
+    A minimum is sought by successive parabolas, and then enclosed from both sides; a crossing by the chord. What is
+    enclosed, or cannot be (at an end, beside a jump, at a limit), needs no speed.
     """
     asked: list[float] = []
     for over_speed in line.sought().values():
@@ -311,11 +290,7 @@ def best_line(dataset: xr.Dataset) -> BestLine:
 
 
 def is_mean_power(objective: str, unit: str) -> bool:
-    """Whether a quantity is a mean power, of which a least value and a limit along speed mean something.
-
-    >>> is_mean_power("metabolic_power", "W"), is_mean_power("peak_power", "W"), is_mean_power("frequency", "Hz")
-    (True, False, False)
-    """
+    """Whether a quantity is a mean power, of which a least value and a limit along speed mean something."""
     return unit == "W" and not objective.startswith("peak_")
 
 

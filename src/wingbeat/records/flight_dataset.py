@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -25,34 +25,36 @@ _BLOCK = 257
 
 def evaluate(model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray) -> Loads:
     """Return the loads along sampled states, shape (K, 6), as NumPy arrays."""
-    found = _in_blocks(flight_loads, model, wingbeat, phase, states)
-    return Loads(*(np.concatenate(values)[: len(phase)] for values in zip(*found, strict=True)))
+    return Loads(*_along(flight_loads, model, wingbeat, phase, states))
 
 
 def evaluate_carried(
     model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray, accelerations: np.ndarray
 ) -> tuple[Loads, MissingLoads]:
     """Return the loads of a body with prescribed accelerations, shape (K, 3), and the missing force and moment."""
-    found = list(_in_blocks(carried_loads, model, wingbeat, phase, states, accelerations))
 
-    def whole(parts: Iterable[Any]) -> list[np.ndarray]:
-        return [np.concatenate(values)[: len(phase)] for values in zip(*parts, strict=True)]
+    def both(*given: Any) -> tuple[Any, ...]:
+        loads, missing = carried_loads(*given)
+        return *loads, *missing
 
-    return Loads(*whole(loads for loads, _ in found)), MissingLoads(*whole(missing for _, missing in found))
+    found, count = _along(both, model, wingbeat, phase, states, accelerations), len(Loads._fields)
+    return Loads(*found[:count]), MissingLoads(*found[count:])
 
 
-def _in_blocks(
-    function: Callable[..., Any],
+def _along(
+    function: Callable[..., Sequence[Any]],
     model: FlightModel,
     wingbeat: Wingbeat,
     phase: np.ndarray,
     states: np.ndarray,
     *more: np.ndarray,
-) -> Iterator[Any]:
+) -> list[np.ndarray]:
     """Evaluate in blocks of equal length, because JAX compiles anew for each length; the last block is padded."""
+    found = []
     for first in range(0, len(phase), _BLOCK):
         here = np.minimum(np.arange(first, first + _BLOCK), len(phase) - 1)
-        yield function(model, wingbeat, State(*states[here].T), phase[here], *(a[here] for a in more))
+        found.append(function(model, wingbeat, State(*states[here].T), phase[here], *(a[here] for a in more)))
+    return [np.concatenate(values)[: len(phase)] for values in zip(*found, strict=True)]
 
 
 def flight_attributes(
@@ -87,9 +89,9 @@ def flight_dataset(
     by_name |= {name: np.asarray(law) for name, law in laws.items() if law is not None}
     by_name |= {f"missing_{name}": value for name, value in (missing._asdict() if missing else {}).items()}
     by_name["time"] = phase / wingbeat.frequency
-    by_name |= {name: value for name, value in found._asdict().items()}
-    corners = np.concatenate(list(_in_blocks(strip_corners, model, wingbeat, phase, states)))
-    by_name["strip_corner"] = corners[: len(phase)]
+    by_name |= found._asdict()
+    corners = _along(lambda *given: [strip_corners(*given)], model, wingbeat, phase, states)
+    by_name["strip_corner"] = corners[0]
     by_name |= _columns(found.acceleration, "u_rate", "w_rate", "pitch_acceleration")
     by_name |= _columns(found.air_force, "force_x", "force_z", "pitching_moment")
     by_name |= _columns(found.centre_of_mass, "centre_of_mass_x", "centre_of_mass_z")

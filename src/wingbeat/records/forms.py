@@ -36,22 +36,13 @@ class _Variable(NamedTuple):
 
 
 class _Form(NamedTuple):
-    """What a kind of result holds.
+    """What a kind of result holds."""
 
-    Attributes
-    ----------
-    attributes : type of each attribute that it needs; dictionaries and lists are JSON.
-    needed : variables that it needs.
-    others : variables that it may have beside them.
-    any_over : dimensions that any other variable of real numbers may have.
-    lengths : of dimensions that are always the same.
-    """
-
-    attributes: dict[str, type]
+    attributes: dict[str, type]  # type of each attribute that it needs; dictionaries and lists are JSON
     needed: dict[str, _Variable]
-    others: dict[str, _Variable]
-    any_over: Dims | None
-    lengths: dict[str, int]
+    others: dict[str, _Variable]  # that it may have beside them
+    any_over: Dims | None  # dimensions that any other variable of real numbers may have
+    lengths: dict[str, int]  # of dimensions that are always the same
 
 
 def _series(name: str) -> _Variable:
@@ -164,11 +155,7 @@ def _is_of(value: Any, kind: type) -> bool:
 
 
 def from_json(text: str) -> Any:
-    """Return the content of a JSON text whose numbers are finite.
-
-    >>> from_json("[1.5, null]")
-    [1.5, None]
-    """
+    """Return the content of a JSON text whose numbers are finite."""
     return json.loads(text, parse_float=_finite, parse_constant=_finite)
 
 
@@ -190,23 +177,16 @@ _KINDS: dict[str, tuple[type, ...]] = {
 }
 
 
-_NUMBER = (int, float, type(None))
-
-
-def _is_state(value: dict[str, Any]) -> bool:
-    return {*value} == {*STATE_NAMES} and all(map(_is_known, value.values()))
-
-
 def _is_known(value: Any) -> bool:
     return value is None or is_number(value)
 
 
+def _are_known(value: dict[str, Any]) -> bool:
+    return all(map(_is_known, value.values()))
+
+
 def _is_range(value: list[Any]) -> bool:
     return len(value) == 2 and all(map(_is_known, value))
-
-
-def _are_texts(value: list[Any]) -> bool:
-    return all(isinstance(item, str) for item in value)
 
 
 def _are_deficits(value: list[Any]) -> bool:
@@ -217,10 +197,10 @@ def _are_deficits(value: list[Any]) -> bool:
 
 # What the items of dictionaries and lists must be.
 _ITEMS: dict[str, Callable[[Any], bool]] = {
-    **dict.fromkeys(("initial_state", "closure"), _is_state),
-    **dict.fromkeys(("active_bounds", "warnings"), _are_texts),
+    **dict.fromkeys(("initial_state", "closure"), lambda value: {*value} == {*STATE_NAMES} and _are_known(value)),
+    **dict.fromkeys(("active_bounds", "warnings"), lambda value: all(isinstance(item, str) for item in value)),
     **dict.fromkeys(("alpha_quarter_span", "alpha_three_quarter_span"), _is_range),
-    "constraints": lambda value: all(map(_is_known, value.values())),
+    "constraints": _are_known,
     "floquet_multipliers": lambda value: all(isinstance(pair, list) and _is_range(pair) for pair in value),
     "failed_balance": _are_deficits,
     "plausibility": is_judgement,
@@ -228,10 +208,7 @@ _ITEMS: dict[str, Callable[[Any], bool]] = {
 
 
 def orbit_attributes(record: dict[str, Any], inputs: dict[str, Any]) -> dict[str, Any]:
-    """Return a record and its inputs as attributes: numbers and texts unchanged, everything else as JSON.
-
-    The statements on closure and plausibility are added as two texts.
-    """
+    """Return a record, statements on it and its inputs: numbers and texts unchanged, everything else as JSON."""
     plain = {name for name, value in record.items() if _KINDS.get(name) == (str,) or is_number(value)}
     return {
         KIND: "orbit",
@@ -250,23 +227,22 @@ def said_of(record: dict[str, Any]) -> dict[str, str]:
 
 def parse_attributes(attributes: dict[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
     """Return record and inputs from the attributes of an orbit."""
-    own = {name: value for name, value in attributes.items() if name in _KINDS or name in NOMENCLATURE}
-    record = {name: _decode(name, value) for name, value in own.items()}
+    record = {}
+    for name, value in attributes.items():
+        if name not in _KINDS and name not in NOMENCLATURE:
+            continue
+        kind = _KINDS.get(name, (int, float, type(None)))
+        if kind != (str,):
+            value = from_json(value) if isinstance(value, str) else value.item()
+        if not isinstance(value, kind) or (isinstance(value, float) and not math.isfinite(value)):
+            raise ValueError(f"{name} is {value!r:.60}")
+        if not _ITEMS.get(name, lambda _: True)(value):
+            raise ValueError(f"{name} holds something else than it should")
+        record[name] = value
     inputs = record.pop("inputs")
     if attributes["inputs_hash"] != inputs_hash(inputs):
         raise ValueError("the inputs do not match their hash")
     return record, inputs
-
-
-def _decode(name: str, value: Any) -> Any:
-    kind = _KINDS.get(name, _NUMBER)
-    if kind != (str,):
-        value = from_json(value) if isinstance(value, str) else value.item()
-    if not isinstance(value, kind) or (isinstance(value, float) and not math.isfinite(value)):
-        raise ValueError(f"{name} is {value!r:.60}")
-    if not _ITEMS.get(name, lambda _: True)(value):
-        raise ValueError(f"{name} holds something else than it should")
-    return value
 
 
 def inputs_hash(inputs: dict[str, Any]) -> str:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Any
 
 from wingbeat._base import SHAPE, InvalidInputError
@@ -40,9 +40,13 @@ from wingbeat.orbits.problem.quantity import Quantity
 # Words before the name of a user's function, and after a function that no file can restore.
 OWN = "the user's own"
 SET_ANEW = "is not in the file; set up the problem with this function again"
-_FORMULA = ("name", "citation", "doi", "grade", "reynolds_range", "alpha_range_deg")
-_CAMBERED = ("name", "low_join_deg", "high_join_deg", "citation", "doi", "grade", "reynolds_range")
-_TABLE = ("name", "alpha_deg", "c_l", "c_d", "x_cp", "citation", "reynolds_range")
+_SOURCE, _TERMS = ("citation", "doi", "grade", "reynolds_range"), ("lift_terms", "drag_terms", "centre_terms")
+# Of coefficient models that the library may lack: the class, and from what besides its name to set one up.
+_MODELS: dict[str, tuple[type[CoefficientModel], tuple[str, ...]]] = {
+    "table": (TableCoefficients, ("alpha_deg", "c_l", "c_d", "x_cp", "citation", "reynolds_range", "aspect_ratio")),
+    "formula": (FormulaCoefficients, (*_SOURCE, "alpha_range_deg", "aspect_ratio", *_TERMS)),
+    "cambered": (CamberedCoefficients, ("low_join_deg", "high_join_deg", *_SOURCE, "aspect_ratio", "terms")),
+}
 
 
 class NotInFileError(ValueError):
@@ -53,18 +57,8 @@ def aero_record(aero: BladeElement) -> dict[str, Any]:
     """Return the inputs of the air loads; a function of the user's is represented by a digest of its program."""
     named = _named(aero.coefficients)
     digest = {"function": named.pop("function")} if "function" in named else {}
-    return {
-        **named,
-        "strips": aero.strips,
-        "force_point": aero.force_point,
-        "airspeed": aero.airspeed,
-        **further_terms(aero),
-        **digest,
-    }
-
-
-def further_terms(aero: BladeElement) -> dict[str, Any]:
-    """Return the terms of the air loads that Su et al. do not have, by name; terms that are off are left out."""
+    named |= {name: getattr(aero, name) for name in ("strips", "force_point", "airspeed")}
+    # Terms that Su et al. do not have are left out if they are off.
     terms: dict[str, Any] = {} if aero.unsteady == "none" else {"unsteady": aero.unsteady}
     if aero.inflow != "none":
         terms |= {"inflow": aero.inflow, "induced_factor": aero.induced_factor}
@@ -74,7 +68,7 @@ def further_terms(aero: BladeElement) -> dict[str, Any]:
         terms |= {"hand": _named(aero.hand), "hand_from": aero.hand_from}
     if aero.upstroke_factor != 1:
         terms["upstroke_factor"] = aero.upstroke_factor
-    return terms
+    return {**named, **terms, **digest}
 
 
 def aero_inputs(aero: BladeElement) -> dict[str, Any]:
@@ -94,41 +88,30 @@ def aero_from(aero: dict[str, Any]) -> BladeElement:
 
 def _named(coefficients: CoefficientModel) -> dict[str, Any]:
     """Return name, extension and blend width of a coefficient model, and a digest if it is a function."""
-    named = {name: getattr(coefficients, name) for name in ("extension", "blend_width_deg")}
-    named = {"coefficients": coefficients.name, **named}
+    how = {name: getattr(coefficients, name) for name in ("extension", "blend_width_deg")}
+    named = {"coefficients": coefficients.name, **how}
     if isinstance(coefficients, FunctionCoefficients):
         named["function"] = f"{OWN}, {coefficients.program.digest[:16]}"
     return named
 
 
-def _numbers(coefficients: Any) -> dict[str, Any]:
+def _numbers(coefficients: CoefficientModel) -> dict[str, Any]:
     """Return the numbers from which a coefficient model can be set up; none if its name suffices."""
-    if isinstance(coefficients, TableCoefficients):
-        return {"table": {name: getattr(coefficients, name) for name in _TABLE} | _aspect_ratio(coefficients)}
-    if isinstance(coefficients, FormulaCoefficients) and not _is_built_in(coefficients):
-        formula = {name: getattr(coefficients, name) for name in _FORMULA} | _aspect_ratio(coefficients)
-        for name in ("lift_terms", "drag_terms", "centre_terms"):
-            terms = getattr(coefficients, name)
-            formula[name] = None if terms is None else dict(vars(terms))
-        return {"formula": formula}
-    if isinstance(coefficients, CamberedCoefficients) and not _is_built_in(coefficients):
-        cambered = {name: getattr(coefficients, name) for name in _CAMBERED} | _aspect_ratio(coefficients)
-        return {"cambered": cambered | {"terms": dict(vars(coefficients.terms))}}
-    return {}
-
-
-def _aspect_ratio(coefficients: CoefficientModel) -> dict[str, float | str]:
-    """Return the aspect ratio of a model that states one; JSON has no infinity."""
-    if coefficients.aspect_ratio is None:
+    kind = next((kind for kind, (made, _) in _MODELS.items() if isinstance(coefficients, made)), "")
+    of_library: Any = LIBRARY.get(coefficients.name)
+    if not kind or (
+        kind != "table"  # a fit may have the name of a published model
+        and of_library is not None
+        and of_library(coefficients.extension, coefficients.blend_width_deg) == coefficients
+    ):
         return {}
-    return {"aspect_ratio": "inf" if math.isinf(coefficients.aspect_ratio) else coefficients.aspect_ratio}
-
-
-def _is_built_in(coefficients: FormulaCoefficients | CamberedCoefficients) -> bool:
-    """Return whether the library has this model under its name; a fit may have the name of a published model."""
-    if coefficients.name not in LIBRARY:
-        return False
-    return LIBRARY[coefficients.name](coefficients.extension, coefficients.blend_width_deg) == coefficients
+    numbers = {name: getattr(coefficients, name) for name in ("name", *_MODELS[kind][1])}
+    if numbers["aspect_ratio"] is None:
+        del numbers["aspect_ratio"]
+    elif math.isinf(numbers["aspect_ratio"]):
+        numbers["aspect_ratio"] = "inf"  # JSON has no infinity
+    terms = {name: part for name, part in numbers.items() if name.endswith("terms") and part is not None}
+    return {kind: numbers | {name: dict(vars(part)) for name, part in terms.items()}}
 
 
 def _coefficients(given: dict[str, Any]) -> Any:
@@ -166,12 +149,12 @@ _PARTS = {"tail": Tail, "muscle": Muscle, "motor": Motor, "springs": Springs}
 
 def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
     """Return the vehicle's numbers."""
-    wing = dict(vars(vehicle.wing))
-    wing["chord"] = list(wing["chord"]) if isinstance(wing["chord"], tuple) else wing["chord"]
-    wing["shoulder"] = list(wing["shoulder"])
-    others = {name: getattr(vehicle, name) for name in _PARTS}
-    found = {name: dict(vars(part)) for name, part in others.items() if part is not None}
-    return {"body": dict(vars(vehicle.body)), "wing": wing, **found}
+    parts = {name: getattr(vehicle, name) for name in ("body", "wing", *_PARTS)}
+    return {name: _listed(part) for name, part in parts.items() if part is not None}
+
+
+def _listed(part: Any) -> dict[str, Any]:
+    return {name: list(value) if isinstance(value, tuple) else value for name, value in vars(part).items()}
 
 
 def vehicle_from(record: dict[str, Any]) -> Vehicle:
@@ -183,23 +166,7 @@ def vehicle_from(record: dict[str, Any]) -> Vehicle:
 def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
     """Return the wingbeat's numbers; the laws in `NAMED_IF_ON` are left out if they are off."""
     left_out = [name for name in NAMED_IF_ON if at_default(wingbeat, name) or getattr(wingbeat, name) == ()]
-    return {
-        name: list(value) if isinstance(value, tuple) else value
-        for name, value in vars(wingbeat).items()
-        if name not in left_out
-    }
-
-
-def shape_record(shape: Shape) -> dict[str, Any]:
-    """Return a shape with all sources, fit for JSON, from which `shape_from` makes it again."""
-    return {"cover": shape.cover, "colours": dict(shape.colours), "numbers": dict(shape.numbers)}
-
-
-def shape_from(record: Mapping[str, Any]) -> Shape:
-    """Return the shape that `shape_record` described; another dictionary raises a Key-, Type- or ValueError."""
-    numbers = {path: number_from(*known) for path, known in record["numbers"].items()}
-    values: dict[str, Any] = {path.removeprefix("shape."): number.value for path, number in numbers.items()}
-    return Shape(cover=record["cover"], colours=dict(record["colours"]), numbers=numbers, **values)
+    return {name: value for name, value in _listed(wingbeat).items() if name not in left_out}
 
 
 def shape_attribute(species: Species | None) -> dict[str, str]:
@@ -211,7 +178,9 @@ def shape_attribute(species: Species | None) -> dict[str, str]:
 
 def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOptions = DEFAULTS) -> dict[str, Any]:
     """Return a problem's inputs, number of starts and seed, and the solver options that differ from defaults."""
-    species = problem.species
+    species, shape = problem.species, {}
+    if (own := species.shape) is not None:
+        shape["shape"] = {"cover": own.cover, "colours": dict(own.colours), "numbers": dict(own.numbers)}
     inputs = {
         "species": {
             "name": species.name,
@@ -225,7 +194,7 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOpti
             "warnings": species.warnings,
             "numbers": species.numbers,
             "plausible": species.plausible,
-            **({} if species.shape is None else {"shape": shape_record(species.shape)}),
+            **shape,
         },
         "vehicle": vehicle_record(problem.vehicle),
         "stock_wingbeat": wingbeat_record(species.wingbeat),
@@ -287,6 +256,11 @@ def species_from(inputs: dict[str, Any]) -> Species:
         name: Range(low, high, unit, source, None if speeds is None else (speeds[0], speeds[1]))
         for name, (low, high, unit, source, speeds) in known.get("plausible", {}).items()
     }
+    shape = None
+    if "shape" in known:
+        own = {path: number_from(*number) for path, number in known["shape"]["numbers"].items()}
+        values: dict[str, Any] = {path.removeprefix("shape."): number.value for path, number in own.items()}
+        shape = Shape(cover=known["shape"]["cover"], colours=dict(known["shape"]["colours"]), numbers=own, **values)
     return Species(
         name=known["name"],
         common_name=known["common_name"],
@@ -304,7 +278,7 @@ def species_from(inputs: dict[str, Any]) -> Species:
         alternatives={},
         plausible=plausible,
         warnings=tuple(known["warnings"]),
-        shape=shape_from(known["shape"]) if "shape" in known else None,
+        shape=shape,
     )
 
 

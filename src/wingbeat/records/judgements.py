@@ -12,20 +12,11 @@ from wingbeat.orbits.flight.period import PATH_NAMES
 
 # The reader's name of each judged number.
 JUDGED_NAMES = {
-    "positive_power_per_mass": "power per mass",
-    "peak_activation": "peak activation",
-    "frequency": "frequency",
-    "flap_amplitude": "flap amplitude",
-    "tail_tilt": "tail tilt",
-    "peak_force_over_weight": "peak force over weight",
-    "mean_body_pitch": "mean body pitch",
-    "body_pitch_range": "range of body pitch",
-    "strouhal": "Strouhal number",
-    "reynolds": "Reynolds number",
+    **{"positive_power_per_mass": "power per mass", "peak_activation": "peak activation", "frequency": "frequency"},
+    **{"flap_amplitude": "flap amplitude", "tail_tilt": "tail tilt"},
+    **{"peak_force_over_weight": "peak force over weight", "mean_body_pitch": "mean body pitch"},
+    **{"body_pitch_range": "range of body pitch", "strouhal": "Strouhal number", "reynolds": "Reynolds number"},
 }
-
-# Judged numbers that are not in a record, and which quantities of a beat they are.
-OF_BEAT = ("peak_force_over_weight", "mean_body_pitch")
 _KEYS = {"name", "value", "unit", "low", "high", "within", "source"}
 
 
@@ -44,15 +35,8 @@ def judged(species: Species, speed: float, name: str, value: float | None) -> di
     within = None
     if value is not None and math.isfinite(value) and (low, high) != (None, None):
         within = (low is None or value >= low) and (high is None or value <= high)
-    return {
-        "name": name,
-        "value": value,
-        "unit": known.unit,
-        "low": low,
-        "high": high,
-        "within": within,
-        "source": known.source,
-    }
+    judgement = {"name": name, "value": value, "unit": known.unit, "low": low, "high": high}
+    return judgement | {"within": within, "source": known.source}
 
 
 def is_judgement(value: Any) -> bool:
@@ -120,21 +104,15 @@ _INSIDE = 5e-4  # relative
 
 
 class SetBy(NamedTuple):
-    """What set a number: the value of its own limit, None if it follows from others; and the names of the limits.
+    """What set a number: the value of its own limit, and the names of the limits."""
 
-    `limit` is also None for a limit along the whole path (``flap``, ``body_pitch``), which a record does not hold.
-    """
-
+    # None if it follows from others, and for a limit along the whole path (``flap``), which a record does not hold.
     limit: float | None
     by: tuple[str, ...]
 
     @property
     def words(self) -> str:
-        """In words, such as ``set by the limit`` or ``follows from the limit of flap amplitude``.
-
-        >>> SetBy(None, ("flap_amplitude",)).words
-        'follows from the limit of flap amplitude'
-        """
+        """In words, such as ``set by the limit`` or ``follows from the limit of flap amplitude``."""
         if self.limit is not None:  # its own
             return "set by the limit"
         return f"follows from the limit{'s' if len(self.by) > 1 else ''} of {' and '.join(map(called, self.by))}"
@@ -147,11 +125,6 @@ def set_by_limit(record: dict[str, Any]) -> dict[str, SetBy]:
     plausible range that bounds the search. Numbers that follow from such numbers alone are returned too: the
     Strouhal number, frequency and flap amplitude if two of them are at limits, and the frequency that was minimised
     if the flap amplitude is at its limit, because their product hardly changes.
-
-    >>> beat = {"frequency": 5.1, "flap_amplitude": 1.2}
-    >>> found = set_by_limit({"active_bounds": ["flap_amplitude"], "objective": "frequency", "wingbeat": beat})
-    >>> found["flap_amplitude"], found["frequency"].words
-    (SetBy(limit=1.2, by=('flap_amplitude',)), 'follows from the limit of flap amplitude')
     """
     if record.get("status", "converged") != "converged":
         return {}
@@ -180,9 +153,5 @@ def set_by_limit(record: dict[str, Any]) -> dict[str, SetBy]:
 
 
 def called(name: str) -> str:
-    """Return how a limited number is called within a sentence.
-
-    >>> called("flap"), called("tail_tilt")
-    ('flap angle', 'tail tilt')
-    """
+    """Return how a limited number is called within a sentence, such as ``tail tilt``."""
     return _CALLED.get(name, in_words(name))

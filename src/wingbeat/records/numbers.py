@@ -11,6 +11,8 @@ from wingbeat._base import KIND, FaultList
 from wingbeat._base.datasets import at_station
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.orbits.flight.beat import Beat, best_spring, mean_positive
+from wingbeat.orbits.problem.quantities import QUANTITIES
+from wingbeat.orbits.problem.quantity import drive_numbers
 from wingbeat.records.tables import finite_or_none
 
 if TYPE_CHECKING:
@@ -50,7 +52,12 @@ def power_account(dataset: xr.Dataset) -> dict[str, Any]:
     >>> sum(share["mean"] for share in account["shares"].values()) - account["mean_power"] < 1e-12
     True
     """
-    _check_parts(dataset)
+    faults = FaultList()
+    if (kind := dataset.attrs.get(KIND)) != "orbit":
+        faults.add("dataset", kind, "is not an orbit: only a closed wingbeat has a power account")
+    elif missing := [name for name in (*SHARES.values(), *SPENT.values()) if name not in dataset]:
+        faults.add("dataset", missing, "is missing from the dataset", "solve the orbit again")
+    faults.raise_if_any()
     flap, rate, power = (dataset[name].values for name in ("flap", "flap_rate", "hinge_power"))
     mean, positive = beat_mean(power), float(mean_positive(power, np))
     flown = bool(np.isfinite(power).all())
@@ -75,18 +82,6 @@ def spent_power(dataset: xr.Dataset) -> dict[str, np.ndarray]:
 
 def _spread(values: np.ndarray) -> dict[str, float]:
     return {"mean": beat_mean(values), "least": float(values.min()), "most": float(values.max())}
-
-
-def _check_parts(dataset: xr.Dataset) -> None:
-    """Raise `InvalidInputError` unless the dataset is that of an orbit with the parts of its power."""
-    faults = FaultList()
-    if dataset.attrs.get(KIND) != "orbit":
-        faults.add(
-            "dataset", dataset.attrs.get(KIND), "is not an orbit: only a closed wingbeat has a power account"
-        )
-    elif missing := [name for name in (*SHARES.values(), *SPENT.values()) if name not in dataset]:
-        faults.add("dataset", missing, "is missing from the dataset", "solve the orbit again")
-    faults.raise_if_any()
 
 
 def beat_mean(values: np.ndarray) -> float:
@@ -119,10 +114,7 @@ def power_summary(vehicle: Vehicle, air: Air, speed: float, beat: Beat) -> dict[
 def flight_numbers(
     vehicle: Vehicle, air: Air, speed: float, frequency: float, flap_amplitude: float
 ) -> dict[str, float | None]:
-    """Return Strouhal number, reduced frequency and Reynolds number; they are None in hover.
-
-    Reduced frequency and Reynolds number are those of the mean chord.
-    """
+    """Return Strouhal number, and reduced frequency and Reynolds number of the mean chord; None in hover."""
     wing = vehicle.wing
     if speed == 0:
         return {"strouhal": None, "reduced_frequency": None, "reynolds": None}
@@ -133,7 +125,25 @@ def flight_numbers(
     }
 
 
-def alpha_range(beat: Beat, station: float) -> list[float]:
-    """Return the smallest and largest effective alpha [rad] at a span fraction, interpolated between strips."""
-    alpha = at_station(beat.alpha, station)
-    return [float(alpha.min()), float(alpha.max())]
+def beat_numbers(
+    vehicle: Vehicle, air: Air, speed: float, beat: Beat, frequency: float, flap_amplitude: float
+) -> dict[str, Any]:
+    """Return the numbers of an orbit's record that follow from its flown beat."""
+    found: dict[str, Any] = power_summary(vehicle, air, speed, beat) | drive_numbers(beat)
+    found |= flight_numbers(vehicle, air, speed, frequency, flap_amplitude)
+    found["body_pitch_range"] = float(np.ptp(beat.body_pitch))
+    for name, station in (("alpha_quarter_span", 0.25), ("alpha_three_quarter_span", 0.75)):
+        alpha = at_station(beat.alpha, station)  # effective, interpolated between strips
+        found[name] = [float(alpha.min()), float(alpha.max())]
+    return found
+
+
+# Judged numbers that are not in a record, and which quantities of a beat they are.
+_OF_BEAT = ("peak_force_over_weight", "mean_body_pitch")
+
+
+def judged_values(record: dict[str, Any], beat: Beat, mass: float) -> dict[str, Any]:
+    """Return the numbers of a record and of its beat by name, among them all those that can be judged."""
+    of_beat = {name: float(np.max(QUANTITIES[name].of(beat))) for name in _OF_BEAT}
+    per_mass = {"positive_power_per_mass": record["mean_positive_power"] / mass}
+    return {**record, **record["wingbeat"], **per_mass, **of_beat}

@@ -10,30 +10,26 @@ import numpy as np
 from wingbeat._base import NOMENCLATURE, __version__
 from wingbeat.aero import CamberedCoefficients, CoefficientModel
 from wingbeat.animal.kinematics import ANGLES, Wingbeat
-from wingbeat.animal.vehicle import Air, Vehicle
+from wingbeat.animal.vehicle import Vehicle
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.wing_shape import flap_angles, has_room, lateral_corners
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.problem.quantities import QUANTITIES, judged_names
-from wingbeat.orbits.problem.quantity import drive_numbers
+from wingbeat.orbits.problem.quantities import judged_names
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.starts import is_at_lower_bound
 from wingbeat.records.inputs import aero_record, vehicle_record, wingbeat_record
-from wingbeat.records.judgements import OF_BEAT, judged
-from wingbeat.records.numbers import alpha_range, flight_numbers, power_summary
+from wingbeat.records.judgements import judged
+from wingbeat.records.numbers import beat_numbers, judged_values
 from wingbeat.records.tables import finite_or_none
 
 
 def orbit_record(solution: Solution) -> dict[str, Any]:
-    """Return the record of an orbit.
-
-    A number without a value (a cost of transport in hover, any number of a diverged flight) is None, never NaN.
-    """
+    """Return the record of an orbit; a number without a value, as any of a diverged flight, is None, never NaN."""
     problem, wingbeat, certificate = solution.problem, solution.wingbeat, solution.certificate
-    beat, flight = solution.beat(), (problem.vehicle, problem.air, problem.speed)
-    price = {}  # of stability, if the problem was also solved without its limits of stability
+    flight = problem.vehicle, problem.air, problem.speed
+    beat, price = solution.beat(), {}  # of stability, if also solved without the limits of stability
     if solution.free_objective is not None:
         price = {"free_objective": solution.free_objective, "price_of_stability": solution.price_of_stability}
     record = {
@@ -59,12 +55,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "starts": solution.starts,
         "distinct_optima": solution.distinct_optima,
         "starts_at_best": solution.starts_at_best,
-        **power_summary(*flight, beat),
-        **drive_numbers(beat),
-        **flight_numbers(*flight, wingbeat.frequency, wingbeat.flap_amplitude),
-        "body_pitch_range": float(np.ptp(certificate.states[:, 2])),
-        "alpha_quarter_span": alpha_range(beat, 0.25),
-        "alpha_three_quarter_span": alpha_range(beat, 0.75),
+        **beat_numbers(*flight, beat, wingbeat.frequency, wingbeat.flap_amplitude),
         "floquet_multipliers": [[float(m.real), float(m.imag)] for m in solution.multipliers],
         "stable": bool(np.abs(solution.multipliers).max() < 1.0) if solution.status is Status.CONVERGED else None,
         **price,
@@ -85,7 +76,8 @@ _SWING = math.radians(20.0)
 # Number of phases at which a stroke is checked. Limits above which there is a warning: how far the wing goes across
 # the plane of symmetry (share of the semi-span), and how far it goes past the shoulder's range [rad].
 _STROKE_SAMPLES, _ACROSS, _PAST = 256, 1e-4, 1e-3
-# Reduced frequency above which the lag of the wake matters.
+# Reduced frequency above which the lag of the wake matters: Theodorsen's function falls there to 0.69 of steady
+# lift, and at 1 to 0.55.
 _LAG = 0.3
 # Optima whose objectives differ by less than this share are practically equal.
 _RIVAL = 0.01
@@ -94,16 +86,34 @@ _RIVAL = 0.01
 def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
     """Return the warnings that a reader should see before trusting an orbit."""
     problem = solution.problem
-    air = problem.air
+    aero, vehicle, air = problem.aero, problem.vehicle, problem.air
     notes = list(problem.species.warnings)
-    if problem.aero.inflow == "none":
-        notes += induced_flow(problem.vehicle, air, math.hypot(problem.speed, problem.climb))
-    if problem.aero.unsteady != "none":
-        notes += lag_of_wake(problem, solution.wingbeat)
-    notes += fitted_range(solution, beat)
+    if aero.inflow == "none":  # momentum theory of a hovering actuator disc
+        disc, speed = math.pi * vehicle.wing.semi_span**2, math.hypot(problem.speed, problem.climb)
+        induced = math.sqrt(vehicle.mass * air.gravity / (2.0 * air.density * disc))
+        if speed < _SLOW * induced:
+            notes.append(
+                f"the model has no induced flow: it understates power at {speed:.1f} m/s, which is below "
+                f"{_SLOW * induced:.1f} m/s, three times the induced velocity of hover"
+            )
+    if aero.unsteady != "none":
+        flaps = math.pi * solution.wingbeat.frequency * vehicle.wing.mean_chord
+        reduced = flaps / problem.speed if problem.speed else math.inf
+        if reduced > _LAG:
+            here = "in hover" if math.isinf(reduced) else f"here {reduced:.2g}"
+            notes.append(
+                "the unsteady terms leave out the lag of the wake, which matters above a reduced frequency of "
+                f"{_LAG:g} ({here}): the lift from alpha is overstated"
+            )
+    for part in aero.parts:
+        where = "" if aero.hand == "none" else f" of the {part.name}"
+        of_part = beat.strip_reynolds[:, part.strips], beat.alpha[:, part.strips]
+        notes += _outside_fit(part.coefficients, *of_part, where) if of_part[0].size else []
+    if aero.upstroke_factor != 1:
+        notes.append(f"the upstroke factor of {aero.upstroke_factor:g} is a guess: no source measured it")
+    # Bounds that the user set do not count as guesses.
+    own = problem.species.path_bounds | problem.species.bounds
     for name in solution.active_bounds:
-        # Bounds that the user set do not count as guesses.
-        own = problem.species.path_bounds | problem.species.bounds
         if name in problem.species.guessed_bounds and problem.bounds[name] == own[name]:
             notes.append(f"the optimum is at the bound of {name}; that bound is a guess, see the species file")
         if name in ("u", "w", "pitch_rate"):
@@ -115,7 +125,7 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
             f"the body pitches by {math.degrees(swing):.0f} degrees within each wingbeat; "
             "no flying animal that we know of pitches so much"
         )
-    notes += crossing(problem.vehicle, problem.aero.strips, solution.wingbeat, problem.bounds["flap"])
+    notes += crossing(vehicle, aero.strips, solution.wingbeat, problem.bounds["flap"])
     if is_at_lower_bound(problem, solution.unknowns, solution.options.search.bound_tolerance):
         if solution.status is Status.CONVERGED:
             notes.append(
@@ -157,10 +167,9 @@ def rivals(solution: Solution) -> list[str]:
 
 
 def crossing(vehicle: Vehicle, strips: int, wingbeat: Wingbeat, flap: tuple[float, float]) -> list[str]:
-    """Warn of wings that cross the plane of symmetry, and so each other, or that flap beyond their range.
+    """Warn of wings that cross the plane of symmetry, and so each other, or that flap beyond their range [rad].
 
-    The solver avoids both; a prescribed wingbeat, such as a filmed one, may not. `flap` is the lowest and highest
-    flap angle that the shoulder allows [rad].
+    The solver avoids both; a prescribed wingbeat, such as a filmed one, may not.
     """
     phase = np.arange(_STROKE_SAMPLES) / _STROKE_SAMPLES
     leading, trailing = lateral_corners(vehicle.passive, wingbeat, phase, count=strips)
@@ -172,55 +181,11 @@ def crossing(vehicle: Vehicle, strips: int, wingbeat: Wingbeat, flap: tuple[floa
             f"each wing passes through the plane of symmetry by up to {1e3 * across:.2g} mm, "
             "where it meets the other wing: no animal can do this"
         )
-    angles = flap_angles(wingbeat, phase)
-    low, high = flap
+    angles, (low, high) = flap_angles(wingbeat, phase), flap
     if max(low - angles.min(), angles.max() - high) > _PAST:
         least, most, low, high = np.degrees([angles.min(), angles.max(), low, high])
-        reach = f"the shoulder allows {low:.0f} to {high:.0f}"
-        notes.append(f"the wing flaps from {least:.0f} to {most:.0f} degrees; {reach}")
-    return notes
-
-
-def induced_flow(vehicle: Vehicle, air: Air, speed: float) -> list[str]:
-    """Warn where induced flow matters, by the momentum theory of a hovering actuator disc."""
-    disc = math.pi * vehicle.wing.semi_span**2
-    induced = math.sqrt(vehicle.mass * air.gravity / (2.0 * air.density * disc))
-    if speed >= _SLOW * induced:
-        return []
-    return [
-        f"the model has no induced flow: it understates power at {speed:.1f} m/s, which is below "
-        f"{_SLOW * induced:.1f} m/s, three times the induced velocity of hover"
-    ]
-
-
-def lag_of_wake(problem: OrbitProblem, wingbeat: Wingbeat) -> list[str]:
-    """Warn if the unsteady terms overstate lift: they leave out the wake's lag, which grows with reduced frequency.
-
-    Theodorsen's function falls to 0.69 of steady lift at a reduced frequency of 0.3, and to 0.55 at 1.
-    """
-    wing, speed = problem.vehicle.wing, problem.speed
-    reduced = math.pi * wingbeat.frequency * wing.mean_chord / speed if speed else math.inf
-    if reduced <= _LAG:
-        return []
-    return [
-        f"the unsteady terms leave out the lag of the wake, which matters above a reduced frequency of {_LAG:g} "
-        f"({'in hover' if math.isinf(reduced) else f'here {reduced:.2g}'}): the lift from alpha is overstated"
-    ]
-
-
-def fitted_range(solution: Solution, beat: Beat) -> list[str]:
-    """Warn if strips leave the Reynolds numbers or angles of attack of the fit, and say for what share.
-
-    Every phase and every strip counts equally; strips have equal width.
-    """
-    aero = solution.problem.aero
-    notes = []
-    for part in aero.parts:
-        where = "" if aero.hand == "none" else f" of the {part.name}"
-        of_part = beat.strip_reynolds[:, part.strips], beat.alpha[:, part.strips]
-        notes += _outside_fit(part.coefficients, *of_part, where) if of_part[0].size else []
-    if aero.upstroke_factor != 1:
-        notes.append(f"the upstroke factor of {aero.upstroke_factor:g} is a guess: no source measured it")
+        flaps = f"the wing flaps from {least:.0f} to {most:.0f} degrees"
+        notes.append(f"{flaps}; the shoulder allows {low:.0f} to {high:.0f}")
     return notes
 
 
@@ -265,17 +230,8 @@ def _outside(values: np.ndarray, low: float, high: float) -> float:
 def plausibility(problem: OrbitProblem, beat: Beat, record: dict[str, Any]) -> list[dict[str, Any]]:
     """Return name, value, unit, low, high, within and source of each judged number; SI and radians.
 
-    An unknown end of a range is None. `within` is false if the value is beyond a known end, None if the number has
-    no value (such as the Strouhal number in hover) or nothing is known of its range, and true otherwise. Activation
-    is judged where there is muscle, the tail's tilt where a tail tilts.
+    An unknown end of a range is None. `within` is None if the number has no value (such as the Strouhal number in
+    hover) or nothing is known of its range.
     """
-    values = {
-        **record,
-        **record["wingbeat"],
-        "positive_power_per_mass": record["mean_positive_power"] / problem.vehicle.mass,
-        **{name: float(QUANTITIES[name].of(beat).max()) for name in OF_BEAT},
-    }
-    return [
-        judged(problem.species, problem.speed, name, values[name])
-        for name in judged_names(problem.species, problem.free)
-    ]
+    values, species = judged_values(record, beat, problem.vehicle.mass), problem.species
+    return [judged(species, problem.speed, name, values[name]) for name in judged_names(species, problem.free)]

@@ -14,19 +14,12 @@ _MOST = 0.5
 
 
 class LimitShare(NamedTuple):
-    """Among draws of a quantity, those that a limit has set; made by `limit_share`.
+    """Among draws of a quantity, those that a limit has set; made by `limit_share`."""
 
-    Attributes
-    ----------
-    limits : values that a limit gave the quantity, increasing.
-    at_limit, draws : number of draws at a limit, and of all draws.
-    others : smallest and largest value of the other draws; None if there are none.
-    """
-
-    limits: tuple[float, ...]
-    at_limit: int
-    draws: int
-    others: tuple[float, float] | None
+    limits: tuple[float, ...]  # values that a limit gave the quantity, increasing
+    at_limit: int  # number of draws at a limit
+    draws: int  # number of all draws
+    others: tuple[float, float] | None  # smallest and largest value of the other draws
 
     @property
     def share(self) -> float:
@@ -39,27 +32,16 @@ class LimitShare(NamedTuple):
         return self.share >= _MOST
 
     def in_words(self, unit: str = "", factor: float = 1.0) -> str:
-        """Return in words how many draws a limit has set.
-
-        >>> LimitShare((5.045,), 300, 300, None).in_words("Hz")
-        'set by the limit 5.045 Hz in 100 % of the samples'
-        """
+        """Return how many draws a limit has set: ``set by the limit 5.045 Hz in 100 % of the samples``."""
         limits = " and ".join(written(factor * limit) for limit in self.limits)
-        plural = "s" if len(self.limits) > 1 else ""
-        after = f" {unit}" if unit and unit != "1" else ""
+        what = f"limit{'s' if len(self.limits) > 1 else ''} {limits}{f' {unit}' if unit and unit != '1' else ''}"
         percent = 100 * self.share
         # Never 0 % or 100 % if that is not all.
         shown = f"{percent:.0f}" if percent in (0.0, 100.0) else f"{min(max(percent, 1.0), 99.0):.0f}"
-        return f"set by the limit{plural} {limits}{after} in {shown} % of the samples"
+        return f"set by the {what} in {shown} % of the samples"
 
     def shown(self, value: float, error: float, unit: str = "", factor: float = 1.0) -> str:
-        """Return the quantity as it is printed: with its error, or with the limit that set it.
-
-        >>> LimitShare((5.045,), 30, 40, (5.1, 5.6)).shown(5.2, 0.2, "Hz")
-        'set by the limit 5.045 Hz in 75 % of the samples, 5.10 to 5.60 Hz in the others'
-        >>> LimitShare((), 0, 40, (5.1, 5.6)).shown(5.2, 0.1234, "Hz")
-        '5.20 +- 0.12 Hz'
-        """
+        """Return the quantity as it is printed: with its error, or with the limit that set it."""
         usual = written(factor * value, factor * error, unit)
         if not self.at_limit:
             return usual
@@ -73,11 +55,7 @@ class LimitShare(NamedTuple):
 
 
 def limit_share(values: np.ndarray, at_limit: np.ndarray) -> LimitShare:
-    """Count the draws of a quantity that are at a limit.
-
-    >>> limit_share(np.array([5.0, 5.0, 5.3]), np.array([True, True, False]))
-    LimitShare(limits=(5.0,), at_limit=2, draws=3, others=(5.3, 5.3))
-    """
+    """Count the draws of a quantity that are at a limit."""
     held, others = np.sort(values[at_limit]), values[~at_limit]
     # Values that agree as closely as certified orbits do are one limit.
     first = np.diff(held, prepend=-np.inf) > PRECISION * np.abs(held)

@@ -17,7 +17,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -30,19 +30,17 @@ if TYPE_CHECKING:
 
 
 def flat(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield the values of nested tables by their dotted names; items of a list of numbers are numbered from 0.
-
-    Other lists become JSON text.
-
-    >>> dict(flat({"wing": {"mass": 0.02, "shoulder": [0.0, 0.1]}, "warnings": ["odd"]}))
-    {'wing.mass': 0.02, 'wing.shoulder.0': 0.0, 'wing.shoulder.1': 0.1, 'warnings': '["odd"]'}
-    """
+    """Yield what `leaves` yields, its lists as JSON text."""
     for path, value in leaves(record, before):
         yield path, json.dumps(value) if isinstance(value, list) else value
 
 
 def leaves(record: dict[str, Any], before: str = "") -> Iterator[tuple[str, Any]]:
-    """Yield the same as `flat`, except that a list remains a list unless it holds only numbers."""
+    """Yield the values of nested tables by their dotted names; items of a list of numbers are numbered from 0.
+
+    >>> dict(leaves({"wing": {"mass": 0.02, "shoulder": [0.0, 0.1]}, "warnings": ["odd"]}))
+    {'wing.mass': 0.02, 'wing.shoulder.0': 0.0, 'wing.shoulder.1': 0.1, 'warnings': ['odd']}
+    """
     for key, value in record.items():
         path = f"{before}{key}"
         if isinstance(value, dict):
@@ -62,9 +60,6 @@ def table_of(records: Iterable[dict[str, Any]]) -> pd.DataFrame:
     """Return a table of pandas with a row for each record, whose columns have the dotted names of `flat`.
 
     A range that is None becomes two missing numbers, so that every row has the same columns.
-
-    >>> table_of([{"price": {"frequency": 1.5}, "range": [0.0, 1.0]}]).columns.to_list()
-    ['price.frequency', 'range.0', 'range.1']
     """
     import pandas as pd
 
@@ -95,13 +90,6 @@ _ROWS = {"orbit": "phase", "flight": "phase", "torque-driven flight": "time"}
 _ROWS |= {"curve": "speed", "glide": "angle_of_attack"}
 
 
-class _Column(NamedTuple):
-    name: str
-    unit: str
-    meaning: str
-    values: Any
-
-
 def csv_text(dataset: xr.Dataset, results: dict[str, Any]) -> str:
     """Return the text of a CSV file."""
     kind = results["wingbeat_kind"]
@@ -111,14 +99,15 @@ def csv_text(dataset: xr.Dataset, results: dict[str, Any]) -> str:
     out.write(f"# {kind}, written by the package wingbeat; SI units, angles in radians; ")
     out.write(f"one row per {along.replace('_', ' ')}\n")
     out.write("#\n# results: name = value [unit]; values are JSON\n")
-    for path, value in _single_values(dataset, along, results):
+    single = [(str(name), v.values.tolist()) for name, v in dataset.variables.items() if along not in v.dims]
+    for path, value in (*leaves(results), *(one for one in single if one[0] != "optimum")):
         name = _one_line(path)
         out.write(f"# {name} = {json.dumps(value)}{_bracket(result_unit(dataset, results, path, value))}\n")
     out.write("#\n# columns: name [unit] meaning\n")
-    for column in columns:
-        out.write(f"# {column.name}{_bracket(column.unit)} {_one_line(column.meaning)}".rstrip() + "\n")
-    out.write(",".join(column.name for column in columns) + "\n")
-    for row in zip(*([_cell(v) for v in column.values.tolist()] for column in columns), strict=True):
+    for name, unit, meaning, _ in columns:
+        out.write(f"# {name}{_bracket(unit)} {_one_line(meaning)}".rstrip() + "\n")
+    out.write(",".join(name for name, *_ in columns) + "\n")
+    for row in zip(*([_cell(v) for v in values.tolist()] for *_, values in columns), strict=True):
         out.write(",".join(row) + "\n")
     return out.getvalue()
 
@@ -127,12 +116,11 @@ def frame_of(dataset: xr.Dataset) -> pd.DataFrame:
     """Return the rows and columns of the CSV file as a table of pandas."""
     import pandas as pd
 
-    columns = _columns(dataset, _ROWS[dataset.attrs[KIND]])
-    return pd.DataFrame({column.name: column.values for column in columns})
+    return pd.DataFrame({name: values for name, _, _, values in _columns(dataset, _ROWS[dataset.attrs[KIND]])})
 
 
-def _columns(dataset: xr.Dataset, along: str) -> Iterator[_Column]:
-    """Yield the columns of each variable that has the rows' dimension, the rows' own coordinate first."""
+def _columns(dataset: xr.Dataset, along: str) -> Iterator[tuple[str, str, str, Any]]:
+    """Yield name, unit, meaning and values of the columns of a table, its rows' own coordinate first."""
     for name in (along, *(name for name in dataset.variables if name != along)):
         variable = dataset[name]
         if along not in variable.dims:
@@ -144,7 +132,7 @@ def _columns(dataset: xr.Dataset, along: str) -> Iterator[_Column]:
             ends = [_end(dataset, str(dim), i) for dim, i in zip(others, at, strict=True)]
             own = "_".join([str(name), *(short for short, _ in ends if short)])
             said = ", ".join(part for part in (meaning, *(long for _, long in ends)) if part)
-            yield _Column(own, unit, said, moved[(slice(None), *at)])
+            yield own, unit, said, moved[(slice(None), *at)]
 
 
 def _end(dataset: xr.Dataset, dim: str, index: int) -> tuple[str, str]:
@@ -155,14 +143,6 @@ def _end(dataset: xr.Dataset, dim: str, index: int) -> tuple[str, str]:
     if isinstance(label, str):
         return label.replace(" ", "_"), str(label)
     return f"{dim}_{index + 1}", f"{dim} {label:.6g}"
-
-
-def _single_values(dataset: xr.Dataset, along: str, results: dict[str, Any]) -> Iterator[tuple[str, Any]]:
-    """Yield all values outside the table: results by dotted name, then variables without the rows' dimension."""
-    yield from leaves(results)
-    for name, variable in dataset.variables.items():
-        if along not in variable.dims and name != "optimum":
-            yield str(name), variable.values.tolist()
 
 
 def _bracket(unit: str) -> str:
@@ -189,12 +169,10 @@ def _one_line(text: str) -> str:
 
 # A name that MATLAB accepts, of at most `namelengthmax` characters, and the words of its language (`iskeyword`).
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,62}")
-_KEYWORDS = frozenset(
-    (
-        *("break", "case", "catch", "classdef", "continue", "else", "elseif", "end", "for", "function", "global"),
-        *("if", "otherwise", "parfor", "persistent", "return", "spmd", "switch", "try", "while"),
-    )
-)
+_KEYWORDS = {
+    *("break", "case", "catch", "classdef", "continue", "else", "elseif", "end", "for", "function", "global"),
+    *("if", "otherwise", "parfor", "persistent", "return", "spmd", "switch", "try", "while"),
+}
 
 
 def mat_bytes(dataset: xr.Dataset, results: dict[str, Any]) -> bytes:
@@ -237,23 +215,19 @@ def _value(value: Any) -> Any:
             return {key: _value(item) for key, item in value.items()}
         # MATLAB does not accept a limit such as "peak_power<=30" as the name of a field.
         return _value([{"name": key, "value": item} for key, item in value.items()])
-    if isinstance(value, list):
-        return _listed(value)
+    if isinstance(value, list):  # a matrix if it holds numbers in rows of one length, else a cell array
+        if numeric(value):
+            with suppress(ValueError):  # rows of several lengths
+                return np.array(value, dtype=float)
+        cells = np.empty(len(value), dtype=object)
+        for i, item in enumerate(value):
+            cells[i] = _value(item)
+        return cells
     return float(value) if is_number(value) else value
 
 
-def _listed(items: list[Any]) -> np.ndarray:
-    """Return a list as a matrix if it holds numbers in rows of one length, else as a cell array."""
-    if numeric(items):
-        with suppress(ValueError):  # rows of several lengths
-            return np.array(items, dtype=float)
-    cells = np.empty(len(items), dtype=object)
-    for i, item in enumerate(items):
-        cells[i] = _value(item)
-    return cells
-
-
-# Attributes of a dataset that are plain text even if they read as JSON, such as a species called "12".
+# Attributes of a dataset that are plain text even if they read as JSON, such as a species called "12". All inputs
+# together stay one JSON text, from which the result can be computed again.
 _TEXTS = (
     *("Conventions", "wingbeat_kind", "status", "message", "species", "objective", "trim", "version"),
     *("inputs", "inputs_hash", "statement_of_closure", "statement_of_plausibility"),
@@ -261,11 +235,7 @@ _TEXTS = (
 
 
 def results_of(dataset: xr.Dataset) -> dict[str, Any]:
-    """Return the attributes of a result as plain dictionaries and lists.
-
-    All inputs together stay one JSON text, from which the result can be computed again. The shape of the animal is
-    left out: only our drawings use it.
-    """
+    """Return the attributes of a result as dictionaries and lists, without the shape, which is for drawings."""
     found = {}
     for name, value in dataset.attrs.items():
         if name == SHAPE:

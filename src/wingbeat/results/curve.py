@@ -288,10 +288,7 @@ def curve_dataset(
     asked: Sequence[float],
     seconds: float,
 ) -> xr.Dataset:
-    """Assemble the records of all optima, shape (speed, optimum), the best first, padded with not-a-number.
-
-    Speeds that were not `asked` for are marked: they were added to find the characteristic speeds.
-    """
+    """Assemble the records of all optima, shape (speed, optimum), the best first, padded with not-a-number."""
     import xarray as xr
 
     problem = branches.optima[0][0].problem
@@ -339,8 +336,7 @@ def curve_dataset(
     optimum = attributes_of(NOMENCLATURE["optimum"])
     axes = {"speed": ("speed", speeds, speed), "optimum": ("optimum", np.arange(widest), optimum)}
     marks = [
-        {"kind": mark.kind, "lower_speed": mark.lower, "upper_speed": mark.upper, "what": mark.what}
-        for mark in marks_of(branches)
+        {"kind": m.kind, "lower_speed": m.lower, "upper_speed": m.upper, "what": m.what} for m in marks_of(branches)
     ]
     attributes = {
         "Conventions": "CF-1.11",
@@ -370,8 +366,7 @@ def _numbers(problem: OrbitProblem) -> Iterator[tuple[str, str, str, Callable[[d
     for name in PARAMETER_NAMES:
         always = name not in NAMED_IF_ON and harmonic_place(name) is None
         if always or in_use(problem.species.wingbeat, name) or name in problem.free:
-            own = functools.partial(_parameter, name)
-            yield name, NOMENCLATURE[name].unit, label_of(name), own
+            yield name, NOMENCLATURE[name].unit, label_of(name), functools.partial(_parameter, name)
     for name in State._fields:
         for column, part in (("initial", "initial_state"), ("closure", "closure")):
             label = label_of(f"{part}.{name}")
@@ -386,8 +381,7 @@ def _numbers(problem: OrbitProblem) -> Iterator[tuple[str, str, str, Callable[[d
 
 def _parameter(name: str, record: dict[str, Any]) -> float:
     """Return a parameter of the wingbeat, 0 for a law or a harmonic that is off."""
-    place = harmonic_place(name)
-    if place is None:
+    if (place := harmonic_place(name)) is None:
         return record["wingbeat"].get(name, 0.0)
     law, at = place
     pairs = record["wingbeat"].get(law, [])
@@ -412,11 +406,8 @@ def best_of(branches: Branches) -> BestLine:
 
 def _common_warnings(records: Sequence[dict[str, Any]]) -> list[str]:
     """Return the best orbits' warnings with their speeds; warnings that differ only in numbers are merged."""
-    speeds: dict[str, list[float]] = {}
-    texts: dict[str, str] = {}
+    alike: dict[str, tuple[str, list[float]]] = {}
     for record in records:
         for text in record["warnings"]:
-            key = re.sub(r"[\d.]+", "#", text)
-            texts.setdefault(key, text)
-            speeds.setdefault(key, []).append(record["speed"])
-    return [f"at {span_in_words(speeds[key])} m/s: {text}" for key, text in texts.items()]
+            alike.setdefault(re.sub(r"[\d.]+", "#", text), (text, []))[1].append(record["speed"])
+    return [f"at {span_in_words(speeds)} m/s: {text}" for text, speeds in alike.values()]

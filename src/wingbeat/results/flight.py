@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterator
+import itertools
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -74,7 +75,9 @@ class Flight(Saveable):
         import xarray as xr
 
         attributes = flight_attributes(self.model, self.wingbeat, self.species)
-        runs = [self._run(first, last, attributes) for first, last in self._alike()]
+        changes = [i for i, (one, other) in enumerate(itertools.pairwise(self.wingbeats), 1) if one != other]
+        ends = itertools.pairwise([0, *changes, len(self.wingbeats)])
+        runs = [self._run(first, last, attributes) for first, last in ends]
         found = runs[0] if len(runs) == 1 else xr.concat(runs, "phase", data_vars="minimal", coords="minimal")
         found["time"] = ("phase", self.time, found["time"].attrs)
         if self.air is not None:
@@ -82,16 +85,8 @@ class Flight(Saveable):
                 found[name] = ("phase", column, attributes_of(NOMENCLATURE[name]))
         return found
 
-    def _alike(self) -> Iterator[tuple[int, int]]:
-        """Yield, for each run of beats with the same wingbeat, its first beat and the beat after its last."""
-        first = 0
-        for i in range(1, len(self.wingbeats) + 1):
-            if i == len(self.wingbeats) or self.wingbeats[i] != self.wingbeats[first]:
-                yield first, i
-                first = i
-
     def _run(self, first: int, last: int, attributes: dict[str, Any]) -> xr.Dataset:
-        """Return the series of a run of beats; the sample between two runs belongs to the earlier run."""
+        """Return the series of beats with the same wingbeat; the sample between two runs belongs to the earlier."""
         samples = (len(self.phase) - 1) // len(self.wingbeats)
         here = slice(first * samples + (first > 0), last * samples + 1)
         wingbeat, phase, states = self.wingbeats[first], self.phase[here], self.states[here]
@@ -153,8 +148,7 @@ def simulate(
 
 
 # The generalised coordinates and their rates, as a data set names them.
-_COORDINATES = ("x", "z", "body_pitch", "flap", "wing_pitch")
-_RATES = ("u", "w", "pitch_rate", "flap_rate", "wing_pitch_rate")
+_DRIVEN = ("x", "z", "body_pitch", "flap", "wing_pitch", "u", "w", "pitch_rate", "flap_rate", "wing_pitch_rate")
 
 
 @dataclass(frozen=True)
@@ -192,8 +186,7 @@ class TorqueDrivenFlight(Saveable):
         """The time series, labelled."""
         import xarray as xr
 
-        names, values = (*_COORDINATES, *_RATES), np.hstack([self.coordinates, self.rates]).T
-        series = zip(names, values, strict=True)
+        series = zip(_DRIVEN, np.hstack([self.coordinates, self.rates]).T, strict=True)
         return xr.Dataset(
             {name: ("time", value, attributes_of(NOMENCLATURE[name])) for name, value in series},
             {"time": ("time", self.time, attributes_of(NOMENCLATURE["time"]))},

@@ -290,12 +290,7 @@ def load_orbit(path: str | PathLike[str]) -> Orbit:
 
 
 def orbit_from(dataset: xr.Dataset) -> Orbit:
-    """Return the orbit in a dataset.
-
-    Parameters
-    ----------
-    dataset : that `load_dataset` read and checked.
-    """
+    """Return the orbit in a dataset that `load_dataset` read and checked."""
     record, inputs = parse_attributes(dataset.attrs)
     return Orbit(_summary(record), inputs, record=record, series=dataset)
 

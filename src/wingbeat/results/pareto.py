@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 MOST_LIMITS = 200
 _OF_ORBIT = ("frequency", "flap_amplitude")
-_OF_RECORD = ("mean_positive_power", "stable")
+_OF_RECORD = ("mean_positive_power", "stable", "active_bounds")
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,6 @@ class ParetoFront(Reported):
                 "dominated": bool(dominated),
                 **{name: float(getattr(orbit.wingbeat, name)) for name in _OF_ORBIT},
                 **{name: orbit.record()[name] for name in _OF_RECORD},
-                "active_bounds": orbit.record()["active_bounds"],
             }
             for limit, orbit, objective, value, dominated in zip(
                 self.limits, self.orbits, self.objectives, self.values, self.dominated, strict=True
@@ -169,26 +168,6 @@ def pareto_front(
     >>> front.limits, front.dominated.any()
     ((None, 1.2, 1.0), np.False_)
     """
-    values = _checked(problem, quantity, limits, at_most)
-    kept = Constraint(quantity, values[0], at_most).quantity  # type: ignore[arg-type]
-    series = [problem]
-    series += [
-        dataclasses.replace(problem, subject_to=(*problem.subject_to, Constraint(kept, limit, at_most)))
-        for limit in values
-    ]
-    found = find_series(
-        series, Settings(starts, seed, advise=False, options=options), processes=processes, progress=progress
-    )
-    counts = [start_count(one, starts, options.search) for one in series]
-    orbits = tuple(Orbit.of(solution, count, seed) for solution, count in zip(found, counts, strict=True))
-    reached = [s.value_of(kept) if s.status is Status.CONVERGED else math.nan for s in found]
-    return ParetoFront(kept, at_most, (None, *values), orbits, np.array(reached, dtype=float))
-
-
-def _checked(
-    problem: OrbitProblem, quantity: Quantity | str, limits: Sequence[float], at_most: bool
-) -> list[float]:
-    """Return the limits from the loosest to the tightest."""
     faults, values = FaultList(), list(limits)
     good = all([faults.number(f"limits[{i}]", limit) for i, limit in enumerate(values)])
     if not 1 <= len(values) <= MOST_LIMITS:
@@ -203,4 +182,13 @@ def _checked(
         fix = "leave it out of the problem's own limits"
         faults.add("quantity", kept.name, "is limited by the problem already", fix)
     faults.raise_if_any()
-    return sorted((float(limit) for limit in values), reverse=at_most)
+    values = sorted((float(limit) for limit in values), reverse=at_most)
+    tighter = [(*problem.subject_to, Constraint(kept, limit, at_most)) for limit in values]
+    series = [problem, *(dataclasses.replace(problem, subject_to=limits) for limits in tighter)]
+    found = find_series(
+        series, Settings(starts, seed, advise=False, options=options), processes=processes, progress=progress
+    )
+    counts = [start_count(one, starts, options.search) for one in series]
+    orbits = tuple(Orbit.of(solution, count, seed) for solution, count in zip(found, counts, strict=True))
+    reached = [s.value_of(kept) if s.status is Status.CONVERGED else math.nan for s in found]
+    return ParetoFront(kept, at_most, (None, *values), orbits, np.array(reached, dtype=float))

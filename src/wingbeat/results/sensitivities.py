@@ -146,7 +146,14 @@ class Sensitivities(Reported):
 
     def table(self) -> list[dict[str, Any]]:
         """Return the ranked sensitivities, then the prices, as plain dictionaries fit for JSON."""
-        return [_plain(slope) for slope in [*self.ranked(next(iter(self.values))), *self.prices]]
+        rows = []
+        for slope in [*self.ranked(next(iter(self.values))), *self.prices]:
+            own, plausible = slope.parameter, slope.parameter.plausible
+            row = {"parameter": own.path, "unit": own.unit, "value": own.value}
+            row |= {"plausible": None if plausible is None else list(plausible), "objective": slope.objective}
+            row |= {name: getattr(slope, name) for name in ("quantities", "wingbeat", "initial_state")}
+            rows.append(row)
+        return rows
 
     @property
     def limited(self) -> frozenset[str]:
@@ -232,20 +239,6 @@ def sensitivities(
     return Sensitivities(problem, orbit.unknowns, known, optimum.values(known).tolist(), slopes, prices)
 
 
-def _plain(slope: Sensitivity) -> dict[str, Any]:
-    parameter = slope.parameter
-    return {
-        "parameter": parameter.path,
-        "unit": parameter.unit,
-        "value": parameter.value,
-        "plausible": None if parameter.plausible is None else list(parameter.plausible),
-        "objective": slope.objective,
-        "quantities": slope.quantities,
-        "wingbeat": slope.wingbeat,
-        "initial_state": slope.initial_state,
-    }
-
-
 def _of_fit(
     problem: OrbitProblem, parameters: Sequence[Parameter], fit: Fitted, share: float
 ) -> list[ParameterSpread]:
@@ -271,15 +264,16 @@ _NAMED = 3
 
 
 def influence_report(found: Sensitivities, bars: Sequence[ErrorBar] | None = None) -> Report:
-    """Return what each quantity depends on most, the sensitivities, and the prices of the active bounds.
-
-    `bars` are the error bars of the quantities, if the uncertainty of a fit belongs to them.
-    """
+    """Return what each quantity depends on most, the sensitivities, and the prices of the active bounds."""
     names = list(found.values)
     if bars is None:
         bars = [found.error_bar(name) for name in names]
-    headings = [f"{name.replace('_', ' ')} [{found.units[name]}]" for name in names]
-    rows = tuple(Row(_cells(slope, found)) for slope in found.ranked(names[0])[:_MOST])
+    headings, rows = [f"{name.replace('_', ' ')} [{found.units[name]}]" for name in names], []
+    for slope in found.ranked(names[0])[:_MOST]:
+        ends = slope.parameter.plausible
+        plausible = "+-1 %" if ends is None else "{:.3g} to {:.3g}".format(*ends)
+        swings = ["{:+.2g}, {:+.2g}".format(*found.swing(slope, name)) for name in names]
+        rows.append(Row((slope.parameter.path, plausible, *swings)))
     prices = [f"  {price_in_words(price, found)}" for price in found.prices] or ["  none is active"]
     return [
         Line("sensitivities: a first-order ranking, not an error bar", tone="title"),
@@ -287,18 +281,11 @@ def influence_report(found: Sensitivities, bars: Sequence[ErrorBar] | None = Non
         Line("  for error bars run `wingbeat uncertainty`"),
         Line(""),
         Line("change at the low and high end of each range, extrapolated linearly: for ranking only", tone="title"),
-        Table(rows, ("parameter", "plausible", *headings), "n" + "r" * (1 + len(names))),
+        Table(tuple(rows), ("parameter", "plausible", *headings), "n" + "r" * (1 + len(names))),
         Line(""),
         Line("prices of the active bounds", tone="title"),
         *(Line(price) for price in prices),
     ]
-
-
-def _cells(slope: Sensitivity, found: Sensitivities) -> tuple[str, ...]:
-    parameter = slope.parameter
-    plausible = "+-1 %" if parameter.plausible is None else "{:.3g} to {:.3g}".format(*parameter.plausible)
-    swings = ["{:+.2g}, {:+.2g}".format(*found.swing(slope, name)) for name in found.values]
-    return parameter.path, plausible, *swings
 
 
 def ranked_in_words(bar: ErrorBar) -> str:

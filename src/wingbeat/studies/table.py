@@ -22,7 +22,7 @@ from wingbeat._base import (
     plain_unit,
     write_atomically,
 )
-from wingbeat.records.netcdf import netcdf_bytes
+from wingbeat.records.result_files import netcdf_bytes
 from wingbeat.records.tables import flat
 
 if TYPE_CHECKING:

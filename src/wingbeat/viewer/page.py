@@ -19,8 +19,7 @@ from wingbeat._base import write_atomically, writing
 from wingbeat._base.datasets import flown
 from wingbeat._base.style import GREEN, drawing
 from wingbeat.animal.vehicle import Body
-from wingbeat.viewer.look import body_axes
-from wingbeat.viewer.scene import Push, scene, tail_of
+from wingbeat.viewer.scene import Push, body_axes, scene, tail_of
 
 if TYPE_CHECKING:
     import xarray as xr

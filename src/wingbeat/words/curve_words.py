@@ -20,7 +20,7 @@ from wingbeat._base import (
     written,
     written_range,
 )
-from wingbeat.records.judgements import SetBy, called, set_by_limit
+from wingbeat.records.judgements import called, set_by_limit
 
 # Of characteristic speeds that do not say it by their name.
 _LABELS = {
@@ -82,7 +82,12 @@ def _limited(record: dict[str, Any]) -> list[Block]:
     """Say at which speeds limits have set which numbers of the best orbit, which are then no predictions."""
     spans: dict[tuple[str, str], list[list[float]]] = {}
     for place, point in enumerate(record["points"]):
-        for name, what in _set_by_limit(point, record["objective"]).items():
+        if not point["optima"]:
+            continue
+        best = point["optima"][0]
+        names = [name for name in str(best["active_bounds"]).split(", ") if name]
+        found = set_by_limit({"active_bounds": names, "objective": record["objective"], "wingbeat": best})
+        for name, what in found.items():
             own = what.by == (name,)  # also of a limit along the path, whose value the curve does not hold
             runs = spans.setdefault((called(name), "set by the limit" if own else what.words), [])
             if not runs or runs[-1][-1] != record["points"][place - 1]["speed"]:
@@ -95,14 +100,6 @@ def _limited(record: dict[str, Any]) -> list[Block]:
         for (name, words), runs in spans.items()
     ]
     return [Line(""), Line("set by limits, so not predicted", tone="title"), *told]
-
-
-def _set_by_limit(point: dict[str, Any], objective: str) -> dict[str, SetBy]:
-    if not point["optima"]:
-        return {}
-    best = point["optima"][0]
-    names = [name for name in str(best["active_bounds"]).split(", ") if name]
-    return set_by_limit({"active_bounds": names, "objective": objective, "wingbeat": best})
 
 
 def span_in_words(speeds: list[float]) -> str:
@@ -125,22 +122,12 @@ def _characteristic(record: dict[str, Any]) -> list[Block]:
 
 
 def speed_label(name: str) -> str:
-    """Return a characteristic speed's name in words.
-
-    >>> speed_label("maximum_range"), speed_label("minimum_frequency")
-    ('greatest range', 'minimum frequency')
-    """
+    """Return a characteristic speed's name in words."""
     return _LABELS.get(name, name.replace("_", " "))
 
 
 def speed_in_words(found: dict[str, Any] | None) -> str:
-    """Return a characteristic speed with its error bar, or why none is given.
-
-    >>> speed_in_words({"status": "at_or_below", "speed": None, "interval": [None, 4.0]})
-    'at or below 4 m/s, where the curve ends'
-    >>> speed_in_words({"status": "found", "speed": 8.4762, "interval": [8.36, 8.56]})
-    '8.48 m/s (8.36 to 8.56)'
-    """
+    """Return a characteristic speed with its error bar, or why none is given."""
     if found is None:
         return "none"
     if found["status"] == "found":
@@ -202,19 +189,14 @@ def _told(found: dict[str, Any] | None, quantity: str, objective: str) -> str:
         text += f"; other minima within 1 % at {others} m/s"
     both = [name for name in found["limits"] if name not in found["changed_limits"]]
     if both and found["status"] != "set_by_limit":
-        text += f"; with {_named(both)} at {_its(both)}"
+        text += f"; with {_at_limits(both)}"
     if found["changed_limits"]:
-        names = found["changed_limits"]
-        text += f"; a limit chose it: {_named(names)} at {_its(names)} on one side of it only"
+        text += f"; a limit chose it: {_at_limits(found['changed_limits'])} on one side of it only"
     return text
 
 
-def _named(names: list[str]) -> str:
-    return " and ".join(called(name) for name in names)
-
-
-def _its(names: list[str]) -> str:
-    return "its limit" if len(names) == 1 else "their limits"
+def _at_limits(names: list[str]) -> str:
+    return f"{' and '.join(map(called, names))} at {'its limit' if len(names) == 1 else 'their limits'}"
 
 
 def pareto_report(record: dict[str, Any]) -> Report:
@@ -238,12 +220,9 @@ def _front_cells(
     shown = "none" if point["limit"] is None else f"{factor * point['limit']:.4g}"
     if point["objective_value"] is None:
         return (shown, *[""] * 5, f"{point['status']}: {point['message']}")
-    beat = {name: point[name] for name in ("frequency", "flap_amplitude")}
-    limited = set_by_limit(
-        {"active_bounds": point["active_bounds"], "objective": record["objective"], "wingbeat": beat}
-    )
+    of_point = {"active_bounds": point["active_bounds"], "objective": record["objective"], "wingbeat": point}
     # The limit of the front has a column of its own.
-    names = [called(name) for name in limited if name != record["quantity"]]
+    names = [called(name) for name in set_by_limit(of_point) if name != record["quantity"]]
     remarks = ["dominated" if point["dominated"] else ("stable" if point["stable"] else "unstable")]
     remarks += [f"set by limits: {', '.join(names)}"] if names else []
     return (

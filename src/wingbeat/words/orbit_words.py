@@ -70,8 +70,7 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
 def limits_in_words(record: dict[str, Any]) -> str:
     """Return the numbers of an orbit that limits have set, each with its value, and what follows from them.
 
-    Of what follows, only parameters of the wingbeat and the minimised quantity are named. The text is empty if the
-    orbit is at no limit.
+    Of what follows, only parameters of the wingbeat and the minimised quantity are named.
     """
     limited, beat = set_by_limit(record), record.get("wingbeat") or {}
     own, follows = [], []
@@ -89,15 +88,15 @@ def limits_in_words(record: dict[str, Any]) -> str:
 
 def flight_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
     """Return the numbers of the flight as a whole."""
-    names = ("strouhal", "reduced_frequency", "reynolds")
-    rows = [(_label(name), _of(record, name, limited)) for name in names if name in record]
-    for name in ("alpha_quarter_span", "alpha_three_quarter_span"):
-        if name in record:
+    names = ("strouhal", "reduced_frequency", "reynolds", "alpha_quarter_span", "alpha_three_quarter_span")
+    rows = []
+    for name in [name for name in (*names, "body_pitch_range") if name in record]:
+        if name.startswith("alpha"):
             factor, unit = for_people(NOMENCLATURE[name].unit)
             low, high = record[name]
             rows.append((_label(name), _range(low, high, unit, factor)))
-    if "body_pitch_range" in record:
-        rows.append((_label("body_pitch_range"), _of(record, "body_pitch_range", limited)))
+        else:
+            rows.append((_label(name), _of(record, name, limited)))
     return rows
 
 
@@ -107,16 +106,10 @@ def plausible_rows(judged: list[dict[str, Any]], limited: Limited = _NONE) -> Ro
     for one in judged:
         factor, unit = for_people(cf(str(one["unit"])))
         low, high = one["low"], one["high"]
-        if low is None and high is None:
-            known = "no range is known"
-        elif low is None or high is None:
-            known = (
-                f"at least {_number(low, unit, factor)}"
-                if high is None
-                else f"at most {_number(high, unit, factor)}"
-            )
+        if low is None:
+            known = "no range is known" if high is None else f"at most {_number(high, unit, factor)}"
         else:
-            known = _range(low, high, unit, factor)
+            known = f"at least {_number(low, unit, factor)}" if high is None else _range(low, high, unit, factor)
         outside = ", outside" if one["within"] is False else ""
         by = limited[one["name"]].by if one["name"] in limited else ()
         why = ", set by the limit" if one["name"] in by else ", follows from a limit" if by else ""
@@ -126,10 +119,10 @@ def plausible_rows(judged: list[dict[str, Any]], limited: Limited = _NONE) -> Ro
 
 def deficit_rows(deficits: list[dict[str, Any]]) -> Rows:
     """Return which balances fail, and by how much."""
-    share = {"N m": "of weight times chord"}
     rows = []
     for short in deficits:
-        amount, of = _number(short["amount"], short["unit"], 1.0), share.get(short["unit"], "of the weight")
+        of = "of weight times chord" if short["unit"] == "N m" else "of the weight"
+        amount = _number(short["amount"], short["unit"], 1.0)
         rows.append((short["law"], f"{amount}, {100 * short['share']:.2g} % {of}"))
     return rows
 
@@ -147,7 +140,7 @@ def state_rows(state: dict[str, Any]) -> Rows:
 
 
 def mass_of(vehicle: dict[str, Any]) -> float:
-    """Return the mass of a record's vehicle [kg]: body and both wings."""
+    """Return the mass of a record's vehicle [kg]."""
     return vehicle["body"]["mass"] + 2 * vehicle["wing"]["mass"]
 
 
@@ -162,9 +155,9 @@ def power_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
     vehicle = record.get("vehicle")
     mass = mass_of(vehicle) if vehicle else None
     rows = []
+    unit = plain_unit("positive_power_per_mass")
     for name in (*hinges, "mean_actuator_power", "peak_actuator_power"):
         if name in record:
-            unit = plain_unit("positive_power_per_mass")
             each = f" ({_number(record[name], unit, 1 / mass)})" if mass and record[name] is not None else ""
             rows.append((power_label(name), f"{_of(record, name)}{each}{_why(name, limited)}"))
     others = [name for name in ("cost_of_transport", *OF_MUSCLE, *OF_MOTOR) if name in record]
@@ -211,9 +204,8 @@ def stability_rows(record: dict[str, Any]) -> Rows:
     rows.append(("stable", "yes" if record["stable"] else "no"))
     growth = math.log(max(sizes)) if max(sizes) > 0 else -math.inf
     if growth:
-        time = math.log(2.0) / abs(growth)
         what = "doubles" if growth > 0 else "halves"
-        rows.append((f"a disturbance {what} in", f"{time:.3g} beats"))
+        rows.append((f"a disturbance {what} in", f"{math.log(2.0) / abs(growth):.3g} beats"))
     return rows
 
 
@@ -281,11 +273,15 @@ def status_line(status: str, message: str, tone: Tone) -> Line:
     return Line(f": {message}" if message else "", status, tone)
 
 
-def power_groups(account: dict[str, Any] | None) -> dict[str, list[tuple[str, str]]]:
+def power_groups(account: dict[str, Any] | None) -> dict[str, Rows]:
     """Return a power account as groups of rows; no groups if there is no account."""
     if account is None:
         return {}
-    costs = [(_fate(share), _watts(cost)) for share, cost in account["cost_by_returned"]]
+    fates = {-1.0: "if it costs as much as positive work", 0.0: "if it is lost"}
+    costs = [
+        (fates.get(share, f"if {share:.0%} of it is returned"), _watts(cost))
+        for share, cost in account["cost_by_returned"]
+    ]
     spring = account["best_spring"]
     if spring["rest_angle"] is None:
         springs = [("best stiffness", "none: no spring helps")]
@@ -304,15 +300,9 @@ def power_groups(account: dict[str, Any] | None) -> dict[str, list[tuple[str, st
     }
 
 
-def _spreads(parts: dict[str, dict[str, float]]) -> list[tuple[str, str]]:
-    return [
-        (name, ", ".join(_watts(part[key]) for key in ("mean", "least", "most"))) for name, part in parts.items()
-    ]
-
-
-def _fate(returned: float) -> str:
-    named = {-1.0: "if it costs as much as positive work", 0.0: "if it is lost"}
-    return named.get(returned, f"if {returned:.0%} of it is returned")
+def _spreads(parts: dict[str, dict[str, float]]) -> Rows:
+    shown = {name: (_watts(part[key]) for key in ("mean", "least", "most")) for name, part in parts.items()}
+    return [(name, ", ".join(watts)) for name, watts in shown.items()]
 
 
 def _watts(value: float | None) -> str:

@@ -15,7 +15,7 @@ from wingbeat.mechanics.wing_points import corners_of, wing_points
 from wingbeat.mechanics.wing_shape import air_chord, strips_of, stroke_pitch, twist_factors
 from wingbeat.records.flight_dataset import evaluate
 from wingbeat.results.orbit import Orbit
-from wingbeat.viewer.look import body_axes
+from wingbeat.viewer.scene import body_axes
 from wingbeat_evidence.paper.treatments import MODELS, SAMPLE_SPEED
 
 

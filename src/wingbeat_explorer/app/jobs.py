@@ -23,8 +23,7 @@ from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, search_near
 from wingbeat.records.inputs import inputs_of, problem_from
-from wingbeat.records.netcdf import netcdf_bytes
-from wingbeat.records.result_files import load_dataset
+from wingbeat.records.result_files import load_dataset, netcdf_bytes
 from wingbeat.results.orbit import Orbit, orbit_from, solve_orbit
 from wingbeat.results.sensitivities import sensitivities
 from wingbeat.words.orbit_words import orbit_groups

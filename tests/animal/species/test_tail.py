@@ -9,7 +9,7 @@ from tests.helpers.species_texts import faults_of
 from wingbeat.animal.species import scaling
 from wingbeat.animal.species.reading import template
 from wingbeat.animal.species.writing import species_text
-from wingbeat.viewer.look import tail_corners
+from wingbeat.viewer.scene import tail_corners
 
 PIGEON = wb.load_species("pigeon")
 NUMBERS = {"tail.area": 0.004, "tail.arm": 0.12, "tail.lift_slope": 3.0}

@@ -301,7 +301,7 @@ def power_groups(account: dict[str, Any] | None) -> dict[str, Rows]:
 
 
 def _spreads(parts: dict[str, dict[str, float]]) -> Rows:
-    shown = {name: (_watts(part[key]) for key in ("mean", "least", "most")) for name, part in parts.items()}
+    shown = {name: [_watts(part[key]) for key in ("mean", "least", "most")] for name, part in parts.items()}
     return [(name, ", ".join(watts)) for name, watts in shown.items()]
 
 

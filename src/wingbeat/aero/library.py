@@ -44,8 +44,8 @@ class Estimate(NamedTuple):
 
 WING_ESTIMATES: dict[str, dict[str, Estimate]] = {}
 with Path(__file__).with_name("wing_estimates.csv").open(encoding="utf-8", newline="") as _file:
-    for _model, _term, *_numbers, _basis in list(csv.reader(_file))[1:]:
-        WING_ESTIMATES.setdefault(_model, {})[_term] = Estimate(*map(float, _numbers), _basis)
+    for _model, _term, _value, _low, _high, _basis in list(csv.reader(_file))[1:]:
+        WING_ESTIMATES.setdefault(_model, {})[_term] = Estimate(float(_value), float(_low), float(_high), _basis)
 
 
 def _sine_cosine(name: str, lift: float, mean: float, swing: float, **about: Any) -> FormulaCoefficients:

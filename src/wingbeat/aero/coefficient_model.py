@@ -55,10 +55,10 @@ def check_aspect_ratio(faults: FaultList, where: str, given: Any) -> None:
         faults.number(where, given, above=0, fix="give span over mean chord, inf for a section, or none if unknown")
 
 
-def check_about(faults: FaultList, model: Any) -> None:
+def check_about(faults: FaultList, model: CoefficientModel, grade: str) -> None:
     """Note faults of what a model of formulas states about itself."""
     check_aspect_ratio(faults, "aspect_ratio", model.aspect_ratio)
-    faults.choice("grade", model.grade, tuple(GRADES))
+    faults.choice("grade", grade, tuple(GRADES))
     if model.reynolds_range is not None:
         check_range(faults, "reynolds_range", model.reynolds_range)
 

@@ -75,7 +75,7 @@ class FormulaCoefficients(CoefficientModel):
 
     def __post_init__(self) -> None:
         faults = FaultList()
-        check_about(faults, self)
+        check_about(faults, self, self.grade)
         check_range(faults, "alpha_range_deg", self.alpha_range_deg)
         check_extension(faults, self.extension, self.blend_width_deg)
         if self.extension in ("signed", "signed-drag") and self.drag_terms.decays:
@@ -212,7 +212,7 @@ class CamberedCoefficients(CoefficientModel):
 
     def __post_init__(self) -> None:
         faults = FaultList()
-        check_about(faults, self)
+        check_about(faults, self, self.grade)
         check_extension(faults, self.extension, self.blend_width_deg)
         check_range(faults, "low_join_deg", self.low_join_deg)
         check_range(faults, "high_join_deg", self.high_join_deg)

@@ -47,7 +47,7 @@ def uncertified_orbit(pigeon_orbit):
     return wb.Orbit.of_record(record, pigeon_orbit.problem, starts=1)
 
 
-@pytest.fixture(params=["rigid", "pigeon", "bat", "animal"])
+@pytest.fixture(params=["rigid", "pigeon", "bat", pytest.param("animal", marks=pytest.mark.slow)])
 def orbit(request):
     """Each of the orbits in turn."""
     found = request.getfixturevalue(f"{request.param}_orbit")

@@ -159,11 +159,13 @@ def test_a_pigeon_with_a_tail_flies_certified(speed, free):
         assert found.wingbeat.frequency <= orbit(speed).wingbeat.frequency * (1 + 1e-6)
 
 
+@pytest.mark.slow
 def test_it_takes_the_divergence_of_the_pigeon_away():
     """Without a tail the largest multiplier at 12 m/s is 1.35."""
     assert max(np.hypot(*m) for m in orbit(12.0).record()["floquet_multipliers"]) < 1.0
 
 
+@pytest.mark.slow
 def test_an_orbit_with_a_tail_is_read_back(tmp_path):
     found = orbit(10.0, free=True)
     found.save(tmp_path / "orbit.nc")

@@ -175,6 +175,7 @@ def test_a_chord_law_moves_the_trailing_and_the_leading_edge_and_no_mass():
     np.testing.assert_allclose(sides, wanted, atol=1e-14)
 
 
+@pytest.mark.slow
 def test_end_of_a_period_by_every_new_parameter():
     model = model_of("bat", **{"wing.stroke_plane_angle_deg": 75.0})
     fly, start = flier(model, PLAIN, tuple(NEW)), np.array([0.3, 6.0, 0.5, 1.0])

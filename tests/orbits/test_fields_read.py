@@ -41,6 +41,7 @@ def test_a_function_that_only_looks_at_a_field_gets_all_of_them():
     assert len(fields_of(Quantity("own", of), wb.load_species("pigeon").vehicle.drive)) == len(Beat._fields) - 1
 
 
+@pytest.mark.slow
 def test_values_and_derivatives_are_those_of_the_whole_beat():
     pigeon = wb.load_species("pigeon")
     limit = Constraint(QUANTITIES["peak_pitch_torque"], 0.1)

@@ -165,6 +165,7 @@ def test_the_term_that_made_the_difference_is_told_and_certified():
     assert f"closes at {again.wingbeat.frequency:.3g} Hz" in change.text
 
 
+@pytest.mark.slow
 def test_the_force_that_is_told_counts_the_term():
     """What is short is what the mean of all air loads lacks, rotation and added mass among them."""
     found = slow()

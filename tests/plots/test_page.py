@@ -110,6 +110,7 @@ def test_every_downstroke_is_shaded_over_phase(orbit, flight, which):
             assert axes.get_xlim() == (0, beats)
 
 
+@pytest.mark.slow
 def test_a_long_downstroke_is_shaded_to_its_end_and_marked_there():
     species = wb.load_species("pigeon")
     beat = dataclasses.replace(species.wingbeat, downstroke_fraction=0.625)

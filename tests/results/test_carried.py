@@ -126,6 +126,7 @@ def test_what_no_path_can_be_is_refused():
         Film("no clock", short.film.phase, pitch)
 
 
+@pytest.mark.slow
 def test_the_command_says_how_much_of_the_weight_is_held(tmp_path, capsys, monkeypatch):
     monkeypatch.setattr("wingbeat.cli.filmed.DRAWS", 3)
     pigeon = wb.load_species("pigeon")

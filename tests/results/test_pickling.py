@@ -107,6 +107,7 @@ def lift_of_the_beat(beat):
     return beat.mean(beat.lift.sum(axis=1))
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("few_derivatives")
 def test_an_orbit_with_a_function_of_ones_own_keeps_its_problem():
     """No file holds the function, but the orbit in memory does, and so does its pickle."""

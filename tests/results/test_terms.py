@@ -20,6 +20,7 @@ def trace():
     return wb.trace_terms(pigeon(unsteady="thin-aerofoil"), shares=[0.0, 0.5, 1.0], starts=1)
 
 
+@pytest.mark.slow
 def test_the_ends_are_the_orbits_without_and_with_the_term(trace):
     record = trace.record()
     assert [point["status"] for point in record["points"]] == ["converged"] * 3

@@ -59,6 +59,7 @@ def test_feedback_that_comes_late_is_lost_and_ends_with_3(saved, capsys):
     assert "A weaker gust" in printed
 
 
+@pytest.mark.slow
 def test_the_figure_shows_flights_and_shares(cruise, held):
     gust = wb.winds.CosineGust(w=2.0, start=0.1, duration=0.3)
     flights = {"no feedback": fly_gust(cruise, gust), "feedback": fly_gust(cruise, gust, feedback=held)}

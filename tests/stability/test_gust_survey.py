@@ -22,6 +22,7 @@ def test_feedback_survives_what_the_orbit_alone_does_not(survey):
     assert survey.share("feedback, one beat late") > 0.95
 
 
+@pytest.mark.slow
 def test_gusts_are_drawn_as_said(survey, cruise):
     period = 1 / cruise.wingbeat.frequency
     for values, low, high in (

@@ -155,6 +155,7 @@ def glider():
     return model, still, np.array([glide.body_pitch, *velocity, 0.0]), glide
 
 
+@pytest.mark.slow
 def test_still_wings_give_the_exponential_of_the_rates(glider):
     model, still, state, _ = glider
     found = stroke_map(model, still, state, ("flap_mean",), blocks=12)

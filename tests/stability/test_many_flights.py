@@ -28,6 +28,7 @@ def one_by_one(orbit, winds, beats, controller=None):
     return np.stack([one.states[::16] for one in flown]), np.stack([one.time[::16] for one in flown])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("delay", "late"), [(0, 0), (1, 0), (0, 1)])
 def test_held_flights_are_those_of_the_adaptive_integrator(cruise, delay, late):
     found = wb.feedback(cruise, delay=delay)
@@ -42,6 +43,7 @@ def test_held_flights_are_those_of_the_adaptive_integrator(cruise, delay, late):
         assert many.survived.all()
 
 
+@pytest.mark.slow
 def test_free_flights_are_those_of_the_adaptive_integrator(cruise):
     states, times = one_by_one(cruise, GUSTS, 4)
     many = wb.simulate_many(cruise, GUSTS, 4)
@@ -60,6 +62,7 @@ def test_more_steps_come_closer(cruise):
     assert away[1] < 0.1 * away[0]
 
 
+@pytest.mark.slow
 def test_flights_do_not_depend_on_their_company(cruise, patient):
     gusts = [wb.winds.CosineGust(w=size, duration=0.2) for size in np.linspace(-3, 3, 11).tolist()]
     together = wb.simulate_many(cruise, gusts, 5, feedback=patient)
@@ -77,6 +80,7 @@ def test_noise_is_added_to_what_is_measured(cruise, held):
     assert np.array_equal(flown.states, again.states)
 
 
+@pytest.mark.slow
 def test_a_flight_is_lost_by_its_pitch_or_its_height(cruise):
     gusts = [wb.winds.CosineGust(), wb.winds.CosineGust(w=3.0, duration=0.2)]
     many = wb.simulate_many(cruise, gusts, 16)

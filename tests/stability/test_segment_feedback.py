@@ -29,6 +29,7 @@ def flown(found, j, change, bumps):
     return states[-1, 1:]
 
 
+@pytest.mark.slow
 def test_the_maps_are_those_of_differences_of_flights(bat):
     step, still = 1e-5, np.zeros(2)
     for j in range(SEGMENTS):
@@ -44,6 +45,7 @@ def test_the_maps_are_those_of_differences_of_flights(bat):
         assert np.abs(bat.B[j] - np.transpose(by_bumps)).max() < 2e-3 * np.abs(bat.B[j]).max()
 
 
+@pytest.mark.slow
 def test_the_segments_make_the_map_of_a_beat(bat):
     whole = np.linalg.multi_dot(bat.A[::-1])
     flight = wb.linearise(bat.orbit, height=True)
@@ -107,6 +109,7 @@ def test_bad_flights_are_refused_in_words(bat):
         wb.feedback_in_beat(lost)
 
 
+@pytest.mark.slow
 def test_many_flights_are_those_of_the_adaptive_integrator(bat):
     gusts = [wb.winds.CosineGust(u=1.0, w=w, start=0.03, duration=0.2) for w in (2.0, -1.0)]
     many = wb.simulate_many(bat.orbit, [*gusts, wb.winds.CosineGust()], 10, feedback=bat)

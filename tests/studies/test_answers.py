@@ -66,6 +66,7 @@ def test_records_are_those_of_single_orbits_and_of_one_process_in_another_order(
     assert record["warnings"] == alone["warnings"]
 
 
+@pytest.mark.slow
 def test_orbits_are_those_of_the_points_and_fly_again_when_asked_for(done, tmp_path):
     found = list(done.orbits())
     told = [(point["speed"], point["wing.mass"]) for point, _ in found]

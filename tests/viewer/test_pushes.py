@@ -59,6 +59,7 @@ def test_a_push_is_the_flight_that_simulate_flies(orbit, pushes, feedback):
     np.testing.assert_allclose(push.height, flown[:count, 1] - start.z, rtol=0, atol=1e-9)
 
 
+@pytest.mark.slow
 def test_without_feedback_the_bat_is_lost_and_with_feedback_it_flies_on_in_a_weak_gust(pushes):
     free, held = (chosen(pushes, "tail", 1.0, feedback) for feedback in (False, True))
     assert free.outcome.startswith("lost after")

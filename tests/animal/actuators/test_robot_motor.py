@@ -43,6 +43,7 @@ def test_the_motor_needs_what_the_makers_equations_give_it(hovers, resistance):
     assert ours["peak motor speed [rad/s]"] == pytest.approx(theirs["peak motor speed [rad/s]"], rel=1e-12)
 
 
+@pytest.mark.slow
 def test_wingbeats_own_air_asks_more_of_the_motor_and_lifts_less(hovers):
     """The plate has a smaller coefficient than the makers' formula; docs/guide/muscles.md gives these numbers."""
     theirs = hovers[robot_motor.NOMINAL].numbers

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from wingbeat._base import FaultList
+from wingbeat._base import FaultList, is_number
 from wingbeat._jax.arrays import register_record
 
 # Density of muscle [kg/m3]: Mendez and Keys 1960, Metabolism 9:184.
@@ -384,6 +384,49 @@ class Air:
         faults.number("air.viscosity", self.viscosity, above=0, unit="m2/s")
         faults.number("air.gravity", self.gravity, at_least=0, unit="m/s2")
         faults.raise_if_any()
+
+    @classmethod
+    def at_altitude(cls, altitude: float = 0.0, temperature: float | None = None, gravity: float = 9.81) -> Air:
+        """Return dry air with the pressure of the standard atmosphere at an altitude, and a temperature.
+
+        The pressure p is that of the standard altitude also where the temperature T [K] is another. Density is
+        p / (R T), viscosity Sutherland's formula divided by the density. Gravity does not change with altitude.
+
+        Parameters
+        ----------
+        altitude : geometric height above sea level, -500 to 9000 [m].
+        temperature : -60 to 60 [deg C]; None for that of the standard atmosphere, 15 at sea level.
+        gravity : [m/s2].
+
+        Raises
+        ------
+        InvalidInputError : an altitude, temperature or gravity out of range.
+
+        Theory: equations ``air-density``, ``air-viscosity``. ICAO 1993, Manual of the ICAO Standard Atmosphere,
+        Doc 7488, 3rd edition; below 32 km the same as U.S. Standard Atmosphere 1976, NASA-TM-X-74335.
+
+        >>> import wingbeat as wb
+        >>> air = wb.Air.at_altitude(2000.0)
+        >>> f"{air.density:.4f} kg/m3, {air.viscosity:.4e} m2/s"
+        '1.0066 kg/m3, 1.7147e-05 m2/s'
+        """
+        faults = FaultList()
+        fix = "give metres above sea level; 1000 ft are 304.8 m"
+        faults.number("altitude", altitude, at_least=-500, at_most=9000, unit="m", fix=fix)
+        if temperature is not None:
+            kelvin = is_number(temperature) and 200 < temperature < 340
+            fix = (
+                f"this seems to be in kelvin: give {temperature - 273.15:.4g}" if kelvin else "give degrees Celsius"
+            )
+            faults.number("temperature", temperature, at_least=-60, at_most=60, unit="deg C", fix=fix)
+        faults.raise_if_any()
+        from ambiance import CONST, Atmosphere
+
+        standard = Atmosphere(float(altitude))
+        kelvins = standard.temperature.item() if temperature is None else CONST.T_i + temperature
+        density = standard.pressure.item() / (CONST.R * kelvins)
+        dynamic = CONST.beta_s * kelvins**1.5 / (kelvins + CONST.S)
+        return cls(density, dynamic / density, gravity)
 
     def reynolds(self, speed: Any, chord: Any) -> Any:
         """Return the Reynolds number of a chord [m] at a speed [m/s].

@@ -18,6 +18,7 @@ from wingbeat.aero import EXTENSIONS, FORCE_POINTS, BladeElement, load_coefficie
 from wingbeat.aero.blade_element import load_hand
 from wingbeat.aero.model_file import Fitted, read_model
 from wingbeat.aero.winds import LEVELS, CosineGust, DrydenTurbulence, Wind
+from wingbeat.animal.species.building import DENSITY_ALONE
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.reading import parse_setting
 from wingbeat.animal.species.species import Species
@@ -28,6 +29,7 @@ from wingbeat.orbits.problem.quantities import Constraint
 from wingbeat.orbits.problem.quantity import STABLE_RADIUS
 from wingbeat.records.inputs import NotInFileError
 from wingbeat.results.orbit import Orbit, load_orbit
+from wingbeat.words.orbit_words import air_in_words
 
 # --- the problem ---
 
@@ -111,17 +113,33 @@ class ModelOptions:
     upstroke_factor: Annotated[
         float | None, option("Factor from 0 to 1 on lift and drag where air meets the wing from above; default 1.")
     ] = None
+    altitude: Annotated[
+        float | None,
+        option(
+            "Height above sea level, -500 to 9000 [m]: sets air.density and air.viscosity to those of the standard "
+            "atmosphere. Default: the air of the species, or sea level if --temperature is given."
+        ),
+    ] = None
+    temperature: Annotated[
+        float | None,
+        option(
+            "Temperature of the air, -60 to 60 [deg C], with the pressure of the altitude; default that of the "
+            "standard atmosphere, 15 at sea level."
+        ),
+    ] = None
 
     def flown(self, name: str, settings: list[str] | None, payload: float = 0.0) -> tuple[Species, Model]:
         """Return (species, model), with the given air loads, the numbers of ``--set`` and a payload."""
         species = load_species(name)
         model = model_of(self.model, species)
-        given = {name: value for name, value in vars(self).items() if name != "model" and value is not None}
+        own = ("model", "altitude", "temperature")
+        given = {name: value for name, value in vars(self).items() if name not in own and value is not None}
         if given:
             others = {name: value for name, value in given.items() if name not in _OF_COEFFICIENTS}
             loads = dataclasses.replace(model.aero, **self._coefficients(model.aero), **others)
             model = dataclasses.replace(model, aero=loads)
-        return with_settings(model.species(species), settings, payload), model
+        above = (self.altitude, self.temperature)
+        return with_settings(model.species(species), settings, payload, *above), model
 
     def problem(
         self, name: str, speed: float, settings: list[str] | None, *, within_plausible: bool = False, **asked: Any
@@ -163,9 +181,20 @@ def limits_of(subject_to: list[str] | None, stable: bool) -> list[Any]:
     return [*(subject_to or ()), *([Constraint("spectral_radius", STABLE_RADIUS)] if stable else [])]  # type: ignore[arg-type]
 
 
-def with_settings(species: Species, settings: list[str] | None, payload: float = 0.0) -> Species:
-    """Return a species with the numbers of ``--set`` and a payload; all faults are reported at once."""
+def with_settings(
+    species: Species,
+    settings: list[str] | None,
+    payload: float = 0.0,
+    altitude: float | None = None,
+    temperature: float | None = None,
+) -> Species:
+    """Return a species with the numbers of ``--set``, a payload and the air of an altitude.
+
+    All faults are reported at once. Standard error says which air an altitude gives, and if only a density is set.
+    """
     values, faults = {}, FaultList()
+    above = {"--altitude": altitude, "--temperature": temperature}
+    above = {name: value for name, value in above.items() if value is not None}
     if settings is not None and not settings:
         faults.add("--set", "", "must be PATH=VALUE", "for example wing.mass=0.02")
     for text in settings or []:
@@ -176,9 +205,27 @@ def with_settings(species: Species, settings: list[str] | None, payload: float =
             continue
         if path in values:
             faults.add("--set", text, "is set twice", "keep one of them")
+        if above and path in ("air.density", "air.viscosity"):
+            faults.add(
+                "--set",
+                text,
+                f"is what {' and '.join(above)} {'sets' if len(above) == 1 else 'set'}",
+                "keep one of them",
+            )
         values[path] = value
+    if above:
+        try:
+            species = species.at_altitude(altitude or 0.0, temperature)
+        except InvalidInputError as error:
+            faults.faults += [dataclasses.replace(fault, where=f"--{fault.where}") for fault in error.faults]
     faults.raise_if_any()
-    return (species.with_values(values) if values else species).with_payload(payload)
+    if above:
+        print(f"note: {species.numbers['air.density'].source}: {air_in_words(vars(species.air))}", file=sys.stderr)
+    species = species.with_values(values) if values else species
+    for warning in species.warnings:
+        if warning.startswith(DENSITY_ALONE):
+            print(f"warning: {warning}", file=sys.stderr)
+    return species.with_payload(payload)
 
 
 # --- saved orbits ---

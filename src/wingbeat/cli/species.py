@@ -32,6 +32,8 @@ def show(
     set_: Annotated[
         list[str] | None, several("Numbers to change, PATH=VALUE: wing.mass=0.02 air.density=1.0 ...", "--set")
     ] = None,
+    altitude: Annotated[float | None, option("Height above sea level, which sets the air [m].")] = None,
+    temperature: Annotated[float | None, option("Temperature of the air [deg C].")] = None,
     json: Annotated[bool, flag("Print JSON: SI units and radians.")] = False,
     schema: Annotated[bool, flag("Print the JSON schema of species files.")] = False,
 ) -> None:
@@ -47,14 +49,16 @@ def show(
 
     faults, values = FaultList(), {}
     if name is None:
-        if alternative is not None or set_:
-            option = "--alternative" if alternative is not None else "--set"
+        changes = {"--alternative": alternative, "--set": set_ or None, "--altitude": altitude}
+        changes |= {"--temperature": temperature}
+        if option := next((option for option, value in changes.items() if value is not None), None):
             faults.add(option, "no species", "needs a species to change", f"wingbeat species pigeon {option} ...")
         faults.raise_if_any()
         everyone = [load_species(each) for each in species_names()]
         print_json([_summary(each) for each in everyone]) if json else _print_list(everyone)
         return
     chosen = load_species(name)
+    in_air = altitude is not None or temperature is not None
     if alternative is not None:
         chosen = chosen.with_alternative(alternative)
     for text in set_ or []:
@@ -65,8 +69,12 @@ def show(
             continue
         if path in values:
             faults.add(path, value, "is given twice", "keep one of the two")
+        if in_air and path in ("air.density", "air.viscosity"):
+            faults.add("--set", text, "is what --altitude and --temperature set too", "keep one of them")
         values[path] = value
     faults.raise_if_any()
+    if in_air:
+        chosen = chosen.at_altitude(altitude or 0.0, temperature)
     chosen = chosen.with_values(values)
     if json:
         print_json(chosen.as_dict())

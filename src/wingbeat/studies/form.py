@@ -131,6 +131,8 @@ class StudyForm(BaseModel):
     )
     bounds: _Bounds = _key({}, "bounds of free parameters by name, or `plausible`")
     settings: dict[str, Any] = _key({}, "changes of numbers for all points, by path", alias="set")
+    altitude: float | None = _key(None, "height above sea level, which sets the air's density and viscosity [m]")
+    temperature: float | None = _key(None, "of the air [deg C]; default that of the standard atmosphere")
     advise: bool = _key(False, "whether points without an orbit list the changes that would give one")
     explain: bool = _key(True, "whether points without an orbit name the balance that fails")
     chain: str | None = _key(
@@ -268,6 +270,12 @@ def _check_numbers(form: StudyForm, faults: FaultList) -> None:
     for name in ("speed", "climb", "payload", "extension", "blend_width_deg", *OF_ELEMENTS):
         if {name, f"aero.{name}"} & form.vary.keys() and name in form.model_fields_set:
             faults.add(name, shown(getattr(form, name)), "is also varied", "keep one of the two")
+    if form.altitude is not None or form.temperature is not None:
+        for path in ("air.density", "air.viscosity"):
+            for key, there in (("set", form.settings), ("vary", form.vary)):
+                if path in there:
+                    rule = "is what altitude and temperature set too"
+                    faults.add(f"{key}.{path}", shown(there[path]), rule, "keep one of the two")
     if form.speed is None and "speed" not in form.vary:
         fix = "write speed = 10.0, or under [vary] speed = { grid = [8.0, 10.0] }"
         faults.add("speed", NOTHING, "must be given", fix)

@@ -290,6 +290,8 @@ def makers_of(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...],
     def animal(species: str, model: str) -> Species:
         own, whole = flown(species, model)
         complete = whole.species(own)
+        if form.altitude is not None or form.temperature is not None:
+            complete = complete.at_altitude(form.altitude or 0.0, form.temperature)
         return whole.species(complete.with_values(form.settings)) if form.settings else complete
 
     def loads(

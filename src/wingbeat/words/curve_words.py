@@ -21,6 +21,7 @@ from wingbeat._base import (
     written_range,
 )
 from wingbeat.records.judgements import called, set_by_limit
+from wingbeat.words.orbit_words import DEFAULT_AIR, air_in_words
 
 # Of characteristic speeds that do not say it by their name.
 _LABELS = {
@@ -46,6 +47,7 @@ def curve_report(record: dict[str, Any]) -> Report:
     rows = tuple(Row(_row(point, factor if other else None)) for point in points)
     blocks: list[Block] = [
         Line(f"{animal}, minimum {minimised}: {certified} of {len(points)} speeds certified"),
+        *([Line(f"air: {air_in_words(record['air'])}")] if record["air"] != DEFAULT_AIR else []),
         Table(rows, tuple(headings), "r" * (len(headings) - 1) + "l"),
         *([Line("* added to find the characteristic speeds")] if any(point["refined"] for point in points) else []),
         *_limited(record),

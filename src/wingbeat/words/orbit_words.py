@@ -23,6 +23,7 @@ from wingbeat._base import (
     plain_unit,
     readable_limit,
 )
+from wingbeat.animal.vehicle import Air
 from wingbeat.orbits.problem.problem import loads_in_words, model_rows, place_in_words
 from wingbeat.orbits.problem.quantity import OF_MOTOR, OF_MUSCLE
 from wingbeat.records.judgements import SetBy, called, set_by_limit, statements
@@ -30,6 +31,7 @@ from wingbeat.records.judgements import SetBy, called, set_by_limit, statements
 Rows = list[tuple[str, str]]
 # The metabolic power of a live animal, as it is measured, holds more.
 _LEFT_OUT = ", without resting rate, heart, breathing, other muscles and the muscle's recovery"
+DEFAULT_AIR = dict(vars(Air()))  # of which nothing is said
 Limited = Mapping[str, SetBy]  # numbers that a limit has set, by name
 _NONE: Limited = {}
 
@@ -52,6 +54,7 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
             ("species, mean speed", place),
             *(model_rows(record["model"]) if "model" in record else []),
             ("air loads", loads_in_words(record.get("aero", {}))),
+            *([("air", air_in_words(air))] if (air := record.get("air") or DEFAULT_AIR) != DEFAULT_AIR else []),
             *flight_rows(record, limited),
         ],
         "unbalanced at the closest wingbeat": deficit_rows(record.get("failed_balance") or []),
@@ -65,6 +68,11 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
         "certificate": certificate_rows(record, limited),
         "stability": stability_rows(record),
     }
+
+
+def air_in_words(air: dict[str, Any]) -> str:
+    """Return density and viscosity of a record's air."""
+    return f"density {air['density']:.4g} kg/m3, kinematic viscosity {air['viscosity']:.4g} m2/s"
 
 
 def limits_in_words(record: dict[str, Any]) -> str:

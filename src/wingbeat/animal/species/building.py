@@ -162,6 +162,8 @@ def plain(value: Any) -> Any:
     return [plain(item) for item in value] if isinstance(value, list | tuple) else value
 
 
+BY_HAND = "set by hand"  # begins the source of a number that was set after the species was made
+DENSITY_ALONE = "air.density is set and air.viscosity is not"  # begins the warning of such air
 DERIVED = "derived: "  # begins the source of a number that a scaling law gave
 NOT_MEASURED = "derived by scaling laws, not measured: "  # begins the warning that lists such numbers
 
@@ -201,6 +203,10 @@ def find_warnings(
         found.append(f"{rule}: {'; '.join(beyond)}")
     if vehicle.tail is None and (wingbeat.tail_tilt or "tail_tilt" in free):
         found.append("wingbeat.tail_tilt has no effect: there is no tail; add the table [vehicle.tail]")
+    sources = [numbers[path].source if path in numbers else "" for path in ("air.density", "air.viscosity")]
+    if [source.startswith(BY_HAND) for source in sources] == [True, False]:
+        why = "so Reynolds numbers are those of other air; an altitude and a temperature set both"
+        found.append(f"{DENSITY_ALONE}, {why} (--altitude, --temperature, Species.at_altitude)")
     if not free:
         found.append("free: no wingbeat parameter is free, so no orbit can be found; add the table [free]")
     return tuple(found)

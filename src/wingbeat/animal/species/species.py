@@ -12,6 +12,7 @@ from wingbeat._base import Block, FaultList, Line, Report, Reported, Row, Table,
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.species.building import (
     BODY,
+    BY_HAND,
     WHOLE,
     WING,
     build_records,
@@ -45,8 +46,7 @@ ACTIVATION = Range(None, 1.0, "1", "by definition: above 1, the wingbeat needs m
 UNKNOWN = "nothing is known: the species file gives no range"
 
 
-_BY_HAND = "set by hand"
-_SET_BY_HAND = f"{_BY_HAND} in place of"
+_SET_BY_HAND = f"{BY_HAND} in place of"
 
 
 @dataclass(frozen=True)
@@ -189,13 +189,13 @@ class Species(Reported):
         ----------
         path : of the number.
         """
-        return path in self.numbers and self.numbers[path].source.startswith(_BY_HAND)
+        return path in self.numbers and self.numbers[path].source.startswith(BY_HAND)
 
     def _by_hand(self, path: str) -> str:
         """Return the source of a number that is set in place of this species' own."""
         old = self.numbers.get(path)
         if old is None:
-            return _BY_HAND
+            return BY_HAND
         if old.source.startswith(_SET_BY_HAND):
             return old.source
         return f"{_SET_BY_HAND} {words(path, old)}" + (f": {old.source}" if old.source else "")
@@ -219,6 +219,29 @@ class Species(Reported):
         faults.number("payload", payload, at_least=0, unit="kg", fix="0 is no load")
         faults.raise_if_any()
         return self.with_values({"body.mass": self.vehicle.body.mass + payload}) if payload else self
+
+    def at_altitude(self, altitude: float = 0.0, temperature: float | None = None) -> Species:
+        """Return this species in the air of an altitude; density and viscosity change, gravity does not.
+
+        Parameters
+        ----------
+        altitude : geometric height above sea level, -500 to 9000 [m].
+        temperature : -60 to 60 [deg C]; None for that of the standard atmosphere.
+
+        Raises
+        ------
+        InvalidInputError : an altitude or a temperature out of range; see `Air.at_altitude`.
+
+        >>> from wingbeat import load_species
+        >>> high = load_species("pigeon").at_altitude(5000.0)
+        >>> round(high.air.density, 4), high.numbers["air.density"].source
+        (0.7364, 'dry air at 5000 m, standard temperature (ICAO standard atmosphere, Doc 7488)')
+        """
+        air = Air.at_altitude(altitude, temperature, self.air.gravity)
+        warmth = "standard temperature" if temperature is None else f"{temperature:g} deg C"
+        source = f"dry air at {altitude:g} m, {warmth} (ICAO standard atmosphere, Doc 7488)"
+        numbers = {f"air.{name}": getattr(air, name) for name in ("density", "viscosity")}
+        return self.with_derived({path: Number(value, plain_unit(path), source) for path, value in numbers.items()})
 
     def with_tail(self) -> Species:
         """Return this species with the tail that laws of birds give for its mass, spread by 60 degrees.

@@ -146,6 +146,13 @@ def test_an_area_of_another_wing_is_refused():
         filmed_species(fit_film(small), PIGEON)
 
 
-def test_seven_columns_are_drawn_in_two_blocks():
+def test_eight_columns_are_drawn_in_two_blocks():
     figure = film_page(fit_film(film_of(noise_deg=1.0)))
-    assert len(figure.axes) == 14
+    assert len(figure.axes) == 16
+
+
+def test_the_fold_of_a_film_is_that_of_its_wingbeat():
+    folded = dataclasses.replace(RICH, fold_amplitude=0.2)
+    beat = fit_film(film_of(folded, noise_deg=0.5, columns=("flap_deg", "fold_deg"), start=0.2))
+    assert beat.numbers["fold_amplitude"] == pytest.approx(0.2, abs=0.01)
+    assert "fold_amplitude" in beat.held

@@ -33,10 +33,7 @@ _COPY_LOADS = (
     "write a CSV table with the columns time, normal_force, tangential_force, moment (about mid-chord) and "
     "alpha_deg, and above it the lines '# speed = ..' and so on, see wingbeat reduce --help"
 )
-_COPY_POINTS = (
-    "wingbeat reads angles, not points: compute the flap angle of each frame and write a CSV table with the "
-    "columns time, flap_deg"
-)
+_COPY_POINTS = "wingbeat reads angles, not points: wingbeat film POINTS -o film.csv computes the angles"
 _KNOWN_FILES = (
     (r"labview measurement", f"a measurement file of LabVIEW (.lvm); {_COPY_LOADS}"),
     (r"ati (daq|industrial|net f/t)|.{0,400}?^calibration,ft\d", f"a log of an ATI force sensor; {_COPY_LOADS}"),

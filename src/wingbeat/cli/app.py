@@ -39,6 +39,7 @@ COMMANDS = {
     "simulate": "Fly from a given state with a given wingbeat.",
     "species": "Show the built-in animals, or your own species file, with the source of every number.",
     "polar": "Print or save the lift and drag coefficients over angle of attack.",
+    "film": "Turn tracked points into the angles of a wing: a film.",
     "reduce": "Turn load-cell records into lift, drag, moment and centre-of-pressure coefficients.",
     "fit": "Fit a coefficient model to measured coefficients, with confidence intervals.",
     "validate": "Compare computed air loads, or an animal's computed flights, with measurements.",

@@ -17,11 +17,15 @@ from .film_fit import fit_body_path as fit_body_path
 from .film_fit import fit_film as fit_film
 from .load_cell_run import LoadCellRun as LoadCellRun
 from .load_cell_run import read_run as read_run
+from .point_angles import PointAngles as PointAngles
+from .point_angles import angles_from_points as angles_from_points
 from .reduction import reduce_run as reduce_run
 from .reduction import reduce_runs as reduce_runs
 from .regression import CurveFit as CurveFit
 from .regression import FitRangeWarning as FitRangeWarning
 from .regression import fit_curve as fit_curve
+from .tracked_points import TrackedPoints as TrackedPoints
+from .tracked_points import read_points as read_points
 from .wing_fit import WingFit as WingFit
 from .wing_fit import draw as draw
 from .wing_fit import fit_wing as fit_wing

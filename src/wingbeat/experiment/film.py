@@ -16,6 +16,7 @@ from wingbeat.animal.kinematics import (
     Wingbeat,
     chord_ratio,
     flap_angle,
+    fold_angle,
     pitch_angle,
     span_ratio,
     sweep_angle,
@@ -25,7 +26,7 @@ from wingbeat.experiment.periodic import MIN_BEATS, SURE, Array, Clip, clip_rate
 
 # What can be filmed, and its unit.
 FILMED = {"flap_deg": "deg", "pitch_deg": "deg", "span_fraction": "", "sweep_deg": "deg"}
-FILMED |= {"tip_pitch_deg": "deg", "stroke_plane_deg": "deg", "area_fraction": ""}
+FILMED |= {"tip_pitch_deg": "deg", "stroke_plane_deg": "deg", "area_fraction": "", "fold_deg": "deg"}
 # The body, for a film that gives times.
 BODY = dict.fromkeys(("body_x_m", "body_z_m"), "m") | dict.fromkeys(("body_pitch_deg",), "deg")
 COLUMNS = FILMED | BODY
@@ -62,9 +63,10 @@ class Film:
     columns : any of ``flap_deg`` (wing up), ``pitch_deg`` (at the root, leading edge up, from the stroke plane's
         normal), ``span_fraction`` (of the semi-span), ``sweep_deg`` (span ahead of the stroke plane),
         ``tip_pitch_deg`` (as pitch, at the tip), ``stroke_plane_deg`` (from the body axis, as the species'
-        `stroke_plane_angle`) and ``area_fraction`` (of the full area), shape (n,) each; NaN in frames where the
-        quantity was not seen. Pitch and stroke plane may jump by whole turns. For the body: ``body_x_m`` (forward),
-        ``body_z_m`` (up) and ``body_pitch_deg`` (nose up).
+        `stroke_plane_angle`), ``area_fraction`` (of the full area) and ``fold_deg`` (of the hand below the arm),
+        shape (n,) each; NaN in frames where the quantity was not seen. Pitch and stroke plane may
+        jump by whole turns. For the body: ``body_x_m`` (forward), ``body_z_m`` (up) and ``body_pitch_deg`` (nose
+        up).
     frequency, frequency_se : wingbeat frequency, None if not known, and its standard error [Hz].
     synthetic : whether a random generator made the film.
     fitted : whether the frequency is that of the frames themselves.
@@ -218,6 +220,7 @@ class Film:
             largest = float(np.abs(values).max())
             limit = _QUIET_DEG if name in BODY else quiet
             small = COLUMNS[name] == "deg" and name != "flap_deg" and 0 < largest < _LARGEST_RADIANS
+            small = small and np.ptp(values) > 0  # a constant was set, not tracked
             scatter = scatter_at(phase, values, 1.0) if small else math.inf
             if scatter < min(limit, 0.5 * float(np.sqrt(np.mean(values**2)))):
                 found.append(
@@ -334,6 +337,7 @@ def synthetic_film(
         "tip_pitch_deg": wingbeat.twist_ratio * root + (0.0 if twist is None else twist),
         "stroke_plane_deg": stroke_plane + wingbeat.stroke_plane_tilt,
         "area_fraction": span * (1.0 if chord is None else np.asarray(chord)),
+        "fold_deg": fold_angle(wingbeat, at),
     }
     seen = {}
     for name in columns:

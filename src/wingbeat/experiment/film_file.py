@@ -101,7 +101,7 @@ def read_film(path: str | Path, side: str = "both") -> Film:
             faults.add(f"{sheet.file} row {sheet.header_row}", "", "has no row of numbers", "add the frames")
         faults.raise_if_any()
     seen = {key: numbers[:, k].copy() for k, key in enumerate(sides)}
-    columns, notes, warnings = _joined(faults, sheet.file, seen, side)
+    columns, notes, warnings = joined(faults, sheet.file, seen, side)
     if "flap_deg" in columns:
         there = np.isfinite(columns["flap_deg"])
         where, at = f"{sheet.file}, column flap_deg", seen["", clocks[0]]
@@ -250,7 +250,7 @@ def _compare(
     raise InvalidInputError([Fault(header.where, header.value, rule, fix)])
 
 
-def _joined(
+def joined(
     faults: FaultList, file: str, seen: Mapping[tuple[str, str], Array], side: str
 ) -> tuple[dict[str, Array], tuple[str, ...], tuple[str, ...]]:
     """Return the columns with the two wings joined, or one of them chosen, with notes and warnings."""

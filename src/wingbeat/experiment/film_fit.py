@@ -88,6 +88,9 @@ def _numbers(laws: Mapping[str, Array], species_span: Array | None = None) -> di
             fields[f"{law}_harmonics"] = tuple(waves[2:])
         elif name == "span_fraction":
             fields |= _drawn_in("span", mean, waves)
+        elif name == "fold_deg":
+            # Least squares of the law fold_amplitude (1 - sin)/2 to the series.
+            fields |= {"fold_amplitude": (4.0 * mean - 2.0 * waves[1]) / 3.0}
     if "tip_pitch_deg" in series:
         mean, *waves = (series["tip_pitch_deg"] - series["pitch_deg"]).tolist()
         # Each of the two angles is known only up to whole turns.
@@ -102,6 +105,7 @@ def _numbers(laws: Mapping[str, Array], species_span: Array | None = None) -> di
 # The beginnings of the names of those wingbeat parameters that each column determines.
 _SETTLED = {"flap_deg": "flap_", "pitch_deg": "pitch_", "span_fraction": "span_", "sweep_deg": "sweep_"}
 _SETTLED |= {"tip_pitch_deg": "twist_", "stroke_plane_deg": "stroke_plane_tilt", "area_fraction": "chord_"}
+_SETTLED |= {"fold_deg": "fold_"}
 
 
 def _amplitude(law: FilmedLaw) -> float:

@@ -7,6 +7,7 @@ from .draw_glide import glide_page as glide_page
 from .draw_influences import pareto_page as pareto_page
 from .draw_influences import terms_page as terms_page
 from .draw_influences import tornado_page as tornado_page
+from .draw_points import points_page as points_page
 from .draw_power import power_page as power_page
 from .draw_stability import gust_page as gust_page
 from .draw_stability import manoeuvre_page as manoeuvre_page

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 _BAND: dict[str, Any] = {"color": VERMILION, "alpha": 0.3, "linewidth": 0}
 # More panels side by side than these are too narrow to read.
 _ACROSS = 4
-_FILM_LABELS = {
+FILM_LABELS = {
     "flap_deg": "flap angle, wing up [deg]",
     "pitch_deg": "wing pitch, leading edge up [deg]",
     "span_fraction": "span over semi-span [-]",
@@ -38,6 +38,7 @@ _FILM_LABELS = {
     "tip_pitch_deg": "wing pitch at the tip [deg]",
     "stroke_plane_deg": "stroke plane from the body axis [deg]",
     "area_fraction": "area over full area [-]",
+    "fold_deg": "fold, hand below the arm [deg]",
 }
 
 
@@ -74,7 +75,7 @@ def film_page(beat: FilmedBeat) -> Figure:
         below.axhspan(-2 * law.residual_sd, 2 * law.residual_sd, **spread)
         below.fill_between(phase, -2 * error, 2 * error, **_BAND)
         below.axhline(0.0, color=VERMILION)
-        above.set_ylabel(_FILM_LABELS[name])
+        above.set_ylabel(FILM_LABELS[name])
         unit = "deg" if name.endswith("_deg") else "-"
         below.set(xlabel="phase of the film [beats]", ylabel=f"residual [{unit}]")
         below.tick_params(labelbottom=True)

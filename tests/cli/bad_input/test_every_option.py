@@ -33,6 +33,7 @@ LINES = {
     "species.show": "species pigeon",
     "species.new": "species new mine.toml --kind bird --mass 0.3 --wing-span 0.6 --wing-area 0.06",
     "polar.polar": "polar su-fan",
+    "film.film": "film points.csv -o film.csv",
     "reduce.reduce": "reduce run.csv -o table.csv",
     "fit.fit": "fit good.csv",
     "validate.validate": "validate",
@@ -103,7 +104,7 @@ BAD = {
 # The suffix of what --output writes, if it is not a result.
 SUFFIXES = {
     **dict.fromkeys(("polar.polar", "plot.plot", "study.plot"), ".png"),
-    **dict.fromkeys(("reduce.reduce", "export.export", "study.export"), ".csv"),
+    **dict.fromkeys(("film.film", "reduce.reduce", "export.export", "study.export"), ".csv"),
     **{"fit.fit": ".toml", "validate.validate": ".md", "view.view": ".html"},
 }
 # Texts of which every one is good.

@@ -1,0 +1,76 @@
+"""``wingbeat film``: tracked points to a film of the wing's angles."""
+
+from __future__ import annotations
+
+import functools
+import sys
+from pathlib import Path
+from typing import Annotated, Literal
+
+from wingbeat._base import FaultList
+from wingbeat.cli.arguments import check_files, check_outputs, figure, flag, option, written_to
+from wingbeat.cli.terminal import answer
+from wingbeat.experiment.point_angles import angles_from_points, shown
+from wingbeat.plots import points_page
+
+
+def film(
+    file: Annotated[Path, option("Tracked points in 3-D: .csv, .tsv, .trc, .c3d, NetCDF of movement.", "POINTS")],
+    /,
+    *,
+    output: Annotated[Path | None, written_to("The film: .csv, for --kinematics.")] = None,
+    points: Annotated[
+        str | None,
+        option(
+            "Which point is what: in the file's order, shoulder,wrist,tip,trailing (an empty word skips a point); "
+            "or shoulder=pt1,tip=pt3; or a .toml of such pairs. Default: usual names, such as left_wrist."
+        ),
+    ] = None,
+    frame_rate: Annotated[float | None, option("Frames per second [Hz], if the file does not say.")] = None,
+    side: Annotated[
+        Literal["left", "right", "both"] | None, option("The wing that was tracked, or the one to use.")
+    ] = None,
+    up: Annotated[str | None, option("The file's vertical axis, such as z or -y; default: found.")] = None,
+    forward: Annotated[str | None, option("The file's axis in which the animal flies; default: found.")] = None,
+    units: Annotated[Literal["m", "cm", "mm"] | None, option("Unit of the coordinates; default: found.")] = None,
+    semi_span: Annotated[
+        float | None, option("Shoulder to tip of the spread wing [m]; default: the beat's largest.")
+    ] = None,
+    plot: Annotated[Path | None, figure("Draw points, wing and angles")] = None,
+    json: Annotated[bool, flag("Print one JSON object and nothing else.")] = False,
+) -> None:
+    """Turn tracked points into a film: flap, pitch, sweep, fold and span of a wing, and the path of the body.
+
+    Reads tables with three columns for each point (DLTdv, Argus, Anipose, DeepLabCut, Vicon), OpenSim .trc,
+    Qualisys .tsv, C3D, and NetCDF of movement. Directions and the unit are found from the points, and every guess
+    is printed; what cannot be found is refused, with the option that states it. The film then goes through orbit
+    and simulate.
+
+    Examples: wingbeat film xyzpts.csv -o film.csv --points shoulder,wrist,tip --frame-rate 500 --side left;
+    wingbeat simulate pigeon --kinematics film.csv
+    """
+    faults = FaultList()
+    if output is not None and output.suffix.lower() != ".csv":
+        faults.add("--output", str(output), "is not a film", "end it in .csv")
+    if output is not None and output == file:
+        faults.add("--output", str(output), "is the file of the points", "choose another name")
+    check_files(faults, output, plot=plot)
+    faults.raise_if_any()
+    check_outputs(output, plot)
+    found = angles_from_points(
+        file,
+        points,
+        frame_rate=frame_rate,
+        side=side,
+        up=up,
+        forward=forward,
+        units=units,
+        semi_span=semi_span,
+    )
+    with answer() as given:
+        given.tell(found.record(), functools.partial(print, "\n".join(shown(found))), json)
+        for note in found.notes:
+            kind = "warning" if note in found.warnings else "note"
+            print(f"{kind}: {note}", file=sys.stderr)
+        given.save(output, found.save, named=True)
+        given.draw(plot, lambda: points_page(found), named=True)

@@ -1,0 +1,242 @@
+"""Tables of tracked points: DLTdv, Anipose, DeepLabCut, OpenSim, Qualisys, Vicon and their like."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Sequence
+from typing import Any, NamedTuple, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from wingbeat._base import Fault, FaultList, InvalidInputError
+from wingbeat._base.sheets import MAX_CELL_FAULTS, NO_VALUE, same_name, split_unit
+
+Array = NDArray[np.float64]
+# Metres in a unit of length.
+METRES = {"m": 1.0, "cm": 0.01, "mm": 0.001}
+UNIT_WORDS = {**{name: name for name in METRES}, "meters": "m", "metres": "m", "meter": "m", "metre": "m"}
+UNIT_WORDS |= {"millimeters": "mm", "millimetres": "mm", "centimeters": "cm", "centimetres": "cm"}
+# Below this likelihood DeepLabCut and movement themselves drop a point (pcutoff 0.6, filter_by_confidence 0.6).
+LEAST_SCORE = 0.6
+SCORES = ("score", "likelihood", "confidence")
+_FRAMES = ("frame", "frames", "fnum", "framenumber", "frameindex", "frameidx", "frameno", "field")
+_TIMES = ("time", "times", "timeseconds", "timesec", "t")
+_MOST_FRAMES = 100_000
+# No animal's file has larger numbers in any unit.
+_LARGEST = 1e7
+# The axis at the end of a column's name, after a sign, a figure or a change to capitals: tip_x, pt1_X, tip X, tipX.
+_AXIS_LAST = re.compile(r"(?P<name>.*?)(?:[\s_.:\-]+(?P<a>[xyzXYZ])|(?<=\d)(?P<b>[xyzXYZ])|(?<=[a-z])(?P<c>[XYZ]))")
+_AXIS_FIRST = re.compile(r"(?P<a>[xyzXYZ])[\s_.:\-]+(?P<name>.+)")
+
+
+class Table(NamedTuple):
+    """A text file's table: labels of columns (name and what it holds), cells with their row, and the head."""
+
+    kind: str
+    labels: list[tuple[str, str]]
+    rows: list[tuple[int, list[str]]]
+    rate: float | None = None
+    unit: str | None = None
+
+
+def refuse(where: str, value: Any, rule: str, fix: str = "") -> NoReturn:
+    """Raise the one fault of a file."""
+    raise InvalidInputError([Fault(where, value, rule, fix)])
+
+
+def split_table(file: str, text: str) -> Table:
+    """Split a text into a table, and say what wrote it."""
+    lines = [(row, line) for row, line in enumerate(text.splitlines(), start=1) if line.strip(" ,;\t")]
+    lines = [(row, line) for row, line in lines if not line.lstrip().startswith("#")]
+    if len(lines) < 2:
+        refuse(file, text[:40], "holds no table of points", "is it the right file?")
+    counts = {sign: sum(line.count(sign) for _, line in lines[:40]) for sign in "\t;,"}
+    sign = max(counts, key=lambda one: (counts[one], one != ",")) if any(counts.values()) else " "
+    if sign == "," and counts[";"] >= len(lines[:40]):
+        sign = ";"  # decimal commas
+    rows = [(row, _cells(line, sign)) for row, line in lines]
+    first = rows[0][1]
+    key = same_name(first[0])
+    if key == "pathfiletype":
+        return _trc(file, rows)
+    if key in ("noofframes", "fileversion") or any(cells[0] == "MARKER_NAMES" for _, cells in rows[:20]):
+        return _qualisys(file, rows)
+    if key == "trajectories" or any(cells[0] == "Trajectories" for _, cells in rows[:200]):
+        return _vicon(file, rows)
+    head = next((i for i, (_, cells) in enumerate(rows) if _mostly_numbers(cells)), len(rows))
+    if head == 0:
+        refuse(f"{file} row {rows[0][0]}", first[0], "holds numbers, but the first row must name the columns")
+    heads = [cells for _, cells in rows[:head]]
+    table = rows[head:]
+    words = [same_name(cells[0]) for cells in heads]
+    if "bodyparts" in words and "coords" in words:
+        names = heads[words.index("bodyparts")]
+        if "individuals" in words:
+            names = [f"{a} {b}" for a, b in zip(heads[words.index("individuals")], names, strict=False)]
+        labels = [("", "frame"), *zip(names[1:], heads[words.index("coords")][1:], strict=False)]
+        return Table("DeepLabCut", [(name, part.lower()) for name, part in labels], table)
+    if sum(cell.strip().lower() in ("row", "col", "column", "value") for cell in first) >= 2 and len(first) <= 3:
+        fix = "in DLTdv choose the flat format and give the file ...xyzpts.csv"
+        refuse(file, ",".join(first), "is DLTdv's sparse format", fix)
+    last, units = heads[-1], set()
+    if len(heads) > 1 and sum(cell.strip().lower() in ("x", "y", "z") for cell in last) >= 3:
+        names = _filled(heads[-2])
+        return Table(
+            "a table", [_label(f"{name}_{cell}", units) for name, cell in zip(names, last, strict=False)], table
+        )
+    labels = [_label(cell, units) for cell in last]
+    kind = "Anipose" if any(part == "ncams" for _, part in labels) else "a table"
+    if any(re.fullmatch(r"pt\d+", name) for name, part in labels if part == "x"):
+        kind = "DLTdv"
+    if len(units) > 1:
+        refuse(
+            f"{file} row {rows[head - 1][0]}", ", ".join(sorted(units)), "are units of one table", "use one unit"
+        )
+    return Table(kind, labels, table, None, next(iter(units), None))
+
+
+def _cells(line: str, sign: str) -> list[str]:
+    if sign == " ":
+        return line.split()
+    try:
+        return [cell.strip() for cell in next(csv.reader([line], delimiter=sign))]
+    except csv.Error:  # a cell of more than 131072 characters
+        return [line]
+
+
+def _filled(cells: Sequence[str]) -> list[str]:
+    """Return names of which each stands above the first of several columns, for all of them."""
+    found, name = [], ""
+    for cell in cells:
+        name = cell.strip() or name
+        found.append(name)
+    return found
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell.replace(",", "."))
+    except ValueError:
+        return False
+    return True
+
+
+def _mostly_numbers(cells: Sequence[str]) -> bool:
+    given = [cell for cell in cells if cell.strip().lower() not in NO_VALUE]
+    return sum(map(_is_number, given)) > 0.5 * len(given) and bool(given)
+
+
+def _label(cell: str, units: set[str]) -> tuple[str, str]:
+    """Return the point and the part ("x", "score", ..) of a column; a clock has no point; others have no part."""
+    name, unit = split_unit(cell)
+    plain = same_name(name)
+    if plain in _FRAMES:
+        return "", "frame"
+    if plain in _TIMES:
+        return "", "milliseconds" if (unit or "").lower() in ("ms", "milliseconds") else "time"
+    for part in (*SCORES, "ncams"):
+        if re.search(rf"[\s_.:\-]{part}$", name, re.IGNORECASE):
+            return name[: -len(part) - 1], part
+    match = _AXIS_LAST.fullmatch(name) or _AXIS_FIRST.fullmatch(name)
+    if match is None:
+        return name, ""
+    if (unit or "").lower() in UNIT_WORDS:
+        units.add(UNIT_WORDS[(unit or "").lower()])
+    axis = next(value for key, value in match.groupdict().items() if key != "name" and value)
+    return match["name"].strip() or "point", axis.lower()
+
+
+def _trc(file: str, rows: list[tuple[int, list[str]]]) -> Table:
+    """Return the table of a .trc file: row 3 has rate and unit, row 4 names, row 5 axes."""
+    if len(rows) < 6 or "DataRate" not in rows[1][1]:
+        refuse(file, rows[-1][1][0], "is cut off: a .trc has five rows of heads and a row for each frame")
+    head = dict(zip(rows[1][1], rows[2][1], strict=False))
+    rate = float(head["DataRate"]) if _is_number(head.get("DataRate", "")) else None
+    names = _filled(rows[3][1])
+    width = len([cell for cell in rows[4][1] if cell])
+    labels = [("", "frame"), ("", "time")]
+    for k in range(2, max(len(names), width + 2)):
+        labels.append((names[min(k, len(names) - 1)], "xyz"[(k - 2) % 3]))
+    labels = labels[: 2 + width]
+    stated = head.get("NumFrames", "")
+    found = sum(bool(cells[0]) for _, cells in rows[5:])
+    if _is_number(stated) and int(float(stated)) != found:
+        refuse(f"{file} row {rows[2][0]}, NumFrames", stated, f"but the file has {found} frames", "is it cut off?")
+    return Table("OpenSim .trc", labels, rows[5:], rate, UNIT_WORDS.get(head.get("Units", "").lower()))
+
+
+def _qualisys(file: str, rows: list[tuple[int, list[str]]]) -> Table:
+    """Return the table of a .tsv of Qualisys Track Manager: lines KEY value, then names; lengths are in mm."""
+    keys = {cells[0]: (i, cells[1:]) for i, (_, cells) in enumerate(rows[:40]) if re.match(r"[A-Z_]+$", cells[0])}
+    if "MARKER_NAMES" not in keys:
+        refuse(file, rows[0][1][0], "has no line MARKER_NAMES", "export the 3D data from Qualisys Track Manager")
+    names = [name for name in keys["MARKER_NAMES"][1] if name]
+    start = 1 + max(i for i, _ in keys.values())
+    labels = [(name, axis) for name in names for axis in "xyz"]
+    if start < len(rows) and not _mostly_numbers(rows[start][1]):
+        start += 1
+    width = max((len(cells) for _, cells in rows[start:]), default=0)
+    labels = [("", "frame"), ("", "time")][: max(width - len(labels), 0)] + labels
+    if width - 3 * len(names) == 1:
+        labels[0] = ("", "frame")
+    text = next(iter(keys.get("FREQUENCY", (0, [""]))[1]), "")
+    stated = next(iter(keys.get("NO_OF_FRAMES", (0, [""]))[1]), "")
+    if _is_number(stated) and int(float(stated)) != len(rows) - start:
+        rule = f"but the file has {len(rows) - start} frames"
+        refuse(f"{file}, NO_OF_FRAMES", stated, rule, "is it cut off?")
+    return Table("Qualisys .tsv", labels, rows[start:], float(text) if _is_number(text) else None, "mm")
+
+
+def _vicon(file: str, rows: list[tuple[int, list[str]]]) -> Table:
+    """Return the trajectories of a .csv of Vicon Nexus: rate, names (Subject:NAME), axes, units, frames."""
+    at = next(i for i, (_, cells) in enumerate(rows) if cells[0] == "Trajectories")
+    if len(rows) < at + 6 or not _is_number(rows[at + 1][1][0]):
+        refuse(file, "Trajectories", "is not followed by a rate, three rows of heads and the frames")
+    names = _filled(rows[at + 2][1])
+    axes, units = rows[at + 3][1], {cell for cell in rows[at + 4][1] if cell in METRES}
+    labels: list[tuple[str, str]] = []
+    for k, cell in enumerate(axes):
+        name = names[min(k, len(names) - 1)].rpartition(":")[2]
+        labels.append((name, cell.lower()) if cell.lower() in ("x", "y", "z") else _label(cell, set()))
+    end = next((i for i, (_, cells) in enumerate(rows) if i > at + 5 and not _is_number(cells[0])), len(rows))
+    return Table("Vicon Nexus", labels, rows[at + 5 : end], float(rows[at + 1][1][0]), next(iter(units), None))
+
+
+def table_numbers(file: str, table: Table) -> Array:
+    """Return the numbers of all rows; empty cells are NaN, other cells that are not numbers are refused."""
+    faults, used = FaultList(), [k for k, (_, part) in enumerate(table.labels) if part]
+    if len(table.rows) > _MOST_FRAMES:
+        faults.add(file, f"{len(table.rows)} frames", f"are more than {_MOST_FRAMES}", "cut the clip")
+        faults.raise_if_any()
+    found = np.full((len(table.rows), len(table.labels)), np.nan)
+    for i, (row, cells) in enumerate(table.rows):
+        if len(faults.faults) > MAX_CELL_FAULTS:
+            faults.add(file, f"{MAX_CELL_FAULTS} faults and more", "too many to list", "is it the right file?")
+            break
+        missing = len(table.labels) - len(cells)
+        extra = [cell for cell in cells[len(table.labels) :] if cell]
+        # Some writers of tab-separated files drop the tabs behind the last point that was seen.
+        if extra or (missing > 0 and not (missing % 3 == 0 and "." in table.kind)):
+            rule = f"has {len(cells)} cells, but the head names {len(table.labels)} columns"
+            faults.add(f"{file} row {row}", ",".join(cells)[:60], rule, "is the row cut off, or a column missing?")
+            continue
+        for k in used:
+            cell = cells[k] if k < len(cells) else ""
+            if cell.lower() in NO_VALUE:
+                continue
+            try:
+                found[i, k] = float(cell.replace(",", ".", 1))
+            except ValueError:
+                found[i, k] = np.inf
+            if not abs(found[i, k]) < _LARGEST:
+                where = f"{file} row {row}, column {'_'.join(filter(None, table.labels[k]))}"
+                faults.add(where, cell, "is not a coordinate", "write one number, or leave the cell empty")
+    clock = [k for k, (name, _) in enumerate(table.labels) if not name]
+    for k in clock:
+        if not faults.faults and not np.isfinite(found[:, k]).all():
+            row = table.rows[int(np.argmin(np.isfinite(found[:, k])))][0]
+            faults.add(f"{file} row {row}, {table.labels[k][1]}", "", "is empty", "number every frame")
+    faults.raise_if_any()
+    return found

@@ -1,0 +1,245 @@
+"""Tracked points in three dimensions, as tracking programs write them: positions by name, clock, unit and gaps."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from wingbeat._base import FaultList, FileError, InvalidInputError, install_extra, read_text
+from wingbeat._base.sheets import MAX_BYTES
+from wingbeat.experiment.point_tables import (
+    LEAST_SCORE,
+    SCORES,
+    UNIT_WORDS,
+    Array,
+    refuse,
+    split_table,
+    table_numbers,
+)
+
+_FLAT = (
+    "wingbeat needs points in three dimensions: triangulate the views of two or more calibrated cameras, for "
+    "example with Anipose, DLTdv or Argus, and give the file that they write"
+)
+# No camera takes more frames [Hz].
+_FASTEST = 1e6
+
+
+@dataclass(frozen=True)
+class TrackedPoints:
+    """Points that were tracked in three dimensions.
+
+    Parameters
+    ----------
+    name : for messages, such as the name of the file.
+    kind : what wrote the file, in words.
+    positions : of each point by its name, in the file's axes and unit, shape (n, 3); NaN where it was not seen.
+    times : of the frames [s], from the file; None if it has none.
+    frames : numbers of the frames, shape (n,).
+    rate : frames per second that the file states, None if it states none [Hz].
+    unit : "m", "cm" or "mm" if the file states it.
+    up : the file's vertical axis, such as "+z", if it states it.
+    notes, warnings : what the reader did, such as points of low likelihood that were left out.
+    """
+
+    name: str
+    kind: str
+    positions: dict[str, Array]
+    times: Array | None
+    frames: Array
+    rate: float | None = None
+    unit: str | None = None
+    up: str | None = None
+    notes: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+
+def read_points(source: Any) -> TrackedPoints:
+    """Read points tracked in three dimensions from a file of a tracking program, or from a data set of movement.
+
+    Text: any table with three columns ``<name>_x``, ``<name>_y``, ``<name>_z`` for each point (DLTdv, Argus,
+    Anipose), DeepLabCut's three rows of heads, OpenSim's .trc, Qualisys' .tsv and the table of trajectories of
+    Vicon Nexus. Others: C3D (needs ezc3d), NetCDF of movement, HDF5 of sleap-anipose. Points with a likelihood or
+    score below 0.6, points seen by fewer than two cameras, and points at exactly (0, 0, 0) become gaps.
+
+    Parameters
+    ----------
+    source : path of the file, or a data set of movement (an `xarray.Dataset` with a variable ``position``).
+
+    Raises
+    ------
+    FileError : the file is missing or cannot be read, or ezc3d is not installed.
+    InvalidInputError : points in two dimensions, cells that are not numbers, a clock that does not rise.
+    """
+    if not isinstance(source, str | Path):
+        return _of_dataset(source, "a data set", "movement")
+    path = Path(source)
+    suffix = path.suffix.lower()
+    if path.is_file() and suffix in (".c3d", ".nc", ".h5", ".hdf5", ".slp"):
+        if suffix == ".c3d":
+            return _read_c3d(path)
+        return _read_hdf5(path)
+    table = split_table(path.name, read_text(path, limit=MAX_BYTES))
+    numbers = table_numbers(path.name, table)
+    triples: dict[str, list[int]] = {}
+    for k, (name, part) in enumerate(table.labels):
+        if part in ("x", "y", "z"):
+            triples.setdefault(name, [-1, -1, -1])["xyz".index(part)] = k
+    positions = {name: numbers[:, places] for name, places in triples.items() if min(places) >= 0}
+    names = [name for name, places in triples.items() if min(places) < 0]
+    if not positions:
+        head = ", ".join(dict.fromkeys(name for name, _ in table.labels if name))[:200]
+        rule = "names no point with the three columns x, y and z"
+        fix = "name the columns tip_x, tip_y, tip_z and so on"
+        if names:
+            rule, fix = "has points with two coordinates only, as seen by one camera", _FLAT
+        refuse(path.name, head, rule, fix)
+    notes, warnings = [], []
+    if names:
+        warnings.append(f"{path.name}: {', '.join(names[:5])} lacks one of x, y, z and is left out")
+    for name, at in positions.items():
+        for k, (other, part) in enumerate(table.labels):
+            if other == name and part in (*SCORES, "ncams"):
+                with np.errstate(invalid="ignore"):
+                    poor = numbers[:, k] < (2 if part == "ncams" else LEAST_SCORE)
+                poor &= np.isfinite(at).all(axis=1)
+                at[poor] = np.nan
+                if poor.any():
+                    why = "were seen by fewer than two cameras" if part == "ncams" else f"have a {part} below 0.6"
+                    notes.append(f"{path.name}, {name}: {poor.sum()} of {len(at)} frames {why} and are left out")
+    clock = {part: numbers[:, k] for k, (name, part) in enumerate(table.labels) if not name}
+    times = clock.get("time", clock["milliseconds"] / 1000 if "milliseconds" in clock else None)
+    frames = clock.get("frame", np.arange(len(numbers), dtype=float))
+    for word, series in (("time", times), ("frame", frames)):
+        if series is not None and len(series) > 1 and not (np.diff(series) > 0).all():
+            k = int(np.argmin(np.diff(series) > 0)) + 1
+            rule = f"must be above the {word} before it, {series[k - 1]:g}"
+            fix = "sort the rows; drop repeated ones"
+            refuse(f"{path.name} row {table.rows[k][0]}, {word}", float(series[k]), rule, fix)
+    if "frame" not in clock and times is None:
+        same = [k for k in range(1, len(numbers)) if np.array_equal(numbers[k], numbers[k - 1])]
+        if same:
+            rows = ", ".join(str(table.rows[k][0]) for k in same[:5])
+            warnings.append(f"{path.name}: row {rows} repeats the row before it; a doubled row shifts the clock")
+    return _checked(
+        TrackedPoints(
+            path.name, table.kind, positions, times, frames, table.rate, table.unit, None, (*notes,), (*warnings,)
+        )
+    )
+
+
+def _checked(points: TrackedPoints) -> TrackedPoints:
+    """Return the points with partly seen ones and those at exactly (0, 0, 0) as gaps; refuse impossible rates."""
+    faults, notes = FaultList(), list(points.notes)
+    for name, at in points.positions.items():
+        empty = (at == 0).all(axis=1)
+        if empty.any() and not empty.all():
+            notes.append(f"{points.name}, {name}: {empty.sum()} frames at exactly (0, 0, 0) are taken for gaps")
+        at[empty | ~np.isfinite(at).all(axis=1)] = np.nan
+    if points.rate is not None:
+        faults.number(f"{points.name}, frame rate", points.rate, above=0, at_most=_FASTEST, unit="Hz")
+    faults.raise_if_any()
+    return replace(points, notes=tuple(notes))
+
+
+def _of_dataset(data: Any, file: str, kind: str) -> TrackedPoints:
+    """Return the points of a data set of movement: position by time, space, keypoints and individuals."""
+    position = getattr(data, "data_vars", {}).get("position")
+    known = position is not None and {"time", "space"} <= set(position.dims)
+    if position is None or not known or not {"keypoints", "keypoint"} & set(position.dims):
+        names = ", ".join(map(str, getattr(data, "data_vars", {}))) or type(data).__name__
+        refuse(file, names, "is no data set of movement with poses", "give position(time, space, keypoints)")
+    if "z" not in position["space"].values.tolist():
+        refuse(file, "space = x, y", "has points with two coordinates only, as seen by one camera", _FLAT)
+    position = position.sel(space=["x", "y", "z"]).transpose("time", "space", ...)
+    scores = data.data_vars.get("confidence")
+    others = [dim for dim in position.dims if dim not in ("time", "space")]
+    found, notes = {}, []
+    stacked = position.stack(point=others) if len(others) > 1 else position.rename({others[0]: "point"})
+    sizes = {dim: position.sizes[dim] for dim in others}
+    scored = None
+    if scores is not None and {"time", *others} <= set(scores.dims):
+        scored = scores.stack(point=others) if len(others) > 1 else scores.rename({others[0]: "point"})
+    for k, label in enumerate(stacked["point"].values.tolist()):
+        words = dict(zip(others, label if isinstance(label, tuple) else (label,), strict=True))
+        name = " ".join(str(word) for dim, word in words.items() if "individual" not in dim or sizes[dim] > 1)
+        found[name] = np.array(stacked.isel(point=k).transpose("time", "space").values, dtype=float)
+        if scored is not None:
+            values = np.asarray(scored.isel(point=k).values, dtype=float)
+            poor = (np.nan_to_num(values, nan=1.0) < LEAST_SCORE) & np.isfinite(found[name]).all(axis=1)
+            found[name][poor] = np.nan
+            if poor.any():
+                why = "have a confidence below 0.6 and are left out"
+                notes.append(f"{file}, {name}: {poor.sum()} of {len(poor)} frames {why}")
+    clock = np.asarray(position["time"].values)
+    rate, times = data.attrs.get("fps"), None
+    if str(data.attrs.get("time_unit", "")).startswith("s"):
+        times = clock.astype(float)
+    frames = np.arange(len(clock), dtype=float) if times is not None else clock.astype(float)
+    rate = float(rate) if isinstance(rate, int | float | np.number) and np.isfinite(float(rate)) else None
+    return _checked(TrackedPoints(file, kind, found, times, frames, rate, None, None, tuple(notes)))
+
+
+def _read_hdf5(path: Path) -> TrackedPoints:
+    """Read NetCDF of movement and HDF5 of sleap-anipose; SLEAP's own files hold points of one camera."""
+    import h5py
+    import xarray as xr
+
+    try:
+        with h5py.File(path, "r") as file:
+            tracks = np.asarray(file["tracks"]) if "tracks" in file else np.empty(0)
+            names = [one.decode() for one in np.asarray(file["node_names"])] if "node_names" in file else []
+            shape = tracks.shape
+            if path.suffix.lower() == ".slp" or (len(shape) == 4 and shape[-1] != 3 and "node_names" in file):
+                refuse(path.name, "SLEAP", "has points with two coordinates only, as seen by one camera", _FLAT)
+            if len(shape) == 4 and shape[-1] == 3:
+                names = names or [f"node{k}" for k in range(shape[2])]
+                found = {
+                    f"track{i} {name}" if shape[1] > 1 else name: tracks[:, i, k]
+                    for i in range(shape[1])
+                    for k, name in enumerate(names)
+                }
+                frames = np.arange(shape[0], dtype=float)
+                return _checked(TrackedPoints(path.name, "sleap-anipose", found, None, frames))
+            if "position" not in file:
+                rule = "is HDF5 without points that wingbeat knows"
+                fix = "give NetCDF of movement, HDF5 of sleap-anipose, or a table with tip_x, tip_y, tip_z"
+                refuse(path.name, ", ".join(list(file)[:6]), rule, fix)
+        with xr.open_dataset(path, engine="h5netcdf") as data:
+            return _of_dataset(data.load(), path.name, "movement")
+    except InvalidInputError:
+        raise
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        kind = "NetCDF-4 or HDF5 file that can be read"
+        raise FileError(f"cannot read {path.name!r}: it is no {kind}: {str(error)[:120]}") from None
+
+
+def _read_c3d(path: Path) -> TrackedPoints:
+    """Read C3D with ezc3d."""
+    try:
+        import ezc3d
+    except ImportError:
+        raise FileError(f"ezc3d, which reads .c3d, is not installed here: {install_extra('c3d')}") from None
+    try:
+        file = ezc3d.c3d(str(path))
+        data, given = np.array(file["data"]["points"][:3], dtype=float), file["parameters"]["POINT"]
+        labels = [
+            name.strip() for key in ("LABELS", "LABELS2", "LABELS3") for name in given.get(key, {}).get("value", [])
+        ]
+        unit = next(iter(given.get("UNITS", {}).get("value", [])), "")
+        up = next(iter(given.get("Y_SCREEN", {}).get("value", [])), "")
+        rate = float(file["header"]["points"]["frame_rate"])
+        first = float(file["header"]["points"]["first_frame"])
+    except (OSError, ValueError, KeyError, IndexError, RuntimeError, TypeError) as error:
+        raise FileError(f"cannot read {path.name!r} as C3D: {str(error)[:120]}; is it whole?") from None
+    labels = [name.rpartition(":")[2] for name in labels]
+    found = {name: data[:, k].T.copy() for k, name in enumerate(labels[: data.shape[1]])}
+    frames = first + np.arange(data.shape[2], dtype=float)
+    stated = up.strip().lower() if re.fullmatch(r"[+-][xyz]", up.strip().lower()) else None
+    return _checked(
+        TrackedPoints(path.name, "C3D", found, None, frames, rate or None, UNIT_WORDS.get(unit.lower()), stated)
+    )

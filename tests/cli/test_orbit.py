@@ -150,7 +150,6 @@ def test_show_gives_the_same_record(solved: Solved, capsys: Any) -> None:
     assert capsys.readouterr().out == solved.ended.out
 
 
-@pytest.mark.slow
 @needs_terminal
 def test_from_a_file_the_record_comes_again_bit_for_bit(solved: Solved, forks: ForkServer) -> None:
     """Also: on a terminal, stderr shows how far the search is, and stdout still holds the record alone."""

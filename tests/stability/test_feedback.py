@@ -41,7 +41,10 @@ def test_the_loop_without_delay_is_the_riccati_solution_of_the_linear_flight(hel
 def test_small_deviations_fly_as_the_linear_loop_says(cruise, delay, late):
     found = wb.feedback(cruise, delay=delay)
     ago = ["2 beats ago", "1 beat ago"][2 - delay :]
-    assert found.gain_columns == (*found.flight.state, *(f"{name}, {when}" for when in ago for name in found.inputs))
+    assert found.gain_columns == (
+        *found.flight.state,
+        *(f"{name}, {when}" for when in ago for name in found.inputs),
+    )
     A, B = found.flight.A, found.flight.B
     small = 1e-5 * np.array([1.0, -0.5, 2.0, 1.0, 3.0])  # z shifts with the start and is not seen
     flown = tops(

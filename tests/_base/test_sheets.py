@@ -26,9 +26,7 @@ def test_a_unit_that_does_not_fit_is_a_fault(heading, wanted):
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("a;b\n1,5;2\n", "semicolons between its columns and decimal commas"),
-        ("# a comment, with commas\na\tb\n1\t2\n", "tabs between its columns"),
-        ("alpha CL CD\n0 1 2\n", "spaces between its columns"),
+        ("alpha CL CD of it\n0 1 2\n", "names 5 columns between spaces, and the rows have 3 cells"),
         ("\n   XFOIL   Version 6.99\n", "a polar of XFOIL"),
         ("xflr5 v6.47\n\n Calculated polar for: x\n", "a polar of XFOIL or XFLR5"),
         ("! ----- AirfoilInfo v1.01.x Input File ---\n", "an airfoil table of AeroDyn"),
@@ -49,6 +47,50 @@ def test_a_file_of_another_format_is_named_in_one_sentence(tmp_path, text, words
     with pytest.raises(wb.InvalidInputError, match=words) as refused:
         read_sheet(tmp_path / "other.csv")
     assert len(refused.value.faults) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "numbers", "note"),
+    [
+        (
+            "a;b\n1,5;2\n3;4,25\n",
+            [[1.5, 2], [3, 4.25]],
+            "read with semicolons between the columns and decimal commas",
+        ),
+        ("a;b\n1.5;2\n", [[1.5, 2]], "read with semicolons between the columns"),
+        ("# a comment, with commas\na\tb [m]\n1\t2\n", [[1, 2]], "read with tabs between the columns"),
+        ("alpha [deg] CL CD\n  0 1  2\n", [[0, 1, 2]], "read with spaces between the columns"),
+        ("a b\n1,5 1,234\n", [[1.5, 1.234]], "read with spaces between the columns and decimal commas"),
+        ("a,b\n1.5,2\n", [[1.5, 2]], None),
+        (
+            '# rate = 8,2;;\na;b\n"1,5";2\n',
+            [[1.5, 2]],
+            "read with semicolons between the columns and decimal commas",
+        ),
+    ],
+)
+def test_separators_and_decimal_commas_are_read_and_said(tmp_path, text, numbers, note):
+    (tmp_path / "a.csv").write_text(text)
+    assert read(tmp_path / "a.csv").tolist() == numbers
+    sheet = read_sheet(tmp_path / "a.csv")
+    assert sheet.notes == (() if note is None else (note,))
+    assert sheet.constants == ({"rate": (1, "8.2")} if "rate" in text else {})
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (
+            "a;b\n1,234;2\n",
+            "row 2 = '1,234': can be read in two ways: with a decimal comma, or with a mark between",
+        ),
+        ("a;b\n1.5;2\n3;1,234\n", "row 3 = '1,234': has a comma, and other numbers of the file have points"),
+        ("a;b\n0,5;2\n3;1,234,567\n", "row 3 = '1,234,567': can be read in two ways"),
+        ("a\tb\n1.234,5\t2\n", "is not a number"),
+    ],
+)
+def test_a_number_that_can_be_read_in_two_ways_is_refused(tmp_path, text, words):
+    assert words in refused(tmp_path, text)[0]
 
 
 def test_a_table_that_only_mentions_a_program_is_read(tmp_path):

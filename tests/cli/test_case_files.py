@@ -69,7 +69,7 @@ ROWS = [
     ("films/nan_in_pitch.csv", FLY, 0, "pitch_deg: 50 frames, residual 0.91 deg"),
     ("films/left_right.csv", FLY, 0, "the mean of both wings; left minus right is 0.34 +- 0.23 deg"),
     ("films/frames.csv", FLY, 2, "add the line '# frame rate [Hz] = ..'"),
-    ("films/semicolon.csv", FLY, 2, "semicolons"),
+    ("films/semicolon.csv", FLY, 0, "read with semicolons between the columns and decimal commas"),
     ("points/anipose.csv", FLY, 2, "points tracked by Anipose; wingbeat reads angles, not points"),
     ("points/deeplabcut.csv", FLY, 2, "points tracked by DeepLabCut; wingbeat reads angles, not points"),
     ("points/dltdv_xyzpts.csv", FLY, 2, "points tracked by DLTdv; wingbeat reads angles, not points"),

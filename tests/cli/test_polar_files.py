@@ -33,12 +33,6 @@ def written(name: str, head: str, rows=WHOLE, more: str = "") -> str:
 REFUSED = {
     "drag_counts.csv": "C_D = 1848.0: must lie between 0 and 5: no wing has more (29 of 29 rows); the column",
     "reynolds_in_millions.csv": "reynolds = 0.06: must be >= 1 (29 of 29 rows); it looks like millions",
-    "xfoil.txt": "this seems to be a polar of XFOIL or XFLR5; write its angle, lift and drag as a CSV table",
-    "airfoil_site.csv": "this seems to be a polar from an airfoil site",
-    "aerodyn.dat": "this seems to be an airfoil table of AeroDyn",
-    "semicolon_decimal_comma.csv": "this seems to be a table with semicolons between its columns and",
-    "tabs.csv": "this seems to be a table with tabs between its columns; write commas",
-    "full_circle_0_355.csv": "alpha_deg = 355.0: is the largest angle: this seems to be a turn that",
 }
 
 
@@ -50,6 +44,29 @@ def test_a_file_that_is_no_table_of_a_wing_is_refused_in_one_sentence(command, n
     words = REFUSED[name]
     assert (words if "polar" not in command or name.endswith(".csv") else words[5:]) in line
     assert not Path("out.toml").exists()
+
+
+READ = {
+    "xfoil.txt": "XFOIL: TESTPLATE 4 PERCENT, Re 50000, Ncrit 9",
+    "airfoil_site.csv": "airfoil site: testplate-il, Re 50000, Ncrit 9",
+    "semicolon_decimal_comma.csv": "read with semicolons between the columns and decimal commas",
+    "tabs.csv": "read with tabs between the columns",
+}
+
+
+@pytest.mark.parametrize("name", READ)
+def test_the_commonest_polars_are_fitted_and_how_they_were_read_is_said(name, capsys):
+    assert main(["fit", str(CASES / name), "--form", "cambered", "-o", "out.toml"]) == 0
+    assert f"note: {READ[name]}" in capsys.readouterr().err
+    assert load_coefficients("out.toml").lift(np.radians(4.0)) == pytest.approx(0.68, abs=0.08)
+    assert main(["polar", str(CASES / name)]) == 2
+    assert "a fit completes it: wingbeat fit" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("name", ["aerodyn.dat", "full_circle_0_355.csv"])
+def test_tables_of_the_whole_circle_are_used_as_they_are(name, capsys):
+    assert main(["polar", str(CASES / name), "--alpha", "40", "--csv"]) == 0
+    assert capsys.readouterr().out.splitlines()[1].startswith("40.0,1.1126,0.81")
 
 
 UNITS = {

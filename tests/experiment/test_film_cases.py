@@ -186,11 +186,11 @@ def test_a_film_has_a_limit_on_its_rows(tmp_path):
     assert len(said.splitlines()) == 1
 
 
-def test_films_of_other_programs_are_named_in_one_sentence(capsys):
-    assert main(["simulate", "pigeon", "--kinematics", str(CASES / "semicolon.csv")]) == 2
-    said = capsys.readouterr().err.splitlines()
-    assert len(said) == 1
-    assert "a table with semicolons between its columns and decimal commas" in said[0]
+def test_a_film_with_semicolons_and_decimal_commas_is_read_and_said():
+    film = read_film(CASES / "semicolon.csv")
+    assert film.notes[0] == "read with semicolons between the columns and decimal commas"
+    assert film.columns["flap_deg"][:2].tolist() == [44.744, 44.593]
+    assert film.stated_frequency == 8.2
 
 
 def test_a_column_of_zeros_is_a_rigid_wing():

@@ -26,9 +26,7 @@ NO_VALUE = {"", "nan", "-nan", "na", "n/a", "#n/a", "null", "none", "<na>", "1.#
 _SAME = {"n·m": "n m", "n*m": "n m", "nm": "n m", "n.m": "n m", "-": "", "1": ""}
 _SAME |= {"°": "deg", "degrees": "deg", "seconds": "s"}
 # What programs and instruments write: a pattern at the beginning, # lines left out, and what to do with the file.
-_COPY_POLAR = (
-    "write its angle, lift and drag as a CSV table with the columns alpha_deg, C_L, C_D, separated by commas"
-)
+_COPY_POLAR = "give it where coefficients are read: --aero, polar, fit, glide"
 _COPY_LOADS = (
     "write a CSV table with the columns time, normal_force, tangential_force, moment (about mid-chord) and "
     "alpha_deg, and above it the lines '# speed = ..' and so on, see wingbeat reduce --help"
@@ -47,7 +45,7 @@ _KNOWN_FILES = (
     (r"[^\n]*(frame_idx|track,)[^\n]*\.score", f"points tracked by SLEAP; {_COPY_POINTS}"),
     (r"pathfiletype", f"marker points of OpenSim or a motion-capture system (.trc); {_COPY_POINTS}"),
     (r"xfoil polar\.", f"a polar from an airfoil site (XFOIL, with lines of text above it); {_COPY_POLAR}"),
-    (r"(xfoil|xflr5) ", f"a polar of XFOIL or XFLR5; {_COPY_POLAR}, and its Re in a column reynolds"),
+    (r"(xfoil|xflr5) ", f"a polar of XFOIL or XFLR5; {_COPY_POLAR}"),
     (r"!.*(airfoilinfo|numalf)|aerodyn", f"an airfoil table of AeroDyn; {_COPY_POLAR}"),
     (r"<(!doctype|html)", "a web page, not a table; download the table itself"),
 )
@@ -76,6 +74,7 @@ class Sheet(NamedTuple):
     header_row: int
     header: list[str]
     rows: list[tuple[int, str]]
+    notes: tuple[str, ...] = ()  # on separators and decimal commas
 
 
 def split_unit(text: str) -> Heading:
@@ -115,24 +114,92 @@ def seems_to_be(text: str) -> str | None:
     for pattern, words in _KNOWN_FILES:
         if re.match(pattern, head, re.IGNORECASE | re.DOTALL | re.MULTILINE):
             return words
-    if not lines or "," in lines[0]:
-        return None
-    for sign, name in ((";", "semicolons"), ("\t", "tabs")):
-        if lines[0].strip().count(sign):
-            decimal = any(re.search(r"\d,\d", line) for line in lines[1:])
-            commas = " and decimal commas" if decimal else ""
-            points = " and points in the numbers" if decimal else ""
-            return f"a table with {name} between its columns{commas}; write commas between the columns{points}"
-    if len(lines) > 1 and all(len(line.split()) > 1 for line in lines[:2]):
-        return "a table with spaces between its columns; write commas between the columns"
     return None
+
+
+def cut_short(text: str) -> tuple[str, ...]:
+    """Return a note if a text ends without a line break, in a number that is shorter than the one above it."""
+    last = [re.split(r"[\s,;]+", line.strip())[-1] for line in text.rstrip().splitlines()[-2:]]
+    if (
+        len(last) < 2
+        or text.endswith(("\n", "\r"))
+        or not all(map(_is_number, last))
+        or len(last[1]) >= len(last[0])
+    ):
+        return ()
+    return (
+        f"the file ends within its last line, at {last[1]}, which is shorter than the number above: is it whole?",
+    )
+
+
+# A number with a comma; with three digits behind it and one to three before, it can be two numbers.
+_COMMA = re.compile(r"(?<![\d.,])[+-]?\d+(?:,\d+)+(?:[eE][+-]?\d+)?(?![\d.,])")
+_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+$")
+_SEPARATORS = {";": "semicolons", "\t": "tabs", " ": "spaces"}
+
+
+def _with_commas(
+    file: str, table: list[tuple[int, str]], constants: dict[str, tuple[int, str]]
+) -> tuple[list[tuple[int, str]], dict[str, tuple[int, str]], tuple[str, ...]]:
+    """Return a table with commas between columns and points in numbers, its constants, and what was changed.
+
+    The line that names the columns shows the separator: semicolons, tabs, spaces, else commas. Commas inside
+    numbers are decimal commas if one of them can be nothing else, and no number has a point. Numbers that can be
+    read in two ways are refused.
+    """
+    first = table[0][1]
+    sign = next((sign for sign in ";\t" if sign in first.strip()), "")
+    glued = re.sub(r"\s+(?=[\[(])", "", first)
+    if not sign and "," not in first and len(table) > 1:
+        widths = {len(text.split()) for _, text in table[1:]}
+        if len(glued.split()) > 1 and widths == {len(glued.split())}:
+            sign, table = " ", [(table[0][0], glued), *table[1:]]
+        elif len(glued.split()) > 1 and max(widths) > 1:
+            rule = (
+                f"names {len(glued.split())} columns between spaces, and the rows have {sorted(widths)[-1]} cells"
+            )
+            fix = "write commas between the columns, and names of one word"
+            raise InvalidInputError([Fault(f"{file} row {table[0][0]}", first, rule, fix)])
+    if not sign:
+        return table, constants, ()
+    body = "\n".join(text for _, text in table[1:])
+    commas = _COMMA.findall(body)
+    decimal = bool(commas)
+    if commas:
+        points = re.search(r"\d\.\d|(?<![\w.,])\.\d", body)
+        sure = [cell for cell in commas if not _THOUSANDS.match(cell) and cell.count(",") == 1]
+        worst = next((cell for cell in commas if cell.count(",") > 1), commas[0])
+        row = next(number for number, text in table[1:] if worst in text)
+        if points or not sure or worst.count(",") > 1:
+            rule = "can be read in two ways: with a decimal comma, or with a mark between thousands"
+            rule = "has a comma, and other numbers of the file have points" if points else rule
+            fix = "write decimal points, and no mark between thousands"
+            raise InvalidInputError([Fault(f"{file} row {row}", worst, rule, fix)])
+    changed = []
+    for k, (row, text) in enumerate(table):
+        if decimal and k:
+            text = re.sub(r"(?<=\d),(?=\d)", ".", text)
+        if sign == " ":
+            cells = text.split()
+        elif '"' in text:
+            cells = [cell.strip() for cell in next(csv.reader([text], delimiter=sign))]
+        else:
+            cells = text.split(sign)
+        quoted = [f'"{cell}"' if "," in cell and '"' not in cell else cell for cell in cells]
+        changed.append((row, ",".join(quoted)))
+    said = f"{_SEPARATORS[sign]} between the columns" + (" and decimal commas" if decimal else "")
+    plain = {key: (row, value.strip(f"{sign} ")) for key, (row, value) in constants.items()}
+    if decimal:
+        plain = {k: (row, v.replace(",", ".") if _COMMA.fullmatch(v) else v) for k, (row, v) in plain.items()}
+    return changed, plain, (f"read with {said}",)
 
 
 def read_sheet(path: str | Path) -> Sheet:
     """Split a CSV file into its constants (``# name = value``) and its table, without converting numbers.
 
-    Blank rows are left out, and so are rows of commas alone, which spreadsheets write for them. A file is refused
-    if it is empty or of another format, or if a constant appears twice in any spelling.
+    Columns may be separated by commas, semicolons, tabs or spaces; the sheet's notes say so. Blank rows are left
+    out, and so are rows of commas alone, which spreadsheets write for them. A file is refused if it is empty or of
+    another format, or if a constant appears twice in any spelling.
     """
     path = Path(path)
     faults = FaultList()
@@ -172,6 +239,8 @@ def read_sheet(path: str | Path) -> Sheet:
     if not table and not faults.faults:
         faults.add(f"{path.name} row 1", "", "the file holds no table", "the first row names the columns")
     faults.raise_if_any()
+    table, constants, notes = _with_commas(path.name, table, constants)
+    notes = (*notes, *cut_short(whole))
     header = _cells(table[0][1])
     if all(_is_number(cell) for cell in header):
         rule, fix = (
@@ -179,7 +248,7 @@ def read_sheet(path: str | Path) -> Sheet:
             "write the names without #",
         )
         raise InvalidInputError([Fault(f"{path.name} row {table[0][0]}", table[0][1], rule, f"{fix} in front")])
-    return Sheet(path.name, constants, table[0][0], header, table[1:])
+    return Sheet(path.name, constants, table[0][0], header, table[1:], notes)
 
 
 def parse_numbers(

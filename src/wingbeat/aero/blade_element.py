@@ -18,8 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base import Fault, FaultList, InvalidInputError, read_text, suggest
-from wingbeat._base.sheets import seems_to_be
+from wingbeat._base import Fault, FaultList, InvalidInputError, suggest
 from wingbeat._jax.arrays import atan2, elementwise_jvp, jnp
 from wingbeat.aero.closed_forms import INFLOWS, UNSTEADY, damping_couple, rotation_force
 from wingbeat.aero.coefficient_model import CoefficientModel, check_curve
@@ -28,6 +27,7 @@ from wingbeat.aero.formula_models import CamberedCoefficients, FormulaCoefficien
 from wingbeat.aero.function import FunctionCoefficients
 from wingbeat.aero.library import LIBRARY
 from wingbeat.aero.model_file import load_model
+from wingbeat.aero.polar_formats import POLAR_SUFFIXES
 from wingbeat.aero.table import load_table
 
 if TYPE_CHECKING:
@@ -85,18 +85,14 @@ def load_coefficients(
     'su-fan'
     """
     name = str(name_or_path)
-    if name.lower().endswith(".csv"):
-        return load_table(name, extension, blend_width_deg)
     if name.lower().endswith(".toml"):
         return _possible(load_model(name, extension, blend_width_deg))
+    if name.lower().endswith(POLAR_SUFFIXES) or (name not in LIBRARY and name and Path(name).is_file()):
+        return load_table(name, extension, blend_width_deg)
     if name not in LIBRARY:
         rule, guess = "is not a known coefficient model", suggest(name.lower(), LIBRARY, most=2, otherwise="")
         known = f"The models are {', '.join(LIBRARY)}; a table's path ends in .csv, a fitted model's in .toml"
-        fix = f"{guess} {known}".lstrip()
-        if name and Path(name).is_file():
-            rule = f"seems to be {seems_to_be(read_text(name)) or 'a file'}"
-            fix = "the name of a table ends in .csv, that of a fitted model in .toml"
-        raise InvalidInputError([Fault("coefficients", name, rule, fix)])
+        raise InvalidInputError([Fault("coefficients", name, rule, f"{guess} {known}".lstrip())])
     return LIBRARY[name](extension, blend_width_deg)
 
 

@@ -11,9 +11,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base import FaultList, suggest
-from wingbeat._base.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
+from wingbeat._base import FaultList, FileError, read_text, suggest
+from wingbeat._base.sheets import (
+    MAX_BYTES,
+    Sheet,
+    check_unit,
+    cut_short,
+    parse_numbers,
+    read_sheet,
+    same_name,
+    split_unit,
+)
 from wingbeat.aero.coefficient_model import check_possible
+from wingbeat.aero.polar_formats import polar_of
 
 QUANTITIES = ("C_L", "C_D", "C_M", "x_cp")
 REQUIRED = ("alpha_deg", "C_L", "C_D")
@@ -50,6 +60,7 @@ class PolarSheet(NamedTuple):
     headings: dict[str, str]  # the file's own names of the columns that are read, by our names
     columns: dict[str, NDArray[np.float64]]  # numbers by our names; NaN where an optional cell is empty
     notes: tuple[str, ...]  # what a reader should know: columns that are not read
+    of_program: bool = False  # whether another program wrote it, with a moment about the quarter chord
 
     def where(self, row: int, name: str) -> str:
         """Return the place of a cell in the file, in the file's own words."""
@@ -58,17 +69,35 @@ class PolarSheet(NamedTuple):
 
 
 def read_polar(path: str | Path, faults: FaultList) -> PolarSheet:
-    """Read a table of coefficients from CSV, with the columns in any order and in any usual spelling.
+    """Read a table of coefficients: CSV with columns in any order and usual spelling, or a polar of a program.
 
-    Faults of cells and values are noted in `faults`; those of the file and its head are raised.
+    Angles from 0 to 360 degrees become -180 to 180. Faults of cells and values are noted in `faults`; those of the
+    file and its head are raised.
     """
-    sheet = read_sheet(path)
+    try:
+        text = read_text(path, limit=MAX_BYTES)
+    except FileError:  # read_sheet says what it is
+        text = ""
+    foreign = polar_of(faults, Path(path).name, text)
+    sheet = read_sheet(path) if foreign is None else foreign.sheet
     names, notes = _names(faults, sheet)
     headings = {name: split_unit(cell).name for name, cell in zip(names, sheet.header, strict=True) if name}
     blank = frozenset(headings[name] for name in headings if name in MAY_BE_EMPTY)
     numbers = parse_numbers(faults, sheet, [headings.get(name, "") for name in names], blank=blank)
     columns = {name: numbers[:, k].copy() for k, name in enumerate(names) if name}
-    found = PolarSheet(sheet, headings, columns, tuple(notes))
+    notes = [*sheet.notes, *(cut_short(text) if foreign is not None else ()), *notes]
+    alpha = columns["alpha_deg"]
+    behind = alpha > 180
+    if behind.sum() > 2 and np.nanmin(alpha) >= 0 and np.nanmax(alpha) <= 360:
+        notes.append(f"angles from {np.nanmin(alpha):g} to {np.nanmax(alpha):g} degrees are read as -180 to 180")
+        alpha = np.where(behind, alpha - 360, alpha)
+        order = np.argsort(alpha, kind="stable")
+        columns = {name: column[order] for name, column in (columns | {"alpha_deg": alpha}).items()}
+        sheet = sheet._replace(rows=[sheet.rows[k] for k in order])
+    if foreign is not None and foreign.quarter and not faults.faults:
+        turn = np.radians(alpha)
+        columns["C_M"] += 0.25 * (columns["C_L"] * np.cos(turn) + columns["C_D"] * np.sin(turn))
+    found = PolarSheet(sheet, headings, columns, tuple(notes), foreign is not None)
     if not sheet.rows:
         faults.add(f"{sheet.file} row {sheet.header_row}", "", "has no row of numbers", "add the measurements")
         faults.raise_if_any()
@@ -194,16 +223,10 @@ def _check_angles(faults: FaultList, polar: PolarSheet) -> None:
     if not len(finite):
         return
     row = int(np.nanargmax(np.abs(angles)))
-    largest = float(np.abs(angles[row]))
     if check_radians(faults, polar.where(row, "alpha_deg"), finite):
         return
-    if 180 < largest <= 360 and finite.min() >= 0 and (finite > 180).sum() > 2:
-        rule = "is the largest angle: this seems to be a turn that is counted from 0 to 360 degrees"
-        fix = "subtract 360 from the angles above 180 and sort the rows"
-        faults.add(polar.where(row, "alpha_deg"), largest, rule, fix)
-    else:
-        beyond = "must lie between -180 and 180 degrees"
-        fault_at(faults, polar, "alpha_deg", np.abs(angles) > 180, beyond, "wrap the angle")
+    beyond = "must lie between -180 and 180 degrees"
+    fault_at(faults, polar, "alpha_deg", np.abs(angles) > 180, beyond, "wrap the angle")
 
 
 def check_radians(faults: FaultList, where: str, angles: NDArray[np.float64]) -> bool:

@@ -21,6 +21,7 @@ from wingbeat._base import FaultList
 from wingbeat._base.sheets import Sheet, same_name
 from wingbeat._jax.arrays import horner, jax, jnp
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspect_ratio, check_possible
+from wingbeat.aero.completion import closed_turn, is_whole_turn
 from wingbeat.aero.extension import Jet, check_drag_of_joins, check_extension, extend
 from wingbeat.aero.polar_sheet import REQUIRED, PolarSheet, doubtful_drag, fitting, read_polar, refuse_several
 
@@ -163,11 +164,6 @@ def check_coverage(faults: FaultList, columns: dict[str, list[float]], extension
         rule = "the extension signed-drag has no effect on a table" if extension == "signed-drag" else rule
         fix = "use mirrored" if first >= 0 else "add rows down to -90, or drop the negative rows and use mirrored"
         faults.add(at_first, first, rule, fix)
-
-
-def is_whole_turn(angles: Sequence[float]) -> bool:
-    """Return whether a table runs from -180 to 180 degrees."""
-    return angles[0] == -180 and angles[-1] == 180
 
 
 # Cells in which a table is looked up; more if rows are so close that two would be in one cell. With this look-up a
@@ -351,9 +347,19 @@ def _stated_aspect_ratio(faults: FaultList, sheet: Sheet) -> float | None:
     return None
 
 
+# The centre of pressure comes from the moment where the normal force coefficient is at least this.
+_LEAST_NORMAL = 0.1
+
+
 def _whole_centre(polar: PolarSheet) -> tuple[list[float] | None, tuple[str, ...]]:
     """Return x_cp in every row, and notes; empty cells, where there is no force, are filled from neighbours."""
     given = polar.columns.get("x_cp")
+    if given is None and polar.of_program and "C_M" in polar.columns:
+        turn = np.radians(polar.columns["alpha_deg"])
+        normal = polar.columns["C_L"] * np.cos(turn) + polar.columns["C_D"] * np.sin(turn)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            given = 0.5 - polar.columns["C_M"] / normal
+        given = np.where((np.abs(normal) >= _LEAST_NORMAL) & (np.abs(given - 0.5) <= 1.5), given, np.nan)
     if given is None:
         return None, ()
     known, alpha = np.isfinite(given), polar.columns["alpha_deg"]
@@ -361,14 +367,17 @@ def _whole_centre(polar: PolarSheet) -> tuple[list[float] | None, tuple[str, ...
         return None, ("x_cp: no two rows have a value, so the model has no centre of pressure",)
     if known.all():
         return given.tolist(), ()
-    filled = np.interp(alpha, alpha[known], given[known])
+    period = 360.0 if alpha[-1] - alpha[0] == 360 else None
+    filled = np.interp(alpha, alpha[known], given[known], period=period)
     angles = ", ".join(f"{angle:g}" for angle in alpha[~known][:8]) + ", ..." * bool((~known).sum() > 8)
     return filled.tolist(), (f"x_cp is empty at {angles} degrees and is filled from the neighbouring rows",)
 
 
 def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0) -> TableCoefficients:
-    """Read a coefficient table from a CSV file with the columns alpha_deg, C_L, C_D and, if known, x_cp, reynolds.
+    """Read a coefficient table: CSV with the columns alpha_deg, C_L, C_D and, if known, x_cp, reynolds; or a polar.
 
+    Polars of XFOIL, XFLR5, AeroDyn, QBlade, JavaFoil, airfoil sites and UIUC's wind tunnel are read as they are
+    (`wingbeat.aero.polar_formats`). Columns may be separated by commas, semicolons, tabs or spaces.
     Columns may have any order and spelling (alpha, c_l, CL, Cd, Re), with or without a unit in brackets. Others are
     ignored; the model's `notes` name them. Blank rows and rows that begin with # are skipped. One such row may
     state the wing's aspect ratio, for example ``# aspect_ratio = 6``, or ``inf`` for a section; the model of
@@ -376,7 +385,7 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
 
     Parameters
     ----------
-    path : the CSV file; angles in degrees.
+    path : the file; angles in degrees.
     extension, blend_width_deg : as in `TableCoefficients`.
 
     Raises
@@ -403,6 +412,7 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
     shape = FaultList()
     check_columns(shape, columns, where)
     if not (faults.faults or shape.faults):
+        notes = (*notes, *closed_turn(columns))
         if columns["alpha_deg"][-1] < 90:
             at, rule = where(len(polar.sheet.rows) - 1, "alpha_deg"), "the table must reach at least 90 degrees"
             faults.add(at, columns["alpha_deg"][-1], rule, f"a fit completes it: {fitting(path, polar)}")
@@ -419,7 +429,7 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
     return TableCoefficients(
         Path(path).stem,
         *(tuple(columns[name]) for name in COLUMNS),
-        x_cp=None if centre is None else tuple(centre),
+        x_cp=tuple(columns["x_cp"]) if "x_cp" in columns else None,
         citation=polar.sheet.file,
         reynolds_range=(float(stream.min()), float(stream.max())) if len(stream) else None,
         extension=extension,

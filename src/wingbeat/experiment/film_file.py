@@ -110,6 +110,7 @@ def read_film(path: str | Path, side: str = "both") -> Film:
     phase, rate, rate_se, fitted = _clock(sheet, given, clocks[0], seen["", clocks[0]], columns)
     synthetic = any(same_name(key) == "synthetic" for key in sheet.constants)
     stated = given["frequency"].value if "frequency" in given else None
+    notes = (*sheet.notes, *notes)
     return Film(sheet.file, phase, columns, rate, rate_se, synthetic, fitted, stated, notes, warnings)
 
 

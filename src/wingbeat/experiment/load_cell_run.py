@@ -45,6 +45,7 @@ class LoadCellRun:
     channel_width : width of the channel across the span [m], or None.
     tare : readings of each channel in still fluid before and after the run [N, N, N m], shape (3, 2); NaN, or None
         for all channels, where there is none.
+    notes : on how the file was read.
 
     Raises
     ------
@@ -67,6 +68,7 @@ class LoadCellRun:
     thickness: float = 0.0
     channel_width: float | None = None
     tare: Any = None
+    notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -163,7 +165,7 @@ def read_run(path: str | Path) -> LoadCellRun:
     single: dict[str, Any] = {name: values[0] for name, values in constants.items() if name not in TARE_UNITS}
     tare = [constants.get(key, (np.nan, np.nan)) for key in TARE_UNITS]
     try:
-        return LoadCellRun(sheet.file, **series, **single, tare=tare)
+        return LoadCellRun(sheet.file, **series, **single, tare=tare, notes=sheet.notes)
     except InvalidInputError as error:
         placed = [dataclasses.replace(fault, where=_in_sheet(fault.where, sheet)) for fault in error.faults]
         raise InvalidInputError(placed) from None
@@ -336,8 +338,8 @@ def check_constants(faults: FaultList, run: LoadCellRun) -> None:
 
 
 def constant_notes(run: LoadCellRun) -> list[str]:
-    """Return notes on constants that are possible, but not usual."""
-    notes = []
+    """Return notes on how the file was read, and on constants that are possible, but not usual."""
+    notes = [f"{run.name}: {note}" for note in run.notes]
     if not _USUAL_REYNOLDS[0] <= run.reynolds <= _USUAL_REYNOLDS[1]:
         are = "are speed, chord and viscosity in SI units?"
         notes.append(f"{run.name}: the Reynolds number is {run.reynolds:.3g}; {are}")

@@ -18,6 +18,7 @@ from typing import Any
 from wingbeat._base import FaultList, first_line, plain_unit, read_text, suggest
 from wingbeat.aero import BladeElement, load_coefficients
 from wingbeat.aero.blade_element import OF_ELEMENTS, load_hand
+from wingbeat.aero.polar_formats import POLAR_SUFFIXES
 from wingbeat.animal.species.building import NO_SUCH_PATH, settable
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.numbers import KEYS, Key, shown, spoken
@@ -304,8 +305,8 @@ def makers_of(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...],
             given = {key: value for key, value in given.items() if key in chosen}
             name = name if "aero" in chosen else own.coefficients.name
         if "hand" in given:
-            given["hand"] = load_hand(_beside(given["hand"], folder, (".csv", ".toml")), *reach)
-        arm = load_coefficients(_beside(name, folder, (".csv", ".toml")), *reach)
+            given["hand"] = load_hand(_beside(given["hand"], folder, (*POLAR_SUFFIXES, ".toml")), *reach)
+        arm = load_coefficients(_beside(name, folder, (*POLAR_SUFFIXES, ".toml")), *reach)
         return dataclasses.replace(own, coefficients=arm, **given)
 
     def objective(species: str, model: str, name: str) -> dict[str, str]:

@@ -190,7 +190,7 @@ def test_a_film_with_semicolons_and_decimal_commas_is_read_and_said():
     film = read_film(CASES / "semicolon.csv")
     assert film.notes[0] == "read with semicolons between the columns and decimal commas"
     assert film.columns["flap_deg"][:2].tolist() == [44.744, 44.593]
-    assert film.stated_frequency == 8.2
+    assert film.stated == 8.2
 
 
 def test_a_column_of_zeros_is_a_rigid_wing():

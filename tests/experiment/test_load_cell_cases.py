@@ -41,6 +41,15 @@ def test_a_good_record_lacks_zero_readings(good, capsys):
     assert (code, "note" in said) == (0, False)
 
 
+def test_a_record_with_semicolons_and_decimal_commas_is_read_and_said(good):
+    head, rows = good.split("time", 1)
+    rows = ("time" + rows).replace(",", ";").replace(".", ",")
+    Path("commas.csv").write_text(head + rows)
+    found = reduce_run(read_run("commas.csv"))
+    assert found.mean[:2] == pytest.approx(TRUE, abs=0.001)
+    assert "commas.csv: read with semicolons between the columns and decimal commas" in found.notes
+
+
 def test_rest_at_both_ends_gives_the_zero(good, capsys):
     path = CASES / "rest_at_both_ends.csv"
     code, said = reduced(capsys, path)

@@ -72,8 +72,9 @@ def load_coefficients(
 
     Parameters
     ----------
-    name_or_path : "su-fan", "dickinson", ... or the path of a table (.csv) or of a fitted model (.toml).
-    extension : how the coefficients are extended to all angles, one of `EXTENSIONS`.
+    name_or_path : "su-fan", "dickinson", ... or the path of a table (.csv), of a polar that another program wrote,
+        or of a fitted model (.toml).
+    extension : how the coefficients are extended to all angles, one of `EXTENSIONS`; of a table also "viterna".
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
 
     Raises

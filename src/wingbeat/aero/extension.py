@@ -130,7 +130,11 @@ class Pieces(Protocol):
 
 def check_extension(faults: FaultList, extension: Any, blend_width_deg: Any) -> None:
     """Note a fault for an unknown extension or a blend width that is not in (0, 3] degrees."""
-    faults.choice("extension", extension, EXTENSIONS)
+    if extension == "viterna":
+        rule = "completes the file of a table that ends at the stall, and this model needs no completion"
+        faults.add("extension", extension, rule, f"use one of {', '.join(EXTENSIONS)}")
+    else:
+        faults.choice("extension", extension, EXTENSIONS)
     faults.number(
         "blend_width_deg",
         blend_width_deg,

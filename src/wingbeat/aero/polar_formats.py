@@ -190,9 +190,9 @@ def _with_heads(faults: FaultList, file: str, lines: list[str], program: str) ->
             chosen = tuple(one.cells[k] for k in wanted)
             known = one.cells[places["reynolds"]] if "reynolds" in places else stated.at(float(chosen[1]))
             rows.append(_Row(one.row, known, chosen, stated.reynolds or 0.0))
-        if stated.count is not None and stated.count != len(own):
+        if stated.angles is not None and stated.angles != len(own):
             rule = f"is the stated number of angles, but {len(own)} rows follow"
-            faults.add(f"{file} row {at + 1}", stated.count, rule, _WHOLE)
+            faults.add(f"{file} row {at + 1}", stated.angles, rule, _WHOLE)
         still = [one for one in own if float(one.cells[places["drag"]]) == 0]
         if still and program != "UIUC wind tunnel":
             rule = f"is a row without drag ({len(still)} of {len(own)}): viscosity was off"
@@ -207,7 +207,7 @@ class _Stated(NamedTuple):
 
     reynolds: float | None
     kind: int  # 1: Re holds for all rows; 2: Re falls with the root of C_L; 3: with C_L
-    count: int | None  # of rows
+    angles: int | None  # number of rows
     said: str
 
     @classmethod

@@ -21,9 +21,16 @@ from wingbeat._base import FaultList
 from wingbeat._base.sheets import Sheet, same_name
 from wingbeat._jax.arrays import horner, jax, jnp
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspect_ratio, check_possible
-from wingbeat.aero.completion import closed_turn, is_whole_turn
+from wingbeat.aero.completion import VITERNA, closed_turn, is_whole_turn, viterna
 from wingbeat.aero.extension import Jet, check_drag_of_joins, check_extension, extend
-from wingbeat.aero.polar_sheet import REQUIRED, PolarSheet, doubtful_drag, fitting, read_polar, refuse_several
+from wingbeat.aero.polar_sheet import (
+    REQUIRED,
+    PolarSheet,
+    doubtful_drag,
+    fitting,
+    read_polar,
+    refuse_several,
+)
 
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
@@ -347,6 +354,7 @@ def _stated_aspect_ratio(faults: FaultList, sheet: Sheet) -> float | None:
     return None
 
 
+_COMPLETED = "a fit completes it: {}; or complete it by Viterna's rule: --extension viterna"
 # The centre of pressure comes from the moment where the normal force coefficient is at least this.
 _LEAST_NORMAL = 0.1
 
@@ -376,8 +384,7 @@ def _whole_centre(polar: PolarSheet) -> tuple[list[float] | None, tuple[str, ...
 def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0) -> TableCoefficients:
     """Read a coefficient table: CSV with the columns alpha_deg, C_L, C_D and, if known, x_cp, reynolds; or a polar.
 
-    Polars of XFOIL, XFLR5, AeroDyn, QBlade, JavaFoil, airfoil sites and UIUC's wind tunnel are read as they are
-    (`wingbeat.aero.polar_formats`). Columns may be separated by commas, semicolons, tabs or spaces.
+    Polars of XFOIL, XFLR5, AeroDyn, QBlade and others are read as they are (`wingbeat.aero.polar_formats`).
     Columns may have any order and spelling (alpha, c_l, CL, Cd, Re), with or without a unit in brackets. Others are
     ignored; the model's `notes` name them. Blank rows and rows that begin with # are skipped. One such row may
     state the wing's aspect ratio, for example ``# aspect_ratio = 6``, or ``inf`` for a section; the model of
@@ -386,7 +393,8 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
     Parameters
     ----------
     path : the file; angles in degrees.
-    extension, blend_width_deg : as in `TableCoefficients`.
+    extension, blend_width_deg : as in `TableCoefficients`; or "viterna", which completes a table that ends at the
+        stall to the whole circle (`wingbeat.aero.completion.viterna`).
 
     Raises
     ------
@@ -395,7 +403,8 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
         not one curve from 0 to at least 90 degrees, with the command that makes a curve of it.
     """
     faults = FaultList()
-    check_extension(faults, extension, blend_width_deg)
+    completed = extension == VITERNA
+    check_extension(faults, "signed" if completed else extension, blend_width_deg)
     polar = read_polar(path, faults)
     aspect_ratio = _stated_aspect_ratio(faults, polar.sheet)
     columns = {name.lower(): polar.columns[name].tolist() for name in REQUIRED}
@@ -413,15 +422,17 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
     check_columns(shape, columns, where)
     if not (faults.faults or shape.faults):
         notes = (*notes, *closed_turn(columns))
-        if columns["alpha_deg"][-1] < 90:
+        if completed:
+            notes = (*notes, *viterna(faults, where, columns, aspect_ratio))
+        elif columns["alpha_deg"][-1] < 90:
             at, rule = where(len(polar.sheet.rows) - 1, "alpha_deg"), "the table must reach at least 90 degrees"
-            faults.add(at, columns["alpha_deg"][-1], rule, f"a fit completes it: {fitting(path, polar)}")
+            faults.add(at, columns["alpha_deg"][-1], rule, _COMPLETED.format(fitting(path, polar)))
         else:
             check_coverage(shape, columns, extension, where)
     noted = {fault.where for fault in faults.faults}
-    turned = any(fault.where.endswith(f"column {polar.headings['alpha_deg']}") for fault in faults.faults)
+    turned = any(where.endswith(f"column {polar.headings['alpha_deg']}") for where in noted)
     faults.faults += [
-        fault for fault in shape.faults if fault.where not in noted and not (turned and "alpha" in fault.where)
+        one for one in shape.faults if one.where not in noted and not (turned and "alpha" in one.where)
     ]
     faults.raise_if_any()
     stream = polar.columns.get("reynolds", np.empty(0))
@@ -432,7 +443,7 @@ def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: f
         x_cp=tuple(columns["x_cp"]) if "x_cp" in columns else None,
         citation=polar.sheet.file,
         reynolds_range=(float(stream.min()), float(stream.max())) if len(stream) else None,
-        extension=extension,
+        extension="signed" if completed else extension,
         blend_width_deg=blend_width_deg,
         aspect_ratio=aspect_ratio,
         notes=(*polar.notes, *notes, *doubtful_drag(polar.columns["C_D"], polar.columns.get("reynolds"))),

@@ -29,7 +29,11 @@ def polar(
     alpha: Annotated[str, option("Angles of attack [deg], start:stop:step, or one angle.")] = "-30:110:2",
     about: Annotated[float, option("Axis of C_M, in chords from the leading edge.")] = 0.5,
     extension: Annotated[
-        str, option("Extension to angles outside the fit: mirrored, signed-drag, signed, clipped-drag.")
+        str,
+        option(
+            "Extension to angles outside the fit: mirrored, signed-drag, signed, clipped-drag. viterna completes a "
+            "table that ends at the stall."
+        ),
     ] = "mirrored",
     blend_width_deg: Annotated[
         float, option("Half width [deg] of the blends at 0, 90 and 180 degrees: above 0, at most 3.")
@@ -46,7 +50,8 @@ def polar(
     Models: su-fan, dickinson, wang, whitney-wood, parslew-crowther, byl. Models of animal wings: feathered,
     feathered-revolving, feathered-flapping, membrane; --extension has no effect on these. A table has the columns
     alpha_deg, C_L, C_D and, if known, x_cp and reynolds, as `polar --csv` and `reduce` write them; usual other
-    spellings are read too. A fitted model is what `wingbeat fit` wrote.
+    spellings are read too, and polars of XFOIL, XFLR5, AeroDyn, QBlade and others. A fitted model is what
+    `wingbeat fit` wrote.
     """
     faults = FaultList()
     if csv and json:

@@ -72,7 +72,11 @@ class ModelOptions:
         option("Coefficients: su-fan (default), feathered, ... (see `polar`), a table (.csv) or a fit (.toml)."),
     ] = None
     extension: Annotated[
-        str | None, option(f"Extension to angles outside the fit: {', '.join(EXTENSIONS)}; default mirrored.")
+        str | None,
+        option(
+            f"Extension to angles outside the fit: {', '.join(EXTENSIONS)}; default mirrored. viterna completes a "
+            "table that ends at the stall."
+        ),
     ] = None
     blend_width_deg: Annotated[
         float | None, option("Half width [deg] of the blends at 0, 90 and 180 degrees; default 1.")

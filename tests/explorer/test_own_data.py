@@ -105,6 +105,21 @@ def test_a_wingbeat_that_comes_before_the_first_picture_is_drawn_with_it(show):
     assert complaints == []
 
 
+def test_metabolic_power_is_not_drawn_on_the_curve_of_mechanical_power(show):
+    """It is several times as large; until issue 56 "metabolic power [W]" was drawn as if it were mechanical."""
+    page = show().page
+    give(page, ("both.csv", "speed,power,metabolic power,metabolic power sd\n8,41,160,9\n"))
+    (words,) = listed(page)
+    assert words.startswith(
+        "both.csv: 1 point behind the curve; not drawn, because the curve shows mechanical power:"
+    )
+    assert page.evaluate(f"{FACE}.own.shown[0].points.map(({{ power }}) => power)") == [41]
+    assert page.locator(".wbx-own path:not(.wbx-own-mark)").count() == 0  # the error is of the metabolic power
+    give(page, ("one.csv", "speed,metabolic power [W]\n8,160\n"))
+    assert "Column “metabolic power [W]” is metabolic power; the curve shows mechanical power." in state(page)
+    assert len(listed(page)) == 1
+
+
 def test_every_fault_of_a_file_is_told_at_once(show):
     page = show().page
     give(page, ("bad.csv", "speed [km/h];power [W];label\n5;41;x\n7,5;38;y\nabc;39\n9;-3;z\n;12;z\n"))

@@ -21,6 +21,7 @@ from wingbeat.cli.arguments import (
 )
 from wingbeat.cli.plot import page_of
 from wingbeat.cli.terminal import deliver, progress_bar
+from wingbeat.experiment import read_flights
 from wingbeat.results.curve import REFINEMENTS, solve_curve
 from wingbeat.words.curve_words import curve_report
 
@@ -59,6 +60,13 @@ def curve(
     json: Annotated[bool, flag("Print the curve as JSON and nothing else.")] = False,
     output: Output = None,
     plot: Annotated[Path | None, figure("Draw power and frequency")] = None,
+    data: Annotated[
+        Path | None,
+        option(
+            "Your own measured flights (.csv), for table and figure: speed [m/s], and frequency [Hz], mechanical "
+            "power [W] or metabolic power [W], each with or without an error."
+        ),
+    ] = None,
 ) -> int:
     """Find the curves of power and frequency against speed, their branches and their characteristic speeds.
 
@@ -68,7 +76,8 @@ def curve(
     Exit code 0: some speeds are certified, and gaps are reported. 3: no speed is certified.
 
     Examples: wingbeat curve pigeon --speeds 3:20:1 --minimise positive-power --plot pigeon.png;
-    wingbeat curve bat --speeds 0 3:20:1 --minimise positive-power --power-limit 4 -o bat.nc
+    wingbeat curve bat --speeds 0 3:20:1 --minimise positive-power --power-limit 4 -o bat.nc;
+    wingbeat curve pigeon --speeds 3:14:1 --model animal --data flights.csv --plot flights.png
     """
     faults = FaultList()
     check_result(faults, output, plot=plot)
@@ -77,9 +86,10 @@ def curve(
     asked = {"climb": climb, "minimise": minimise, "subject_to": options.limits_of(subject_to, stable)}
     problem = model.problem(species, row[-1] if row else 0.0, set_, within_plausible=within_plausible, **asked)
     check_outputs(output, plot)
+    flights = None if data is None else read_flights(data)  # before the search, which takes longer
     with progress_bar(f"{problem.species.name} along speed") as progress:
         found = solve_curve(problem, row, starts, seed, power_limit, progress, refinements=refinements)
-    record = found.record()
+    record = found.record() | ({} if flights is None else {"measured": found.compare(flights)})
     return deliver(
         record,
         curve_report(record),
@@ -88,5 +98,5 @@ def curve(
         output=output,
         save=found.save,
         plot=plot,
-        page=lambda: page_of(found),
+        page=lambda: page_of(found, flights),
     )

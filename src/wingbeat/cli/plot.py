@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 from wingbeat._base import KIND, FaultList
 from wingbeat.animal.vehicle import Air
 from wingbeat.cli.arguments import check_outputs, flag, option, written_to
+from wingbeat.experiment import FlightPoints, read_flights
 from wingbeat.plots import check_figure_name, power_page, save_figure, wingbeat_page
 from wingbeat.plots.published import published_for
 from wingbeat.records.inputs import vehicle_from
@@ -24,6 +25,7 @@ def plot(
     *,
     output: Annotated[Path, written_to("The page: .png, .pdf or .svg.")],
     power: Annotated[bool, flag("Draw the parts of an orbit's power.")] = False,
+    data: Annotated[Path | None, option("Your own measured flights (.csv) beside a curve, as in `curve`.")] = None,
 ) -> None:
     """Draw one page: wing motion, body pitch, power, phase portraits, angles of attack and forces.
 
@@ -36,17 +38,21 @@ def plot(
     faults.raise_if_any()
     check_outputs(output)
     dataset = load_dataset(file)
+    if data is not None and dataset.attrs[KIND] != "curve":
+        faults.add("--data", str(data), f"belongs beside a curve, and {file.name} holds none", "give curve's file")
+        faults.raise_if_any()
+    flights = None if data is None else read_flights(data)
     if power:
         page = power_page(dataset)
     else:
-        page = page_of(Curve(dataset)) if dataset.attrs[KIND] == "curve" else wingbeat_page(dataset)
+        page = page_of(Curve(dataset), flights) if dataset.attrs[KIND] == "curve" else wingbeat_page(dataset)
     save_figure(page, output)
     print(f"wrote {output}", file=sys.stderr)
 
 
-def page_of(curve: Curve) -> Figure:
-    """Return the page of a curve, with published measurements of the animal, if there are any."""
+def page_of(curve: Curve, flights: FlightPoints | None = None) -> Figure:
+    """Return the page of a curve, with published measurements of the animal and the user's own flights."""
     record, speed = curve.record(), curve.dataset["speed"].values
     vehicle = vehicle_from(record["vehicle"])
     beside = published_for(record["species"], vehicle, Air(**record["air"]), float(speed[0]), float(speed[-1]))
-    return curve.plot(beside)
+    return curve.plot(beside, flights)

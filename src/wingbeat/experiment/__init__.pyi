@@ -15,6 +15,8 @@ from .film_fit import BodyPath as BodyPath
 from .film_fit import FilmedBeat as FilmedBeat
 from .film_fit import fit_body_path as fit_body_path
 from .film_fit import fit_film as fit_film
+from .flights_file import FlightPoints as FlightPoints
+from .flights_file import read_flights as read_flights
 from .load_cell_run import LoadCellRun as LoadCellRun
 from .load_cell_run import read_run as read_run
 from .point_angles import PointAngles as PointAngles

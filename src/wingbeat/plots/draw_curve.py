@@ -15,6 +15,7 @@ from wingbeat._base.style import (
     ALARM,
     BLUE,
     GREEN,
+    ORANGE,
     PAGE,
     VERMILION,
     drawing,
@@ -22,6 +23,7 @@ from wingbeat._base.style import (
     letter_panels,
     new_figure,
 )
+from wingbeat.experiment.flights_file import FlightPoints
 from wingbeat.plots.published import Published
 from wingbeat.records.characteristic import best_line, characteristic_speeds
 from wingbeat.words.curve_words import speed_in_words, speed_label
@@ -31,7 +33,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_PANEL, _LEGEND = 62.0, 36.0  # mm
+_PANEL, _LEGEND, _OWN = 62.0, 36.0, 8.0  # mm; the last for the legend of measured flights
 _LETTERS = 62  # of a line of the legend
 _MOST_LIMITS = 1  # for whose words the title has room
 _MOST_EMPTY = 0.35  # share of the axis that may lie below the slowest speed
@@ -44,7 +46,9 @@ _NEEDED = ("frequency", "mean_positive_power", "objective_value", "family", "con
 _MARKERS = {"maximum_range": "s", "fastest_sustained": ">", "slowest_sustained": "<"}  # of minima: "v"
 
 
-def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figure:
+def curve_page(
+    dataset: xr.Dataset, published: Sequence[Published] = (), measured: FlightPoints | None = None
+) -> Figure:
     """Draw power and wingbeat frequency of a curve's orbits against speed.
 
     The thick line is the best orbit of each speed, broken where another kind of wingbeat takes over. A point is
@@ -56,6 +60,7 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
     ----------
     dataset : `Curve.dataset`, also one read from a file.
     published : values to draw for comparison.
+    measured : flights to draw with their errors; metabolic power has a panel of its own.
 
     Raises
     ------
@@ -71,24 +76,37 @@ def curve_page(dataset: xr.Dataset, published: Sequence[Published] = ()) -> Figu
     powers = ["mean_power", "mean_positive_power"] if minimised == "mean_power" else ["mean_positive_power"]
     own = minimised if minimised in (*powers, "frequency") else "objective_value"
     panels = [*powers, *([own] if own == "objective_value" else []), "frequency"]
+    # Metabolic power never stands in the panel of mechanical power, also if the curve has none of its own.
+    metabolic = own if minimised == "metabolic_power" else "metabolic_power"
+    if measured is not None and "metabolic_power" in measured.values and metabolic not in panels:
+        panels.insert(-1, metabolic)
+    places = {"frequency": "frequency", "mechanical_power": "mean_positive_power", "metabolic_power": metabolic}
     # From 0 on, where the tangent of greatest range starts, unless that leaves much of the panel empty.
     start = 0.0 if speed[0] < _MOST_EMPTY * speed[-1] else speed[0]
-    margin = 0.02 * (speed[-1] - start)
+    least, most = start, speed[-1]
+    if measured is not None:
+        least, most = min(least, measured.speed.min()), max(most, measured.speed.max())
+    margin = 0.02 * (most - least)
     with drawing():
-        figure = new_figure(PAGE, _PANEL * len(panels) + _LEGEND)
+        figure = new_figure(PAGE, _PANEL * len(panels) + _LEGEND + (0.0 if measured is None else _OWN))
         all_axes = np.atleast_1d(figure.subplots(len(panels), 1, sharex=True))
         for axes, name in zip(all_axes, panels, strict=True):
             if name == "objective_value":
                 unit = plain(dataset[name].attrs["units"])
                 axes.set_ylabel(f"{in_words(minimised)} [{'-' if unit == '1' else unit}]")
             else:
-                axes.set_ylabel(axis_label(name))
+                axes.set_ylabel(axis_label(name) if name in dataset else "metabolic power, measured [W]")
             limited = minimised if name == "objective_value" else name
-            top = _draw_optima(axes, dataset, name, np.array([limited in reached for reached in line.limits]))
-            top = max(top, _draw_published(axes, published, name))
+            top = 0.0
+            if name in dataset:
+                at_limit = np.array([limited in reached for reached in line.limits])
+                top = max(_draw_optima(axes, dataset, name, at_limit), _draw_published(axes, published, name))
+            if measured is not None:
+                drawn = [_draw_measured(axes, measured, one) for one, place in places.items() if place == name]
+                top = max(top, *drawn, 0.0)
             if name == own:
                 _draw_speeds(axes, characteristic_speeds(line, power_limit), power_limit)
-            axes.set(xlim=(start - margin, speed[-1] + margin), ylim=(0, top))
+            axes.set(xlim=(least - margin, most + margin), ylim=(0, top))
         all_axes[-1].set_xlabel(axis_label("speed", full=True))
         all_axes[-1].locator_params(axis="x", steps=[1, 2, 5, 10])
         letter_panels(all_axes)
@@ -157,6 +175,24 @@ def _draw_published(axes: Axes, published: Sequence[Published], name: str) -> fl
             axes.fill_between(one.speeds, *band, color=GREEN, alpha=0.15, linewidth=0)
         tallest = max(tallest, 1.05 * float(np.max(one.values + one.spread)))
     return tallest
+
+
+def _draw_measured(axes: Axes, measured: FlightPoints, quantity: str) -> float:
+    """Draw a quantity of measured flights with its errors and return the largest."""
+    if quantity not in measured.values:
+        return 0.0
+    values, errors = measured.values[quantity], np.nan_to_num(measured.errors[quantity])
+    look: dict[str, Any] = {
+        "marker": "s",
+        "markersize": 4,
+        "color": "k",
+        "markerfacecolor": ORANGE,
+        "linestyle": "",
+    }
+    look |= {"capsize": 2, "elinewidth": 0.8, "markeredgewidth": 0.6, "zorder": 6, "clip_on": False}
+    label = textwrap.fill(f"measured {quantity.replace('_', ' ')}, {measured.name}", _LETTERS)
+    axes.errorbar(measured.speed, values, errors, label=label, **look)
+    return 1.08 * float(np.nanmax(values + errors))
 
 
 def _draw_speeds(axes: Axes, speeds: dict[str, Any], limit: float | None) -> None:

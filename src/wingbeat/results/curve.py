@@ -29,6 +29,7 @@ from wingbeat._base import (
 )
 from wingbeat._workers.tuning import core_count
 from wingbeat.animal.kinematics import NAMED_IF_ON, PARAMETER_NAMES, in_use
+from wingbeat.experiment.flights_file import FlightPoints
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.branches import SPEED, Branches, certified, families, marks_of, trace
 from wingbeat.orbits.options import DEFAULTS, SolverOptions
@@ -46,6 +47,7 @@ from wingbeat.records.characteristic import (
 )
 from wingbeat.records.forms import inputs_hash
 from wingbeat.records.inputs import aero_record, inputs_of, vehicle_record
+from wingbeat.records.measured import measured_beside
 from wingbeat.records.result_files import Saveable, load_dataset
 from wingbeat.records.tables import finite_or_none, frame_of
 from wingbeat.results.orbit import Orbit
@@ -122,14 +124,33 @@ class Curve(Saveable, Reported):
     def _report(self) -> Report:
         return curve_report(self.record())
 
-    def plot(self, published: Sequence[Any] = ()) -> Figure:
+    def plot(self, published: Sequence[Any] = (), data: FlightPoints | None = None) -> Figure:
         """Return a figure of power and wingbeat frequency against speed.
 
         Parameters
         ----------
         published : values to draw for comparison, each a `wb.plots.Published`.
+        data : your own measured flights, from `wb.experiment.read_flights`.
         """
-        return curve_page(self._dataset, published)
+        return curve_page(self._dataset, published, data)
+
+    def compare(self, data: FlightPoints) -> dict[str, Any]:
+        """Return measured flights beside this curve, with the residuals: measured less computed.
+
+        The curve is interpolated linearly between its speeds. Mechanical power is compared with the mean positive
+        hinge power, metabolic power with that of the flight muscle alone (only models with a muscle have one).
+
+        Parameters
+        ----------
+        data : from `wb.experiment.read_flights`.
+
+        Returns
+        -------
+        ``file``; ``points``, each with ``quantity``, ``speed`` [m/s], ``measured``, ``error``, ``computed`` and
+        ``residual`` [Hz or W] and, where nothing is computed, why (``not_compared``); ``residuals``, for each
+        quantity ``count``, ``mean``, ``rms`` and ``mean_share`` of the computed; ``notes``.
+        """
+        return measured_beside(self._dataset, data)
 
     def to_dataframe(self) -> pd.DataFrame:
         """Return a row for each speed, with the names of records: SI units and radians.
@@ -360,7 +381,7 @@ def curve_dataset(
 
 def _numbers(problem: OrbitProblem) -> Iterator[tuple[str, str, str, Callable[[dict[str, Any]], float | None]]]:
     """Yield name, unit and meaning of each number of an optimum, and the function that reads it from a record."""
-    for name in _NUMBERS:
+    for name in (*_NUMBERS, *(["metabolic_power"] if problem.vehicle.muscle is not None else [])):
         unit = cf(problem.minimise.unit) if name == "objective_value" else NOMENCLATURE[name].unit
         yield name, unit, label_of(name), lambda record, name=name: record[name]
     for name in PARAMETER_NAMES:

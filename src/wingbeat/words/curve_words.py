@@ -29,6 +29,11 @@ _LABELS = {
     "fastest_sustained": "fastest within the power limit",
     "slowest_sustained": "slowest within the power limit",
 }
+# What measured powers are compared with; they are not the same quantities.
+_AGAINST = {
+    "mechanical_power": ", beside the mean positive hinge power",
+    "metabolic_power": ", beside that of the flight muscle alone (no resting rate, heart or breathing)",
+}
 _HEADINGS = ("U\n[m/s]", "f\n[Hz]", "P+\n[W]", "CoT\n[-]", "flap\n[deg]", "optima", "at the limit of")
 _NEAR = 0.02  # share of a speed within which the lowest computed point stands for the minimum
 _MINIMISED_AT = 3  # column of the minimised quantity, after the power
@@ -62,9 +67,48 @@ def curve_report(record: dict[str, Any]) -> Report:
     if not record["marks"]:
         blocks.append(Line("  one branch, always at the same bounds"))
     blocks += _characteristic(record)
+    if record.get("measured"):
+        blocks += _measured(record["measured"])
     if record["warnings"]:
         blocks += [Line("warnings", tone="title"), Notes(tuple(record["warnings"]))]
     return blocks
+
+
+def _measured(beside: dict[str, Any]) -> list[Block]:
+    """Return a table for each measured quantity, with what the curve has at its speeds, and the differences."""
+    blocks: list[Block] = []
+    for quantity in dict.fromkeys(point["quantity"] for point in beside["points"]):
+        points = [point for point in beside["points"] if point["quantity"] == quantity]
+        unit, name = ("Hz" if quantity == "frequency" else "W"), quantity.replace("_", " ")
+        against = _AGAINST.get(quantity, "")
+        title = f"{beside['file']}: measured {name} [{unit}]{against}"
+        blocks += [Line(""), Line(title, tone="title")]
+        rows, left = [], dict[str, list[float]]()
+        for point in points:
+            computed, residual, error = point["computed"], point["residual"], point["error"]
+            if computed is None:
+                left.setdefault(point["not_compared"], []).append(point["speed"])
+                continue
+            within = "" if error is None else ("yes" if abs(residual) <= error else "no")
+            cells = (f"{point['speed']:g}", f"{point['measured']:.4g}", "" if error is None else f"{error:.3g}")
+            cells += (f"{computed:.4g}{'*' if point['set_by_limit'] else ''}", f"{residual:+.3g}")
+            rows.append(
+                Row((*cells, f"{100 * residual / computed:+.0f}" if computed else "", within, point["label"]))
+            )
+        if rows:
+            head = ("U\n[m/s]", "measured", "error", "computed", "residual", "residual\n[%]", "within\nerror", "")
+            blocks.append(Table(tuple(rows), head, "rrrrrrll"))
+            sums = beside["residuals"][quantity]
+            mean = (
+                f"mean {sums['mean']:+.3g} {unit} ({100 * sums['mean_share']:+.0f} %), rms {sums['rms']:.3g} {unit}"
+            )
+            blocks.append(Line(f"  residual = measured - computed: {mean}, of {sums['count']}"))
+        if any(point["set_by_limit"] for point in points):
+            blocks.append(Line("  * set by a limit, so not predicted"))
+        for why, speeds in left.items():
+            shown = ", ".join(f"{speed:g}" for speed in speeds)
+            blocks.append(Line(f"  not compared at {shown} m/s: {why}"))
+    return [*blocks, *([Notes(tuple(beside["notes"]))] if beside["notes"] else [])]
 
 
 def _implausible(points: list[dict[str, Any]]) -> list[Block]:

@@ -5,8 +5,8 @@ import { flightsOf, kindOf, motionOf } from "./own_tables.js";
 import { make } from "./shared.js";
 
 const HELP =
-  "A CSV file of measured flights has the columns speed [m/s] and power [W] or frequency [Hz], and may have error " +
-  "and label. A CSV file of a wingbeat has phase or time [s], and columns such as flap_deg or pitch_deg. With time, the " +
+  "A CSV file of measured flights has the columns speed [m/s] and mechanical power [W] or frequency [Hz], and may " +
+  "have error and label. A CSV file of a wingbeat has phase or time [s], and columns such as flap_deg or pitch_deg. With time, the " +
   "rows are one beat from the first to the last, unless a line “# frequency [Hz] = 8.2” says how long a beat is.";
 const UNKNOWN =
   "The first line must name the columns: speed with power or frequency, for measured flights; or phase or time with " +
@@ -80,8 +80,10 @@ export class OwnData {
     const table = tableOf(text, faults);
     if (!table) return;
     const { kind, clock, columns } = kindOf(table.header);
-    if (kind === "flights") this.add({ title, kind, points: flightsOf(table, columns, faults) }, faults);
-    else if (kind === "motion") this.add({ title, kind, curves: motionOf(table, clock, columns, faults) }, faults);
+    if (kind === "flights") {
+      const left = columns.metabolic && `; not drawn, because the curve shows mechanical power: ${columns.metabolic.text}`;
+      this.add({ title, kind, points: flightsOf(table, columns, faults), left: left ?? "" }, faults);
+    } else if (kind === "motion") this.add({ title, kind, curves: motionOf(table, clock, columns, faults) }, faults);
     else faults.add(UNKNOWN);
   }
 
@@ -142,9 +144,9 @@ export class OwnData {
     return make("li", {}, sign, make("span", {}, this.words(data)), button);
   }
 
-  words({ title, points, curves }) {
+  words({ title, points, curves, left: undrawn }) {
     const { viewer, blind } = this.face;
-    if (points) return `${title}: ${points.length} ${points.length === 1 ? "point" : "points"} behind the curve`;
+    if (points) return `${title}: ${points.length} ${points.length === 1 ? "point" : "points"} behind the curve${undrawn}`;
     if (!viewer) return `${title}: ${blind ? "not drawn, because the page has no picture" : "drawn with the first picture"}`;
     const [found, others] = [true, false].map((drawn) => {
       const those = curves.filter(({ name }) => this.drawn.includes(name) === drawn);

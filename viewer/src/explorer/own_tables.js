@@ -4,6 +4,8 @@ import { named, numberIn } from "./csv.js";
 
 const SPEED = ["speed", "airspeed", "velocity", "v", "u"];
 const POWER = ["power", "p"];
+// Of metabolic power, which is several times the mechanical power that the curve shows; see flights_file.py.
+const METABOLIC = ["metabolic", "metab", "met", "input", "respirometry", "aerobic", "chemical"];
 const FREQUENCY = ["frequency", "freq", "f", "beats"];
 const ERROR = ["error", "err", "sd", "se", "sem", "std", "uncertainty"];
 const LABEL = ["label", "name", "animal", "individual", "species", "source"];
@@ -26,9 +28,11 @@ export function kindOf(header) {
 
 function flightColumns(columns, speed, isError) {
   const found = { speed };
-  found.power = columns.find((column) => last(column.words, POWER) && !isError(column));
+  const isMetabolic = (column) => column.words.some((word) => METABOLIC.includes(word));
+  found.metabolic = columns.find((column) => isMetabolic(column) && !isError(column));
+  found.power = columns.find((column) => last(column.words, POWER) && !isMetabolic(column) && !isError(column));
   found.frequency = columns.find((column) => last(column.words, FREQUENCY) && !isError(column));
-  for (const column of columns.filter(isError)) {
+  for (const column of columns.filter((each) => isError(each) && !isMetabolic(each))) {
     const of = column.words.some((word) => FREQUENCY.includes(word))
       ? "frequency"
       : column.words.some((word) => POWER.includes(word)) || found.power
@@ -49,7 +53,12 @@ export function flightsOf({ rows }, columns, faults) {
       }
     }
   }
-  if (!columns.power && !columns.frequency) {
+  if (columns.metabolic && !columns.power && !columns.frequency) {
+    faults.add(
+      `Column “${columns.metabolic.text}” is metabolic power; the curve shows mechanical power. ` +
+        "wingbeat curve --data compares both.",
+    );
+  } else if (!columns.power && !columns.frequency) {
     faults.add("No column is named power or frequency; at least one of them must stand beside the speed.");
   }
   const limits = { speed: { low: 0, high: 200 } };

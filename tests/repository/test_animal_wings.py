@@ -56,6 +56,7 @@ def test_the_page_holds_the_tables_of_the_fit(fitted):
     assert max(abs(one.errors[0]) for one in own_drag) < 0.15 < max(abs(one.errors[0]) for one in unseen)
 
 
+@pytest.mark.slow
 @needs_data
 def test_the_jackdaw_glides_as_measured(fitted):
     """Rosen and Hedenstrom 2001: a ratio of 12.6 and a sink of 0.62 m/s, which the fit did not see."""

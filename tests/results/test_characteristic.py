@@ -6,6 +6,7 @@ import pytest
 from wingbeat._base import text_of
 from wingbeat.records.characteristic import BestLine, characteristic_speeds, next_speeds
 from wingbeat.words.curve_words import curve_report, speed_in_words
+from wingbeat.words.orbit_words import DEFAULT_AIR
 
 SPEEDS = np.arange(3.0, 21.0)
 TOLERANCE = 0.1
@@ -180,7 +181,7 @@ def test_the_report_gives_the_value_of_an_orbit_that_was_computed():
     for most in (0, 8):
         found, _ = solved(lambda u: 60 / u + 0.01 * u**3, [2.0, 5.5, 9.0, 12.5], most=most)
         record = {"objective": "mean_power", "characteristic_speeds": found, "points": [], "gaps": [], "marks": []}
-        record |= {"species": "pigeon", "climb": 0.0, "warnings": []}
+        record |= {"species": "pigeon", "climb": 0.0, "air": DEFAULT_AIR, "warnings": []}
         told.append(" ".join(text_of(curve_report(record)).split()))
     assert "m/s (2 to 10); the least computed is 12.57 W at 5.5 m/s; mean power is" in told[0]
     assert "minimum power: 6.6" in told[1]

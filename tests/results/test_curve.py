@@ -16,6 +16,7 @@ from wingbeat.cli import main
 from wingbeat.orbits.branches import SPEED, Branches, BranchLink, carry, families, find_optima, marks_of, trace
 from wingbeat.orbits.options import DEFAULTS, Status
 from wingbeat.words.curve_words import curve_report
+from wingbeat.words.orbit_words import DEFAULT_AIR
 
 SPEEDS = [5.0, 6.0, 7.0]
 
@@ -238,7 +239,7 @@ def test_a_minimised_quantity_other_than_power_and_frequency_has_a_column():
     point = {"speed": 9.0, "status": "converged", "message": "", "optima": [best], "distinct_optima": 1}
     point |= {"refined": False}
     record = {"species": "kestrel", "climb": 0.0, "objective": "metabolic_power", "points": [point], "gaps": []}
-    record |= {"marks": [], "characteristic_speeds": {"minimum_power": None}, "warnings": []}
+    record |= {"marks": [], "characteristic_speeds": {"minimum_power": None}, "warnings": [], "air": DEFAULT_AIR}
     lines = text_of(curve_report(record)).splitlines()
     assert lines[1].split()[:4] == ["U", "f", "P+", "minimised"]
     assert lines[3].split()[:4] == ["9", "6", "2.4", "4.84"]

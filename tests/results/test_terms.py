@@ -34,6 +34,7 @@ def test_the_ends_are_the_orbits_without_and_with_the_term(trace):
     assert record["aero"]["unsteady"] == "thin-aerofoil"
 
 
+@pytest.mark.slow
 def test_continuation_along_the_share_leads_back(trace):
     first, last = trace.orbits[0], trace.orbits[-1]
     there = carry(trace.branches.optima[0][0], last.problem, SHARE)
@@ -42,6 +43,7 @@ def test_continuation_along_the_share_leads_back(trace):
     assert back.optimum.objective == pytest.approx(trace.branches.optima[0][0].objective, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_same_family_is_said_only_where_no_branch_changes(trace):
     record = trace.record()
     changed = [mark for mark in record["marks"] if mark["kind"] != "bounds"]
@@ -55,6 +57,7 @@ def test_same_family_is_said_only_where_no_branch_changes(trace):
     ]
 
 
+@pytest.mark.slow
 def test_the_figure_tears_lines_where_the_branch_changes(trace):
     record = trace.record()
     whole = terms_page({**record, "marks": []})

@@ -69,6 +69,7 @@ def test_without_feedback_the_bat_is_lost_and_with_feedback_it_flies_on_in_a_wea
     assert held.outcome.endswith("deg of the orbit's")
 
 
+@pytest.mark.slow
 def test_the_scene_holds_every_push_in_finite_numbers(orbit, pushes):
     text = json.dumps(scene([("bat", orbit.dataset)], pushes), allow_nan=False)
     assert len(json.loads(text)["pushes"]) == len(pushes)

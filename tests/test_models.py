@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from tests.helpers.places import ROOT
 from wingbeat.cli import main
 from wingbeat.records.inputs import problem_from
 from wingbeat.results.orbit import inputs_of
@@ -99,9 +100,16 @@ def test_what_equals_the_models_own_choice_is_no_change():
     assert other.origin.choices == model.problem(PIGEON, 12.0).origin.choices
 
 
-def test_a_model_and_a_film_are_refused_together(capsys):
-    assert main(["orbit", "pigeon", "--speed", "8", "--model", "animal", "--kinematics", "beat.csv"]) == 2
-    assert "cannot be combined with a film" in capsys.readouterr().err
+@pytest.mark.slow
+def test_the_model_of_a_live_animal_keeps_the_filmed_wingbeat(capsys):
+    beat = str(ROOT / "examples/beat.csv")
+    line = ["orbit", "pigeon", "--speed", "10", "--model", "animal", "--kinematics", beat, "--json"]
+    assert main(line) == 0
+    record = json.loads(capsys.readouterr().out)
+    flap = wb.experiment.fit_film(wb.experiment.read_film(beat)).numbers["flap_amplitude"]
+    assert record["wingbeat"]["flap_amplitude"] == pytest.approx(flap)
+    assert record["objective"] == "metabolic_power"
+    assert record["status"] == "converged"
 
 
 def test_a_glide_keeps_the_width_of_the_blends():

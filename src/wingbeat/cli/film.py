@@ -7,10 +7,10 @@ import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
-from wingbeat._base import FaultList
+from wingbeat._base import FaultList, written
 from wingbeat.cli.arguments import check_files, check_outputs, figure, flag, option, written_to
 from wingbeat.cli.terminal import answer
-from wingbeat.experiment.point_angles import angles_from_points, shown
+from wingbeat.experiment.point_angles import PointAngles, angles_from_points
 from wingbeat.plots import points_page
 
 
@@ -68,9 +68,23 @@ def film(
         semi_span=semi_span,
     )
     with answer() as given:
-        given.tell(found.record(), functools.partial(print, "\n".join(shown(found))), json)
+        given.tell(found.record(), functools.partial(print, "\n".join(_lines(found))), json)
         for note in found.notes:
             kind = "warning" if note in found.warnings else "note"
             print(f"{kind}: {note}", file=sys.stderr)
         given.save(output, found.save, named=True)
         given.draw(plot, lambda: points_page(found), named=True)
+
+
+def _lines(found: PointAngles) -> list[str]:
+    """Return lines with the means and amplitudes of a wing's angles, and what was guessed."""
+    told = found.record()
+    lines = [f"frequency: {written(told['frequency'], told['frequency_se'], 'Hz')}"]
+    for name in ("flap", "pitch", "sweep", "fold", "tip_pitch"):
+        for what in ("mean", "amplitude"):
+            if (value := told.get(f"{name}_{what}_deg")) is not None:
+                error = told[f"{name}_{what}_deg_se"]
+                lines.append(f"{name.replace('_', ' ')} {what}: {written(value, error, 'deg')}")
+    lines.append(f"stroke plane: {written(told['stroke_plane_deg'], told['stroke_plane_deg_se'], 'deg')}")
+    share = written(told["downstroke_fraction"], told["downstroke_fraction_se"])
+    return [*lines, f"downstroke fraction: {share}", f"{told['frames_used']} of {told['frames']} frames used"]

@@ -25,7 +25,7 @@ from wingbeat.cli.arguments import (
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import answer, print_json, print_report, progress_bar
 from wingbeat.orbits.options import Status
-from wingbeat.orbits.problem.filmed import filmed_problem
+from wingbeat.orbits.problem.filmed import filmed_problem, filmed_species, trim_of
 from wingbeat.orbits.problem.quantities import WingbeatLimit
 from wingbeat.records.numbers import power_account
 from wingbeat.results.orbit import load_orbit, solve_orbit
@@ -106,9 +106,6 @@ def orbit(
     if within_plausible and kinematics is not None:
         rule = "gives the wingbeat, so it cannot be combined with --within-plausible"
         faults.add("--kinematics", str(kinematics), rule, "leave out one of the two options")
-    if model.model == "animal" and kinematics is not None:
-        fix = "give the parts of the model instead, such as --aero feathered --inflow momentum"
-        faults.add("--model", model.model, "cannot be combined with a film, which gives the wingbeat", fix)
     if from_ is None and species is None:
         faults.add("SPECIES", None, "is missing", "give a name such as pigeon, or a species file")
     if from_ is None and speed is None:
@@ -135,7 +132,12 @@ def orbit(
             problem = whole.problem(animal, speed, **asked)
         else:
             beat = filmed.filmed_beat(kinematics, side)
-            problem = filmed_problem(beat, animal, speed, aero=whole.aero, **asked)
+            if model.model == "animal":
+                free, reach = trim_of(beat, animal)
+                asked |= {"free": free, "bounds": reach | asked["bounds"], "wings_may_cross": True}
+                problem = whole.problem(filmed_species(beat, animal), speed, **asked)
+            else:
+                problem = filmed_problem(beat, animal, speed, aero=whole.aero, **asked)
     fit = model.fit()
     with progress_bar(f"{problem.species.name} at {problem.speed:g} m/s") as progress:
         found = solve_orbit(problem, starts, seed, progress)

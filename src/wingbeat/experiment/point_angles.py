@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base import Fault, FaultList, InvalidInputError, write_atomically, written
+from wingbeat._base import Fault, FaultList, InvalidInputError, write_atomically
 from wingbeat.experiment.film import FILMED, Film
 from wingbeat.experiment.film_file import joined
 from wingbeat.experiment.film_fit import FilmedBeat, fit_film
@@ -28,6 +28,8 @@ _SEMI_SPANS, _MOST_SPEED = (0.015, 1.7), 40.0
 _CHORD_NOISE = 3.0
 # A hand that drops by less than this, or by less than so many errors, is not called a fold [deg].
 _LEAST_FOLD, _SURE_FOLD = 3.0, 4.0
+# A step of the shoulder that differs by more than this share of the usual one, and so many errors, is doubtful.
+_JUMP, _SURE_JUMP = 0.6, 3.5
 # Frames in a beat below which harmonics of the flap are lost.
 _FEW_FRAMES = 8
 # A scatter of frames below so many times that of the points' noise is explained by it.
@@ -270,6 +272,18 @@ def angles_from_points(
     noise = {}
     for one, wing in named.wings.items():
         noise |= {"_".join(filter(None, (one, role))): marker_noise(time, at) for role, at in wing.items()}
+    if axes.travels:
+        # A row that is missing, repeated or out of place shows in the even path of the shoulder.
+        way = wings[first]["shoulder"][:, 0]
+        steps = np.diff(way) / np.diff(time) / np.nanmedian(np.diff(way) / np.diff(time)) - 1.0
+        doubt = noise["_".join(filter(None, (first, "shoulder")))] * math.sqrt(2.0)
+        doubt /= abs(float(np.nanmedian(np.diff(way))))
+        jumps = np.flatnonzero(np.abs(np.nan_to_num(steps)) > max(_JUMP, _SURE_JUMP * doubt))
+        if len(jumps):
+            warnings.append(
+                f"{file}: between frames {jumps[0] + 1} and {jumps[0] + 2} the shoulder moves by "
+                f"{steps[jumps[0]] + 1:.2g} times the usual step: is a row missing, repeated or out of place?"
+            )
     spread = {one: column_errors(wing, pitch, normal, fold, one, noise) for one, wing in wings.items()}
     for one, found in every.items():
         where = f"{file}, {one} wing" if one else file
@@ -426,17 +440,3 @@ def _unit(tracked: TrackedPoints, given: str | None, span: float, axes: Axes) ->
     shown = " or ".join(f"{name} ({span * METRES[name]:.2g} m)" for name in likely) or "none of m, cm, mm"
     said = f"{file}: the unit of lengths may be {shown}: the film has angles but no path; give --units"
     return None, said
-
-
-def shown(found: PointAngles) -> list[str]:
-    """Return lines with the means and amplitudes of a wing's angles, and what was guessed."""
-    told = found.record()
-    lines = [f"frequency: {written(told['frequency'], told['frequency_se'], 'Hz')}"]
-    for name in ("flap", "pitch", "sweep", "fold", "tip_pitch"):
-        for what in ("mean", "amplitude"):
-            if (value := told.get(f"{name}_{what}_deg")) is not None:
-                error = told[f"{name}_{what}_deg_se"]
-                lines.append(f"{name.replace('_', ' ')} {what}: {written(value, error, 'deg')}")
-    lines.append(f"stroke plane: {written(told['stroke_plane_deg'], told['stroke_plane_deg_se'], 'deg')}")
-    share = written(told["downstroke_fraction"], told["downstroke_fraction_se"])
-    return [*lines, f"downstroke fraction: {share}", f"{told['frames_used']} of {told['frames']} frames used"]

@@ -74,7 +74,9 @@ def split_table(file: str, text: str) -> Table:
     if "bodyparts" in words and "coords" in words:
         names = heads[words.index("bodyparts")]
         if "individuals" in words:
-            names = [f"{a} {b}" for a, b in zip(heads[words.index("individuals")], names, strict=False)]
+            animals = heads[words.index("individuals")]
+            if len(set(animals[1:])) > 1:
+                names = [f"{a} {b}" for a, b in zip(animals, names, strict=False)]
         labels = [("", "frame"), *zip(names[1:], heads[words.index("coords")][1:], strict=False)]
         return Table("DeepLabCut", [(name, part.lower()) for name, part in labels], table)
     if sum(cell.strip().lower() in ("row", "col", "column", "value") for cell in first) >= 2 and len(first) <= 3:

@@ -193,18 +193,20 @@ def _read_hdf5(path: Path) -> TrackedPoints:
         with h5py.File(path, "r") as file:
             tracks = np.asarray(file["tracks"]) if "tracks" in file else np.empty(0)
             names = [one.decode() for one in np.asarray(file["node_names"])] if "node_names" in file else []
-            shape = tracks.shape
-            if path.suffix.lower() == ".slp" or (len(shape) == 4 and shape[-1] != 3 and "node_names" in file):
+            if names and tracks.ndim == 4 and tracks.shape[1] == 3:
+                # movement writes points of three dimensions in the layout of SLEAP: track, space, node, frame.
+                tracks = tracks.transpose(3, 0, 2, 1)
+            elif path.suffix.lower() == ".slp" or (names and tracks.ndim == 4 and tracks.shape[1] == 2):
                 refuse(path.name, "SLEAP", "has points with two coordinates only, as seen by one camera", _FLAT)
-            if len(shape) == 4 and shape[-1] == 3:
-                names = names or [f"node{k}" for k in range(shape[2])]
+            if tracks.ndim == 4 and tracks.shape[-1] == 3:
+                names = names or [f"node{k}" for k in range(tracks.shape[2])]
                 found = {
-                    f"track{i} {name}" if shape[1] > 1 else name: tracks[:, i, k]
-                    for i in range(shape[1])
+                    f"track{i} {name}" if tracks.shape[1] > 1 else name: tracks[:, i, k].astype(float)
+                    for i in range(tracks.shape[1])
                     for k, name in enumerate(names)
                 }
-                frames = np.arange(shape[0], dtype=float)
-                return _checked(TrackedPoints(path.name, "sleap-anipose", found, None, frames))
+                frames = np.arange(len(tracks), dtype=float)
+                return _checked(TrackedPoints(path.name, "SLEAP in 3-D", found, None, frames))
             if "position" not in file:
                 rule = "is HDF5 without points that wingbeat knows"
                 fix = "give NetCDF of movement, HDF5 of sleap-anipose, or a table with tip_x, tip_y, tip_z"

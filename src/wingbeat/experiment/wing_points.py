@@ -43,7 +43,8 @@ def wing_columns(wing: Mapping[str, Array], pitch: Array, normal: Array, fold: b
     span = turned(wing["tip"], wing["shoulder"])
     length = np.linalg.norm(span, axis=1)
     e = span / length[:, None]
-    found = {"flap_deg": flap_of(e)}
+    found = {"flap_deg": flap_of(e), "along": e[:, 0], "over": e[:, 2]}
+    found["sweep_deg"] = np.degrees(np.arcsin(np.clip(e @ n, -1.0, 1.0)))
     lead = wing.get("leading", wing.get("wrist"))
     lead = None if lead is None else turned(lead, wing["shoulder"])
     trail = turned(wing["trailing"], wing["shoulder"]) if "trailing" in wing else None
@@ -51,7 +52,7 @@ def wing_columns(wing: Mapping[str, Array], pitch: Array, normal: Array, fold: b
     if lead is not None or trail is not None:
         chord = np.asarray((0.0 if lead is None else lead) - (0.0 if trail is None else trail))
     if chord is not None:
-        chord = normal_to(chord, e)
+        raw, chord = chord, normal_to(chord, e)
         if "wrist" in wing and trail is not None:
             # The wrist without its place ahead of the line of quarter chords: what is left is the arm.
             ahead = chord / np.linalg.norm(chord, axis=1)[:, None]
@@ -62,7 +63,7 @@ def wing_columns(wing: Mapping[str, Array], pitch: Array, normal: Array, fold: b
                 found["flap_deg"] = flap_of(arm)
                 length = np.linalg.norm(arm, axis=1) + np.linalg.norm(hand, axis=1)
                 e = arm / np.linalg.norm(arm, axis=1)[:, None]
-                chord = normal_to(chord, e)
+                chord = normal_to(raw, e)
             found["wrist"] = np.linalg.norm(arm, axis=1) / (
                 np.linalg.norm(arm, axis=1) + np.linalg.norm(hand, axis=1)
             )
@@ -78,9 +79,7 @@ def wing_columns(wing: Mapping[str, Array], pitch: Array, normal: Array, fold: b
         found["chord"] = np.linalg.norm(chord, axis=1)
         if "tip_trailing" in wing:
             found["tip_pitch_deg"] = pitch_of(normal_to(turned(wing["tip"], wing["tip_trailing"]), e))
-    found["sweep_deg"] = np.degrees(np.arcsin(np.clip(e @ n, -1.0, 1.0)))
     found["span"] = length
-    found |= {"along": e[:, 0], "over": e[:, 2]}
     return found
 
 

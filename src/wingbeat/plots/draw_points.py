@@ -32,8 +32,8 @@ def points_page(found: PointAngles) -> Figure:
     """
     laws = {name: law for name, law in found.beat.laws.items() if name != "stroke_plane_deg"}
     rows = -(-len(laws) // 3)
-    figure = new_figure(PAGE, 70.0 + 50.0 * rows)
-    above, below = figure.subfigures(2, 1, height_ratios=(70.0, 50.0 * rows))
+    figure = new_figure(PAGE, 70.0 + 58.0 * rows)
+    above, below = figure.subfigures(2, 1, height_ratios=(70.0, 58.0 * rows))
     behind, beside = above.subplots(1, 2)
     length = found.semi_span if found.unit is not None else np.nan
     scale, first = METRES.get(found.unit or "", 1.0) / found.semi_span, next(iter(found.wings))
@@ -61,7 +61,7 @@ def points_page(found: PointAngles) -> Figure:
             beside.plot([0, span[k] * ahead[k]], [0, span[k] * up[k]], **line)
     unit = f"full spans of {length:.3g} m" if np.isfinite(length) else "full spans"
     behind.set(title="from behind", xlabel=f"to the right [{unit}]", ylabel="up [full spans]")
-    beside.set(title="from the left, flight to the right", xlabel="forward [full spans]", ylabel="up [full spans]")
+    beside.set(title="from the right", xlabel="forward [full spans]", ylabel="up [full spans]")
     for axes in (behind, beside):
         axes.set_aspect("equal", adjustable="datalim")
         axes.grid()

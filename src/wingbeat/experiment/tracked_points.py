@@ -191,7 +191,7 @@ def _read_hdf5(path: Path) -> TrackedPoints:
 
     try:
         with h5py.File(path, "r") as file:
-            tracks = np.asarray(file["tracks"]) if "tracks" in file else np.empty(0)
+            tracks: Any = np.asarray(file["tracks"]) if "tracks" in file else np.empty(0)
             names = [one.decode() for one in np.asarray(file["node_names"])] if "node_names" in file else []
             if names and tracks.ndim == 4 and tracks.shape[1] == 3:
                 # movement writes points of three dimensions in the layout of SLEAP: track, space, node, frame.

@@ -33,7 +33,7 @@ def points_page(found: PointAngles) -> Figure:
     laws = {name: law for name, law in found.beat.laws.items() if name != "stroke_plane_deg"}
     rows = -(-len(laws) // 3)
     figure = new_figure(PAGE, 70.0 + 58.0 * rows)
-    above, below = figure.subfigures(2, 1, height_ratios=(70.0, 58.0 * rows))
+    above, below = np.ravel(figure.subfigures(2, 1, squeeze=False, height_ratios=(70.0, 58.0 * rows)))
     behind, beside = above.subplots(1, 2)
     length = found.semi_span if found.unit is not None else np.nan
     scale, first = METRES.get(found.unit or "", 1.0) / found.semi_span, next(iter(found.wings))

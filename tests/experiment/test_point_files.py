@@ -60,6 +60,10 @@ def test_points_of_one_camera_are_refused():
     refused(CASES / "deeplabcut.csv", "two coordinates only")
 
 
+def test_a_film_of_angles_is_sent_on():
+    refused(ROOT / "tests/cases/films/good.csv", "these are angles already", "--kinematics")
+
+
 def test_the_camera_points_of_dltdv_are_refused(tmp_path):
     path = tmp_path / "xypts.csv"
     path.write_text("pt1_cam1_X,pt1_cam1_Y,pt1_cam2_X,pt1_cam2_Y\n1,2,3,4\n1,2,3,4\n")

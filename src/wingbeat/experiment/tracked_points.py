@@ -95,6 +95,8 @@ def read_points(source: Any) -> TrackedPoints:
         head = ", ".join(dict.fromkeys(name for name, _ in table.labels if name))[:200]
         rule = "names no point with the three columns x, y and z"
         fix = "name the columns tip_x, tip_y, tip_z and so on"
+        if "flap_deg" in head:
+            fix = "these are angles already: give the file to orbit or simulate by --kinematics"
         if names:
             rule, fix = "has points with two coordinates only, as seen by one camera", _FLAT
         refuse(path.name, head, rule, fix)

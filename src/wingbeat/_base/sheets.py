@@ -27,10 +27,7 @@ _SAME = {"n·m": "n m", "n*m": "n m", "nm": "n m", "n.m": "n m", "-": "", "1": "
 _SAME |= {"°": "deg", "degrees": "deg", "seconds": "s"}
 # What programs and instruments write: a pattern at the beginning, # lines left out, and what to do with the file.
 _COPY_POLAR = "give it where coefficients are read: --aero, polar, fit, glide"
-_COPY_LOADS = (
-    "write a CSV table with the columns time, normal_force, tangential_force, moment (about mid-chord) and "
-    "alpha_deg, and above it the lines '# speed = ..' and so on, see wingbeat reduce --help"
-)
+_COPY_LOADS = "wingbeat reduce reads it: --channels normal=NAME,tangential=NAME,moment=NAME"
 _COPY_POINTS = "wingbeat reads angles, not points: wingbeat film POINTS -o film.csv computes the angles"
 _KNOWN_FILES = (
     (r"labview measurement", f"a measurement file of LabVIEW (.lvm); {_COPY_LOADS}"),

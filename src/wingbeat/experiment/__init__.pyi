@@ -17,8 +17,10 @@ from .film_fit import fit_body_path as fit_body_path
 from .film_fit import fit_film as fit_film
 from .flights_file import FlightPoints as FlightPoints
 from .flights_file import read_flights as read_flights
+from .load_cell_file import read_run as read_run
 from .load_cell_run import LoadCellRun as LoadCellRun
-from .load_cell_run import read_run as read_run
+from .load_cell_setup import LoadCellSetup as LoadCellSetup
+from .load_cell_setup import load_setup as load_setup
 from .point_angles import PointAngles as PointAngles
 from .point_angles import angles_from_points as angles_from_points
 from .reduction import reduce_run as reduce_run

@@ -1,18 +1,15 @@
-"""One run on the load cell: its record, its file, its mean coefficients, and what a plate in a stream can give."""
+"""One run on the load cell: its record, its mean coefficients, and what a plate in a stream can give."""
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base import FaultList, InvalidInputError, plain_unit
-from wingbeat._base.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
+from wingbeat._base import FaultList, plain_unit
 from wingbeat.aero.coefficient_model import MAX_DRAG, MAX_LIFT
 
 MIN_SAMPLES = 32
@@ -25,7 +22,6 @@ COLUMN_UNITS = {name: plain_unit(name) for name in ("time", *CHANNELS, "alpha_de
 CONSTANT_UNITS = {name: plain_unit(name) for name in ("speed", "density", "viscosity", "chord", "span")}
 OPTIONAL_UNITS = {name: plain_unit(name) for name in ("thickness", "channel_width")}
 TARE_UNITS = {f"tare_{name}": COLUMN_UNITS[name] for name in CHANNELS}
-_SPELLINGS = {same_name(name): name for name in CONSTANT_UNITS | OPTIONAL_UNITS | TARE_UNITS}
 
 
 @dataclass(frozen=True)
@@ -45,7 +41,8 @@ class LoadCellRun:
     channel_width : width of the channel across the span [m], or None.
     tare : readings of each channel in still fluid before and after the run [N, N, N m], shape (3, 2); NaN, or None
         for all channels, where there is none.
-    notes : on how the file was read.
+    tare_se : standard errors of these readings, shape (3, 2), or None for 0.
+    notes : on how the record was read.
 
     Raises
     ------
@@ -68,6 +65,7 @@ class LoadCellRun:
     thickness: float = 0.0
     channel_width: float | None = None
     tare: Any = None
+    tare_se: Any = None
     notes: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -82,9 +80,13 @@ class LoadCellRun:
             object.__setattr__(self, name, np.asarray(getattr(self, name), dtype=np.float64))
         tare = np.full((3, 2), np.nan) if self.tare is None else np.asarray(self.tare, dtype=np.float64)
         object.__setattr__(self, "tare", tare)
+        tare_se = np.zeros((3, 2)) if self.tare_se is None else np.asarray(self.tare_se, dtype=np.float64)
+        object.__setattr__(self, "tare_se", tare_se)
         if tare.shape != (3, 2) or np.isinf(tare).any():
             rule = "must be three pairs of finite numbers"
             faults.add(f"{self.name}, tare", self.tare, rule, "give the readings before and after the run")
+        if tare_se.shape != (3, 2) or not (tare_se >= 0).all():
+            faults.add(f"{self.name}, tare_se", self.tare_se, "must be three pairs of standard errors")
         object.__setattr__(self, "alpha_deg", np.broadcast_to(self.alpha_deg, np.shape(self.time)))
         if not faults.faults:
             check_constants(faults, self)
@@ -133,105 +135,6 @@ def _check_series(faults: FaultList, run: LoadCellRun) -> None:
     elif (spread := float(alpha.std())) > MAX_TURN_DEG:
         rule = f"moves with a standard deviation of {spread:.2g} degrees, but a run has one angle"
         faults.add(f"{run.name}, alpha_deg", float(alpha.mean()), rule, "write one file for each angle")
-
-
-def read_run(path: str | Path) -> LoadCellRun:
-    """Read one run from a CSV file: constants as ``# key = value`` lines, then a table of samples.
-
-    The columns are time, normal_force, tangential_force, moment and alpha_deg, in any order, each with or without
-    its unit in brackets; others are ignored. The keys are speed, density, viscosity, chord, span. Optional keys are
-    thickness, channel_width and the zero readings tare_normal_force, tare_tangential_force, tare_moment. A zero
-    reading has two values: before the run, after the run.
-
-    Parameters
-    ----------
-    path : of the CSV file.
-
-    Raises
-    ------
-    FileError : the file is missing or cannot be read.
-    InvalidInputError : a missing column or key, another unit, angles in radians, cells that are not numbers, and
-        inputs that `LoadCellRun` refuses, each fault with its row and column.
-    """
-    sheet, faults = read_sheet(path), FaultList()
-    place = _columns(faults, sheet)
-    constants = _constants(faults, sheet)
-    if set(place) != set(COLUMN_UNITS):
-        faults.raise_if_any()
-    names = [split_unit(cell).name for cell in sheet.header]
-    numbers = parse_numbers(faults, sheet, names)
-    faults.raise_if_any()
-    series: dict[str, Any] = {name: numbers[:, k].copy() for name, k in place.items()}
-    single: dict[str, Any] = {name: values[0] for name, values in constants.items() if name not in TARE_UNITS}
-    tare = [constants.get(key, (np.nan, np.nan)) for key in TARE_UNITS]
-    try:
-        return LoadCellRun(sheet.file, **series, **single, tare=tare, notes=sheet.notes)
-    except InvalidInputError as error:
-        placed = [dataclasses.replace(fault, where=_in_sheet(fault.where, sheet)) for fault in error.faults]
-        raise InvalidInputError(placed) from None
-
-
-def _in_sheet(where: str, sheet: Sheet) -> str:
-    """Return where in the file a run's fault is: a constant, a sample, or a whole column."""
-    name, _, index = where.removeprefix(f"{sheet.file}, ").removesuffix("]").partition("[")
-    for key, (row, _) in sheet.constants.items():
-        if _SPELLINGS.get(same_name(key)) == name:
-            return f"{sheet.file} row {row}, {name}"
-    if name not in COLUMN_UNITS:
-        return where
-    row = sheet.rows[int(index)][0] if index else sheet.header_row
-    return f"{sheet.file} row {row}, column {name}"
-
-
-def _columns(faults: FaultList, sheet: Sheet) -> dict[str, int]:
-    """Return the index of each column; note missing columns, other units, and angles that are not in degrees."""
-    place: dict[str, int] = {}
-    for k, cell in enumerate(sheet.header):
-        name, unit = split_unit(cell)
-        where = f"{sheet.file} row {sheet.header_row}, column {k + 1}"
-        if name in ("alpha", "angle", "alpha_rad"):
-            fix = "name it alpha_deg and write degrees; radians times 57.29578 are degrees"
-            faults.add(where, cell, "does not say that it is in degrees", fix)
-            place["alpha_deg"] = k
-        elif name in place:
-            faults.add(where, cell, "appears twice", "keep one")
-        elif name in COLUMN_UNITS:
-            check_unit(faults, f"{where}, {name}", unit, COLUMN_UNITS[name])
-            place[name] = k
-    for name, unit in COLUMN_UNITS.items():
-        if name not in place:
-            where = f"{sheet.file} row {sheet.header_row}, column {name}"
-            faults.add(where, ",".join(sheet.header), "the column is missing", f"add {name} [{unit}]")
-    return place
-
-
-def _constants(faults: FaultList, sheet: Sheet) -> dict[str, tuple[float, ...]]:
-    """Return the constants of the run; note missing ones, other units, and values that are not numbers."""
-    found: dict[str, tuple[float, ...]] = {}
-    units = CONSTANT_UNITS | OPTIONAL_UNITS | TARE_UNITS
-    for key, (row, text) in sheet.constants.items():
-        name, unit = _SPELLINGS.get(same_name(key), ""), split_unit(key).unit
-        if name not in units:
-            continue
-        where = f"{sheet.file} row {row}, {name}"
-        check_unit(faults, where, unit, units[name])
-        wanted = 2 if name in TARE_UNITS else 1
-        try:  # one try for all cells: "0.5 m/s" and "fast" cause the same fault
-            values = tuple(map(float, text.split(",")))
-        except ValueError:
-            values = ()
-        if values and not np.isfinite(values).all():
-            faults.add(where, text, "must be finite", f"give the reading in {units[name]}, or leave the line out")
-        elif len(values) != wanted:
-            rule = "must be two numbers, before and after the run" if wanted == 2 else "must be one number"
-            fix = f"give only numbers, in {units[name]}; the unit goes in brackets before the ="
-            faults.add(where, text, rule, fix)
-        else:
-            found[name] = values
-    for name, unit in CONSTANT_UNITS.items():
-        if not any(_SPELLINGS.get(same_name(key)) == name for key in sheet.constants):
-            faults.add(f"{sheet.file}, {name}", "", "is missing", f"add the line '# {name} [{unit}] = ...'")
-    return found
 
 
 class RunMeans(NamedTuple):
@@ -338,8 +241,8 @@ def check_constants(faults: FaultList, run: LoadCellRun) -> None:
 
 
 def constant_notes(run: LoadCellRun) -> list[str]:
-    """Return notes on how the file was read, and on constants that are possible, but not usual."""
-    notes = [f"{run.name}: {note}" for note in run.notes]
+    """Return notes on constants that are possible, but not usual."""
+    notes = []
     if not _USUAL_REYNOLDS[0] <= run.reynolds <= _USUAL_REYNOLDS[1]:
         are = "are speed, chord and viscosity in SI units?"
         notes.append(f"{run.name}: the Reynolds number is {run.reynolds:.3g}; {are}")
@@ -379,6 +282,11 @@ def check_coefficients(faults: FaultList, run: LoadCellRun, means: RunMeans) -> 
         faults.add(f"{where}, C_M", moment, f"must lie between {-MAX_LIFT:g} and {MAX_LIFT:g}", fix)
     # Friction on both sides of a smooth plate in laminar flow: Blasius 1908.
     friction = 2.656 / math.sqrt(means.reynolds)
+    # A plate turned to the stream is pushed to its lee side, even if it is cambered.
+    against = -means.normal * math.copysign(1.0, means.alpha_deg)
+    if sine > _INCLINED and abs(means.alpha_deg) < 170 and against > _SLIGHT * sine + _SURE * means.normal_se:
+        rule = "is the normal force coefficient, but at a positive angle it is positive, at a negative one negative"
+        faults.add(f"{where}, C_N", means.normal, rule, "check the signs; --channels normal=-NAME reverses one")
     turn = math.radians(means.alpha_deg)
     tangential = drag * math.cos(turn) - lift * math.sin(turn)
     if sine > _INCLINED and whole + _SURE * error < _SLIGHT * sine:
@@ -407,9 +315,15 @@ def coefficient_notes(run: LoadCellRun, means: RunMeans) -> list[str]:
     moment = float(means.mean[2])
     behind = moment * means.normal < 0 and abs(means.alpha_deg) <= 90 and sine > _STEEP
     arm, camber = _ARM_BEHIND if behind else _ARM
+    reversed_by = -moment * math.copysign(1.0, means.normal) - 0.05 * (1 + abs(means.normal))
     if abs(moment) > arm * abs(means.normal) + camber + _SURE * float(means.se[2]):
         notes.append(
             f"{run.name}: the moment, C_M {moment:.3g}, is too large for a normal force of C_N "
             f"{means.normal:.3g} on the plate: is it about mid-chord, and in N m?"
+        )
+    elif sine > _INCLINED and abs(means.alpha_deg) < 60 and reversed_by > _SURE * float(means.se[2]):
+        notes.append(
+            f"{run.name}: the moment, C_M {moment:.3g}, puts the centre of pressure behind mid-chord; is it "
+            "nose-up positive? --channels moment=-NAME reverses it"
         )
     return notes

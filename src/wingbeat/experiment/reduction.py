@@ -144,9 +144,14 @@ def _steady(faults: FaultList, run: LoadCellRun, last: float, spans: Spans) -> _
         share = (run.time - run.time[0]) / (run.time[-1] - run.time[0])
         before, after = np.nan_to_num(tare.T)[..., None]
         zero = before + (after - before) * share
+        # One file of zero readings stands for both, and its error does not average out.
+        weight = np.interp(float(run.time[keep].mean()), run.time[[0, -1]], [0.0, 1.0])
+        errors = np.asarray(run.tare_se)
+        zero_se = np.hypot((1 - weight) * errors[:, 0], weight * errors[:, 1]) / unit
+        zero_se = np.where((tare[:, 0] == tare[:, 1]), errors[:, 0] / unit, zero_se)
     loads = raw - zero
     refuse_rest(faults, run, loads[:2], keep)
-    notes = [*constant_notes(run), *signal_notes(run, keep, raw[:, keep])]
+    notes = [*run.notes, *constant_notes(run), *signal_notes(run, keep, raw[:, keep])]
     alpha_deg = float(np.mean(np.asarray(run.alpha_deg)[keep]))
     return _Steady(run.time[keep], alpha_deg, loads[:, keep] / unit[:, None], zero_se, notes)
 

@@ -268,5 +268,6 @@ def zero_notes(runs: Sequence[LoadCellRun]) -> list[str]:
     which = without[0] if len(runs) == 1 else f"{len(without)} of {len(runs)} runs, such as {without[0]}"
     return [
         f"{which}: zero readings are missing, so the zero is taken as 0, and what the load cell reads at rest adds "
-        "to every coefficient; give tare_normal_force and so on, or state the rest in the record (--rest)"
+        "to every coefficient; give tare_normal_force and so on, a record at rest (--tare), or state the rest in "
+        "the record (--rest)"
     ]

@@ -69,12 +69,16 @@ from .records.shares import StableShare as StableShare
 from .results.curve import Curve as Curve
 from .results.curve import load_curve as load_curve
 from .results.curve import solve_curve as solve_curve
+from .results.differentiable import DifferentiableOptimum as DifferentiableOptimum
+from .results.differentiable import differentiable_optimum as differentiable_optimum
 from .results.flight import Flight as Flight
 from .results.flight import TorqueDrivenFlight as TorqueDrivenFlight
 from .results.flight import simulate as simulate
 from .results.flight import simulate_torque_driven as simulate_torque_driven
 from .results.glide import GlidePolar as GlidePolar
 from .results.glide import glide_polar as glide_polar
+from .results.optimum import Multipliers as Multipliers
+from .results.optimum import Trace as Trace
 from .results.orbit import Orbit as Orbit
 from .results.orbit import load_orbit as load_orbit
 from .results.orbit import solve_orbit as solve_orbit

@@ -5,6 +5,7 @@ These four load nothing but the standard library. Data sets, sheets and the styl
 
 from wingbeat._base.errors import (
     IN_RADIANS,
+    TRACED,
     WHOLE,
     ClusterError,
     Fault,
@@ -17,6 +18,7 @@ from wingbeat._base.errors import (
     first_line,
     install_extra,
     is_number,
+    is_traced,
     suggest,
     system_reason,
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -163,6 +164,19 @@ def is_number(value: object) -> TypeGuard[int | float]:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
+# Rule and fix for a number that JAX traces, where numbers are checked.
+TRACED = (
+    "is traced by jax.grad, jit or vmap, and inputs are checked as numbers",
+    "for derivatives of an optimum, use wb.differentiable_optimum(orbit, [names of the parameters])",
+)
+
+
+def is_traced(value: object) -> bool:
+    """Return whether a value is one of JAX's tracers, which have no number yet."""
+    jax = sys.modules.get("jax")  # without JAX there is no such value
+    return jax is not None and isinstance(value, jax.core.Tracer)
+
+
 # The rules for angles by the largest that is allowed. Larger numbers are most likely degrees.
 IN_RADIANS = {
     math.pi: "must be an angle in radians, from -pi to pi",
@@ -198,7 +212,8 @@ class FaultList:
     ) -> bool:
         """Note a fault unless `value` is a finite real number within the limits; return whether it is."""
         if isinstance(value, bool) or not isinstance(value, Real):
-            self.add(where, value, "must be a number", fix)
+            fix = "write float(...) around it" if getattr(value, "shape", None) == () else fix
+            self.add(where, value, *(TRACED if is_traced(value) else ("must be a number", fix)))
             return False
         try:
             number = float(value)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from jax.extend.core import jaxpr_as_fun
 
-from wingbeat._base import Fault, FaultList, InvalidInputError
+from wingbeat._base import TRACED, Fault, FaultList, InvalidInputError, is_traced
 from wingbeat._jax.arrays import in_own_settings, jax, jnp, unchecked
 from wingbeat.aero.coefficient_model import CoefficientModel, check_curve
 
@@ -175,6 +175,9 @@ def _checked(function: Callable[[Any], Any], name: str) -> Program:
         faults.raise_if_any()
         raise
     values, slopes = jax.jit(jax.vmap(lambda a: jax.jvp(program, (a,), (1.0,))))(_SAMPLE_ANGLES)
+    if is_traced(values[0]):  # a variable that the function reads
+        faults.add(_WHERE, name, *TRACED)
+        faults.raise_if_any()
     names = ("C_L", "C_D", "a slope of C_L", "a slope of C_D")
     for what, found in zip(names, (*values, *slopes), strict=True):
         bad = np.flatnonzero(~np.isfinite(found))

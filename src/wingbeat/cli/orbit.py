@@ -28,13 +28,14 @@ from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.filmed import filmed_problem, filmed_species, trim_of
 from wingbeat.orbits.problem.quantities import WingbeatLimit
 from wingbeat.records.numbers import power_account
+from wingbeat.results.optimum import trace_report
 from wingbeat.results.orbit import load_orbit, solve_orbit
 from wingbeat.results.sensitivities import influence_report
 from wingbeat.results.sensitivities import sensitivities as differentiate
 from wingbeat.results.spread import orbit_spread
 from wingbeat.words.orbit_words import orbit_report
 
-_BESIDE_FROM = ("from_", "power", "json", "output", "plot", "sensitivities", "tornado")
+_BESIDE_FROM = ("from_", "power", "json", "output", "plot", "trace", "sensitivities", "tornado")
 
 
 def orbit(
@@ -81,6 +82,13 @@ def orbit(
     json: Annotated[bool, flag("Print the record as JSON and nothing else.")] = False,
     output: Output = None,
     plot: Annotated[Path | None, figure("Draw one page")] = None,
+    start: Annotated[
+        Path | None,
+        option(
+            "Start the first search from this orbit (.nc) or film (.csv). --starts then counts it too; default 1."
+        ),
+    ] = None,
+    trace: Annotated[bool, flag("Print objective, residual and step of each iteration of the solver.")] = False,
     sensitivities: Annotated[
         bool, flag("Print what the result depends on most, and the prices of bounds.")
     ] = False,
@@ -113,10 +121,14 @@ def orbit(
     faults.raise_if_any()
     check_outputs(output, plot, tornado)
     beat = None
+    begun: Any = None  # where the first search starts
+    if start is not None:
+        begun = filmed.filmed_beat(start, None) if start.suffix.lower() == ".csv" else load_orbit(start)
     if from_ is not None:
         saved = load_orbit(from_)
         with options.unpacking(from_):
             problem, starts, seed = saved.problem, saved.inputs["starts"], saved.inputs["seed"]
+            begun = saved.inputs.get("start")
     else:
         assert species is not None
         assert speed is not None
@@ -140,13 +152,15 @@ def orbit(
                 problem = filmed_problem(beat, animal, speed, aero=whole.aero, **asked)
     fit = model.fit()
     with progress_bar(f"{problem.species.name} at {problem.speed:g} m/s") as progress:
-        found = solve_orbit(problem, starts, seed, progress)
+        found = solve_orbit(problem, starts, seed, progress, start=begun, trace=trace)
     record, certified = found.record(), found.status is Status.CONVERGED
     if power:
         record["power_account"] = power_account(found.dataset)
     with answer() as given:
         if not json:  # before sensitivities and error bars, which may take minutes
             given.show(lambda: print_report(orbit_report(record)))
+            if trace:
+                given.show(lambda: print_report([Line(""), *trace_report(record["trace"], record["objective"])]))
         if certified and (sensitivities or tornado):
             influence = differentiate(found)
             bars = [influence.error_bar(name, fit) for name in influence.values]

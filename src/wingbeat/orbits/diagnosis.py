@@ -31,7 +31,8 @@ from wingbeat.orbits.changes import (
 from wingbeat.orbits.deficit import Deficit, Nearest, bounds_near, nearest_beat, words_of
 from wingbeat.orbits.flight.period import PATH_NAMES
 from wingbeat.orbits.nlp.newton_kkt import Corrected, certified, correct, first_certified
-from wingbeat.orbits.nlp.transcription import Candidate, Programme, Transcription, refine, search
+from wingbeat.orbits.nlp.programme import Programme
+from wingbeat.orbits.nlp.transcription import Candidate, Transcription, refine, search
 from wingbeat.orbits.options import SolverOptions, Status
 from wingbeat.orbits.starts import is_at_lower_bound, plainly, start_point, starts_in_words
 

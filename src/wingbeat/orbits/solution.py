@@ -24,10 +24,11 @@ from wingbeat.orbits.nlp.newton_kkt import (
     follow_to_certificate,
     size,
 )
+from wingbeat.orbits.nlp.programme import Step
 from wingbeat.orbits.nlp.transcription import Candidate, Transcription, certified_beat, refine
 from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
 from wingbeat.orbits.problem.quantity import MapQuantity, Quantity
-from wingbeat.orbits.starts import is_at_lower_bound
+from wingbeat.orbits.starts import OwnStart, is_at_lower_bound
 
 if TYPE_CHECKING:
     from wingbeat.orbits.changes import Relaxation
@@ -94,6 +95,9 @@ class Solution:
     reduced_hessian: ReducedHessian | None = None
     options: SolverOptions = DEFAULTS
     free_objective: float | None = None
+    # Only if they were asked for: the user's own start, and the steps of each search with its number.
+    start: OwnStart | None = None
+    steps: tuple[tuple[int, Step], ...] | None = None
 
     @property
     def starts_at_best(self) -> int:

@@ -23,6 +23,7 @@ from wingbeat.orbits.options import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.quantity import MapQuantity
 from wingbeat.orbits.solution import Solution, families, optima_of, optimal, solution_of
 from wingbeat.orbits.starts import (
+    OwnStart,
     asks_for_stability,
     easier,
     minimises_map,
@@ -57,6 +58,8 @@ class Settings:
     advise: bool = True  # without an orbit, find single changes that lead to one; takes as long as the starts
     explain: bool = True  # without an orbit, find the balance that fails and advise; takes a third of their time
     options: SolverOptions = DEFAULTS
+    start: OwnStart | None = None  # the user's own, searched first; `starts` counts it too
+    trace: bool = False  # keep objective, violation and step of each iteration
 
     def check(self) -> None:
         """Raise `InvalidInputError` unless all numbers are whole numbers in range."""
@@ -84,20 +87,23 @@ def find_orbit(
     begun = time.perf_counter()
     threads = threads or core_count()
     programme = Transcription(problem, options)
+    programme.steps = [] if settings.trace else None
+    own = None if settings.start is None else np.array([*settings.start.values.values()])
     load_programs(programme, start_point(problem, 0, seed, options.search))
     free: list[Candidate] = []  # where the searches without limits of stability end, if there are such limits
     if asks_for_stability(problem):
-        free = first_searches(Transcription(easier(problem), options), starts, seed, threads, progress)
+        free = first_searches(Transcription(easier(problem), options), starts, seed, threads, progress, own)
         found = stable_searches(programme, free, threads)
     else:
-        found = first_searches(programme, starts, seed, threads, progress)
+        found = first_searches(programme, starts, seed, threads, progress, own)
+    first = (free or found)[0]
     best = first_certified(programme, found)
     for led in _where_limits_hold(programme, starts, seed, threads) if best is None else ():
         found += led
         if (best := first_certified(programme, led)) is not None:
             break
     more = range(starts, most if best is None else starts)
-    for done, candidate in enumerate(search_from_starts(programme, more, seed, threads), starts + 1):
+    for done, candidate in enumerate(search_from_starts(programme, more, seed, threads, own), starts + 1):
         found.append(candidate)
         if progress is not None:  # searches from limited quantities are not counted
             progress(done, max(starts, most))
@@ -109,6 +115,18 @@ def find_orbit(
     elif best is None:
         best, ending = unexplained(found)
     solution = solution_of(best, programme, begun, found, searches, seed, ending)
+    if settings.start is not None:
+        away = np.abs((first.programme.physical(first.scaled) - solution.unknowns) / problem.unknowns().scale).max()
+        near = bool(first.is_optimum and away <= options.search.same_optimum)
+        # Without limits of stability, the search may end elsewhere and still lead here.
+        led = None if free and not near else near and ending is None
+        solution = dataclasses.replace(solution, start=settings.start._replace(led_here=led))
+    if settings.trace:
+        ends = [np.abs(c.scaled - best.scaled).max() if c.is_optimum else np.inf for c in found]
+        steps = [(i, step) for i, candidate in enumerate(found) for step in candidate.programme.steps or ()]
+        if ending is None:
+            steps += [(int(np.argmin(ends)), step) for step in best.programme.steps or ()]
+        solution = dataclasses.replace(solution, steps=tuple(steps))
     unlimited = first_certified(free[0].programme, free) if free and not minimises_map(problem) else None
     if unlimited is None:
         return solution
@@ -134,23 +152,29 @@ def _where_limits_hold(programme: Transcription, starts: int, seed: int, threads
 
 
 def first_searches(
-    programme: Transcription, starts: int, seed: int, threads: int, progress: Progress | None = None
+    programme: Transcription,
+    starts: int,
+    seed: int,
+    threads: int,
+    progress: Progress | None = None,
+    own: np.ndarray | None = None,
 ) -> list[Candidate]:
     """Search from starts, from optima of the problem without limits, and near the lowest peak; return all ends."""
     problem, options = programme.problem, programme.options
     if asks_for_stability(problem):
-        free = first_searches(Transcription(easier(problem), options), starts, seed, threads, progress)
+        free = first_searches(Transcription(easier(problem), options), starts, seed, threads, progress, own)
         return stable_searches(programme, free, threads)
     limited = bool(problem.subject_to)
     found: list[Candidate] = []
-    for candidate in search_from_starts(programme, range(starts), seed, threads):
+    for candidate in search_from_starts(programme, range(starts), seed, threads, own):
         found.append(candidate)
         if progress is not None:
             progress(len(found), starts * (1 + limited))
     if limited:
         without = Transcription(dataclasses.replace(problem, subject_to=()), options)
         report = None if progress is None else lambda done, total: progress(starts + done, starts + total)
-        found += search_from_optima(programme, first_searches(without, starts, seed, threads, report), threads)
+        unlimited = first_searches(without, starts, seed, threads, report, own)
+        found += search_from_optima(programme, unlimited, threads)
     if programme.has_epigraph:
         for _ in range(starts // 2):  # a lower peak is often near the best optimum
             optima = optima_of(found)
@@ -203,11 +227,18 @@ def stable_searches(programme: Transcription, free: list[Candidate], threads: in
 
 
 def search_from_starts(
-    programme: Transcription, indices: Iterable[int], seed: int, threads: int
+    programme: Transcription, indices: Iterable[int], seed: int, threads: int, own: np.ndarray | None = None
 ) -> Iterator[Candidate]:
-    """Search from these starts in parallel threads, and yield in order where each local search ends."""
+    """Search from these starts in parallel threads, and yield in order where each local search ends.
+
+    A start of the user's `own` is number 0, before the others.
+    """
 
     def one(index: int) -> Candidate:
+        if own is not None:
+            if index == 0:
+                return search(programme.uncorrected(), own, restore=True)
+            index -= 1
         start = start_point(programme.problem, index, seed, programme.options.search)
         # All but the stock wingbeat are first brought close to closure: from far away, a search diverges. If no
         # orbit exists, it then ends after 30 flights rather than 100.

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -43,6 +43,22 @@ def usual_most_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.s
 def starts_in_words(count: int) -> str:
     """Return how many starts there were."""
     return f"{count} start" if count == 1 else f"{count} starts"
+
+
+class OwnStart(NamedTuple):
+    """A start of the user's own: what it was, its unknowns by name (SI), and what was changed or added.
+
+    `led_here` says whether the search from it ended in the family of the result; None if that is not known.
+    """
+
+    kind: str  # orbit, wingbeat, film or numbers
+    values: dict[str, float]
+    notes: tuple[str, ...] = ()
+    led_here: bool | None = None
+
+    def record(self) -> dict[str, Any]:
+        """Return the start as plain values for JSON."""
+        return {**self._asdict(), "values": dict(self.values), "notes": list(self.notes)}
 
 
 def start_beside(

@@ -16,11 +16,11 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base import PRECISION, Fault, InvalidInputError
+from wingbeat._base import PRECISION, Fault, InvalidInputError, plain_unit
 from wingbeat._workers.pool import in_processes
 from wingbeat.animal.kinematics import unpack
 from wingbeat.orbits.flight.certificate import certify
-from wingbeat.orbits.flight.period import PATH_NAMES, PITCH_STATE
+from wingbeat.orbits.flight.period import CLOSURE, CLOSURE_SCALE, PATH_NAMES, PITCH_STATE
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace
 from wingbeat.orbits.nlp.transcription import Transcription, certified_beat
 from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
@@ -45,6 +45,15 @@ class Sensitivity(NamedTuple):
     quantities: dict[str, float]
     wingbeat: dict[str, float]
     initial_state: dict[str, float]
+
+
+class Multiplier(NamedTuple):
+    """The derivative of the least objective by the right-hand side of one condition of the optimum."""
+
+    kind: str  # closure, bounds or limit
+    name: str
+    value: float
+    unit: str
 
 
 class OptimumSlopes:
@@ -106,6 +115,52 @@ class OptimumSlopes:
         if self._here.outputs is not None:
             limits = self._here.outputs.with_active(self._active[len(path) :])
             found += [limit_of(problem, i) for i in limits]
+        return found
+
+    @property
+    def has_unique_multipliers(self) -> bool:
+        """Whether the gradients of the conditions are independent."""
+        return self._null_space.basis.shape[1] + self._multipliers.size == self._free.sum()
+
+    def multipliers(self) -> list[Multiplier]:
+        """Return the multipliers of closure, and of the active bounds and limits."""
+        problem, here, least = self.problem, self._here, self.problem.minimise
+        by_row = self._multipliers * least.scale
+        found = [
+            Multiplier("closure", name, float(value), f"{least.unit} per {plain_unit(name)}")
+            for name, value in zip(CLOSURE, by_row[: len(CLOSURE)] / CLOSURE_SCALE, strict=True)
+        ]
+        jacobian = here.active_conditions(self._at, self._active)[1]
+        slope = (here.objective_gradient(self._at) - jacobian.T @ self._multipliers) * least.scale
+        numbers = zip(
+            self._unknowns.names, self._free, self._at_lower, slope[: self.scale.size] / self.scale, strict=False
+        )
+        for name, free, at_lower, value in numbers:
+            if not free:
+                side = SIDES[int(not at_lower)]
+                found.append(
+                    Multiplier("bounds", f"{name}.{side}", float(value), f"{least.unit} per {plain_unit(name)}")
+                )
+        # A limit along the path, or of a series, may be active at several places: their multipliers add up.
+        rows = np.zeros(self._active.size)
+        rows[self._active] = by_row[len(CLOSURE) :]
+        path = here.path_limits
+        for name, sign in dict.fromkeys(limit for limit, on in zip(path, self._active, strict=False) if on):
+            value = sum(row for row, limit in zip(rows, path, strict=False) if limit == (name, sign))
+            unit = plain_unit(name) if name in PATH_NAMES else "semi-span"
+            signed = f"{name}.{SIDES[int(sign == '<=')]}"
+            found.append(
+                Multiplier("bounds", signed, float(-value if sign == "<=" else value), f"{least.unit} per {unit}")
+            )
+        if here.outputs is not None:
+            rows = rows[len(path) :]
+            for i in here.outputs.with_active(self._active[len(path) :]):
+                limit = problem.subject_to[i]
+                value = rows[here.outputs.values_of(i)].sum() / limit.quantity.scale
+                unit = f"{least.unit} per {limit.quantity.unit}"
+                found.append(
+                    Multiplier("limit", limit.quantity.name, float(-value if limit.at_most else value), unit)
+                )
         return found
 
     def values(self, quantities: Sequence[Quantity]) -> np.ndarray:

@@ -142,6 +142,10 @@ def _check_inputs(record: dict[str, Any], inputs: dict[str, Any], species: Speci
     loads = {name: value for name, value in record["aero"].items() if name != "hand"}
     demand(loads.items() <= {**inputs["aero"], "hand": 0}.items(), "aero is not that of the inputs")
     demand({*species.warnings} <= {*record["warnings"]}, "a warning of the species is missing")
+    own = inputs.get("start")
+    demand((record.get("start") or {"values": None})["values"] == own, "start is not that of the inputs")
+    names = {*STATE_NAMES[2:], *inputs["free"]}
+    demand(own is None or {*own} == names, "start has other unknowns than the problem")
     stock, flown = inputs["stock_wingbeat"], record["wingbeat"]
     for name, value in stock.items():
         if isinstance(value, float) and name not in inputs["free"]:

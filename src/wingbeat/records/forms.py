@@ -169,9 +169,11 @@ def _finite(text: str) -> float:
 _KINDS: dict[str, tuple[type, ...]] = {
     **dict.fromkeys(("status", "message", "species", "objective", "version"), (str,)),
     **dict.fromkeys(
-        ("model", "vehicle", "aero", "air", "wingbeat", "initial_state", "closure", "constraints"), (dict,)
+        ("model", "vehicle", "aero", "air", "wingbeat", "initial_state", "closure", "constraints", "start"), (dict,)
     ),
-    **dict.fromkeys(("active_bounds", "failed_balance", "relaxations", "plausibility", "warnings"), (list,)),
+    **dict.fromkeys(
+        ("active_bounds", "failed_balance", "relaxations", "plausibility", "warnings", "trace"), (list,)
+    ),
     **dict.fromkeys(("floquet_multipliers", "alpha_quarter_span", "alpha_three_quarter_span"), (list,)),
     "inputs": (dict,),
 }
@@ -195,6 +197,32 @@ def _are_deficits(value: list[Any]) -> bool:
     )
 
 
+def _is_start(value: dict[str, Any]) -> bool:
+    return (
+        {*value} == {"kind", "values", "notes", "led_here"}
+        and isinstance(value["kind"], str)
+        and value["led_here"] in (True, False, None)
+        and isinstance(value["values"], dict)
+        and all(map(is_number, value["values"].values()))
+        and isinstance(value["notes"], list)
+        and all(isinstance(note, str) for note in value["notes"])
+    )
+
+
+_STEP = ("search", "stage", "iteration", "objective", "residual", "step")
+
+
+def _are_steps(value: list[Any]) -> bool:
+    return all(
+        isinstance(one, dict)
+        and (*one,) == _STEP
+        and isinstance(one["stage"], str)
+        and isinstance(one["search"], int)
+        and all(_is_known(one[name]) for name in _STEP if name != "stage")
+        for one in value
+    )
+
+
 # What the items of dictionaries and lists must be.
 _ITEMS: dict[str, Callable[[Any], bool]] = {
     **dict.fromkeys(("initial_state", "closure"), lambda value: {*value} == {*STATE_NAMES} and _are_known(value)),
@@ -204,6 +232,8 @@ _ITEMS: dict[str, Callable[[Any], bool]] = {
     "floquet_multipliers": lambda value: all(isinstance(pair, list) and _is_range(pair) for pair in value),
     "failed_balance": _are_deficits,
     "plausibility": is_judgement,
+    "start": _is_start,
+    "trace": _are_steps,
 }
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from wingbeat._base import SHAPE, InvalidInputError
@@ -176,8 +176,14 @@ def shape_attribute(species: Species | None) -> dict[str, str]:
     return {SHAPE: json.dumps({"kind": species.kind} | (species.shape.drawn() if species.shape else {}))}
 
 
-def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOptions = DEFAULTS) -> dict[str, Any]:
-    """Return a problem's inputs, number of starts and seed, and the solver options that differ from defaults."""
+def inputs_of(
+    problem: OrbitProblem,
+    starts: int,
+    seed: int,
+    options: SolverOptions = DEFAULTS,
+    start: Mapping[str, float] | None = None,
+) -> dict[str, Any]:
+    """Return the inputs: problem, number of starts, seed, options that differ from defaults, a user's start."""
     species, shape = problem.species, {}
     if (own := species.shape) is not None:
         shape["shape"] = {"cover": own.cover, "colours": dict(own.colours), "numbers": dict(own.numbers)}
@@ -216,6 +222,8 @@ def inputs_of(problem: OrbitProblem, starts: int, seed: int, options: SolverOpti
         inputs["model"] = problem.origin.record()
     if options != DEFAULTS:
         inputs["options"] = options.changed()
+    if start is not None:
+        inputs["start"] = dict(start)
     return json.loads(json.dumps(inputs))
 
 

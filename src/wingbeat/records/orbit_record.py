@@ -59,11 +59,16 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "floquet_multipliers": [[float(m.real), float(m.imag)] for m in solution.multipliers],
         "stable": bool(np.abs(solution.multipliers).max() < 1.0) if solution.status is Status.CONVERGED else None,
         **price,
+        **({} if solution.start is None else {"start": solution.start.record()}),
         "warnings": orbit_warnings(solution, beat),
         "solve_seconds": solution.seconds,
         "version": __version__,
     }
     record["plausibility"] = plausibility(problem, beat, record)
+    if solution.steps is not None:
+        unit = problem.minimise.scale
+        rows = ((i, step._replace(objective=step.objective * unit)) for i, step in solution.steps)
+        record["trace"] = [{"search": i, **step._asdict()} for i, step in rows]
     return finite_or_none(record)
 
 

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import copy
 import functools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from os import PathLike
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base import Report, Reported
+from wingbeat._base import Fault, InvalidInputError, Report, Reported
 from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.experiment.film_fit import FilmedBeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import Steps
 from wingbeat.orbits.batch import find_orbits, find_series
@@ -24,6 +25,7 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, Settings, check_search, find_orbit
 from wingbeat.orbits.starts import start_count
+from wingbeat.orbits.uncertainty import OptimumSlopes
 from wingbeat.plots.draw_wingbeat import wingbeat_page
 from wingbeat.records.flight_dataset import evaluate, flight_dataset
 from wingbeat.records.forms import orbit_attributes, parse_attributes
@@ -31,6 +33,8 @@ from wingbeat.records.inputs import inputs_of, own_functions, problem_from, shap
 from wingbeat.records.orbit_record import orbit_record
 from wingbeat.records.result_files import Saveable, load_dataset
 from wingbeat.records.tables import frame_of
+from wingbeat.results.optimum import Multipliers, Trace
+from wingbeat.results.own_start import own_start
 from wingbeat.words.orbit_words import orbit_report
 
 if TYPE_CHECKING:
@@ -76,9 +80,12 @@ class Orbit(Saveable, Reported):
         orbit.view()                  the flight in motion, in a notebook
         orbit.problem                 the problem it solves, to change and solve again
         orbit.relaxations             single changes that lead to an orbit, if there is none
+        orbit.multipliers             Lagrange multipliers of closure, bounds and limits
+        orbit.trace                   the solver's steps, after solve_orbit(..., trace=True)
 
         wb.power_account(orbit.dataset)        the parts of its power, and which spring helps
         wb.sensitivities(orbit)                what its numbers depend on, and how uncertain they are
+        wb.differentiable_optimum(orbit, ...)  the optimum as a function that jax.grad differentiates
         wb.export(orbit, "gait.csv")           the motion for robots, MATLAB, motion capture and MuJoCo
 
     It can be pickled, and copied to another process.
@@ -129,7 +136,8 @@ class Orbit(Saveable, Reported):
         solution : result of the solver.
         starts, seed : settings of the solver.
         """
-        inputs = inputs_of(solution.problem, starts, seed, solution.options)
+        own = None if solution.start is None else solution.start.values
+        inputs = inputs_of(solution.problem, starts, seed, solution.options, own)
         start = State(*solution.certificate.states[0].tolist())
         summary = Summary(solution.status, solution.message, solution.wingbeat, start, solution.relaxations)
         return cls(summary, inputs, solution.problem, solution)
@@ -224,6 +232,33 @@ class Orbit(Saveable, Reported):
         attributes = orbit_attributes(self._record, self._inputs) | shape_attribute(problem.species)
         return flight_dataset(*flight, evaluate(*flight), attributes)
 
+    @functools.cached_property
+    def multipliers(self) -> Multipliers:
+        """Lagrange multipliers of closure, active bounds and limits; `Multipliers` states their signs and units.
+
+        Raises
+        ------
+        InvalidInputError : an orbit that is not certified, or an optimum that is not isolated.
+        """
+        if self.status is not Status.CONVERGED:
+            rule, fix = "is not certified, so it has no multipliers", self.message
+            raise InvalidInputError([Fault("orbit", self.status.value, rule, fix)])
+        slopes = OptimumSlopes(self.problem, self.unknowns)
+        return Multipliers(slopes.multipliers(), unique=slopes.has_unique_multipliers)
+
+    @property
+    def trace(self) -> Trace:
+        """The steps of the searches: objective, residual and step of each iteration.
+
+        Raises
+        ------
+        InvalidInputError : an orbit that was solved without ``trace=True``.
+        """
+        if "trace" not in self._record:
+            fix = "solve with wb.solve_orbit(problem, trace=True), or `wingbeat orbit --trace`"
+            raise InvalidInputError([Fault("orbit.trace", None, "was not kept", fix)])
+        return Trace(self._record["trace"], self._record["objective"])
+
     def _report(self) -> Report:
         return orbit_report(self._record)
 
@@ -301,6 +336,8 @@ def solve_orbit(
     seed: int = 0,
     progress: Progress | None = None,
     options: SolverOptions = DEFAULTS,
+    start: Orbit | Wingbeat | tuple[Wingbeat, State] | FilmedBeat | Mapping[str, float] | None = None,
+    trace: bool = False,
 ) -> Orbit:
     """Find and certify the periodic orbit that minimises an objective at a prescribed mean velocity.
 
@@ -313,14 +350,21 @@ def solve_orbit(
     problem : the orbit problem.
     starts : number of starts; more may find better optima. The default is 24 if the wingbeat's bounds differ from
         the species', or if the largest value of a series is minimised. In other cases, the default is 12 if the
-        objective or a limit is a quantity of the flown wingbeat. In all remaining cases it is 6.
+        objective or a limit is a quantity of the flown wingbeat. In all remaining cases it is 6. The default is 1
+        with `start`.
     seed : of the random starts; the same seed gives the same orbit.
     progress : called with (starts done, starts in all).
     options : every tuning number of the solvers, with the measurement behind it.
+    start : where the first search starts; the usual starts follow, if `starts` is more than 1 or if it leads to no
+        orbit. It is an orbit; a wingbeat, or a wingbeat and the state at phase 0; the fit of a film; or some of the
+        unknowns by name, SI and radians. ``record()["start"]`` says what was added or changed, and whether it
+        led to the result.
+    trace : keep objective, residual and step of each iteration, for `Orbit.trace`.
 
     Raises
     ------
-    InvalidInputError : starts or seed out of range.
+    InvalidInputError : starts or seed out of range; a start that is none of these, or is not finite; a call from
+        a function that JAX differentiates with respect to numbers of the problem (see `differentiable_optimum`).
 
     The condition is ``q(T) = q(0) + (U_x, U_z, 0, ...) T`` of Su et al. 2023
     (doi 10.48550/arXiv.2302.09602), certified by an independent adaptive flight at rtol 1e-10.
@@ -330,12 +374,18 @@ def solve_orbit(
     >>> orbit.status.value, max(abs(miss) for miss in orbit.record()["closure"].values()) < 1e-6
     ('converged', True)
     """
-    starts = start_count(problem, starts, options.search)
+    own = None
+    if isinstance(start, Orbit):
+        own = own_start(problem, (start.wingbeat, start.initial_state), "orbit")
+    elif start is not None:
+        own = own_start(problem, start)
+    starts = 1 if starts is None and own is not None else start_count(problem, starts, options.search)
     check_search(starts, seed)
     with ThreadPoolExecutor(1) as pool:
         if not flown_beat.loaded:  # read or compiled while the search goes on
             pool.submit(_load_record_programs, problem)
-        solution = find_orbit(problem, Settings(starts, seed, options=options), progress)
+        settings = Settings(starts, seed, options=options, start=own, trace=trace)
+        solution = find_orbit(problem, settings, progress)
     return Orbit.of(solution, starts, seed)
 
 

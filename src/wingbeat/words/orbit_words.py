@@ -61,6 +61,7 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
         "smallest single changes that give an orbit": [
             ("or" if i else "either", change["text"]) for i, change in enumerate(record.get("relaxations") or [])
         ],
+        "given start": start_rows(record.get("start")),
         "wingbeat": wingbeat_rows(record.get("wingbeat", {}), limited),
         "plausible ranges": plausible_rows(record.get("plausibility") or [], limited),
         "state at the top of the stroke": state_rows(record.get("initial_state", {})),
@@ -123,6 +124,15 @@ def plausible_rows(judged: list[dict[str, Any]], limited: Limited = _NONE) -> Ro
         why = ", set by the limit" if one["name"] in by else ", follows from a limit" if by else ""
         rows.append((called(one["name"]), f"{_number(one['value'], unit, factor)} ({known}{outside}{why})"))
     return rows
+
+
+def start_rows(start: dict[str, Any] | None) -> Rows:
+    """Return what the user's own start was, whether it led to the result, and what was changed or added."""
+    if start is None:
+        return []
+    led = {True: "to this orbit", False: "elsewhere: this result comes from another start", None: "not known"}
+    notes = [("and" if i else "note", note) for i, note in enumerate(start["notes"])]
+    return [("kind", start["kind"]), ("led", led[start["led_here"]]), *notes]
 
 
 def deficit_rows(deficits: list[dict[str, Any]]) -> Rows:

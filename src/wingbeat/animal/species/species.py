@@ -8,7 +8,21 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, cast
 
-from wingbeat._base import Block, FaultList, Line, Report, Reported, Row, Table, cf, for_people, plain_unit, suggest
+from wingbeat._base import (
+    TRACED,
+    Block,
+    FaultList,
+    Line,
+    Report,
+    Reported,
+    Row,
+    Table,
+    cf,
+    for_people,
+    is_traced,
+    plain_unit,
+    suggest,
+)
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.species.building import (
     BODY,
@@ -143,6 +157,9 @@ class Species(Reported):
         """
         faults, given = FaultList(), Numbers()
         for path, value in values.items():
+            if is_traced(value):
+                faults.add(path, value, *TRACED)
+                continue
             value = plain(value)
             key = settable(path, value, faults)
             if key is None or not has_shape(key.shape, value, path, faults):

@@ -24,11 +24,17 @@ def least_squares(
     lower: np.ndarray,
     upper: np.ndarray,
     options: LeastSquaresOptions,
+    note: Callable[[np.ndarray], None] | None = None,
 ) -> np.ndarray:
-    """Return the unknowns within bounds that minimise the sum of squares of residuals, which may diverge."""
+    """Return the unknowns within bounds that minimise the sum of squares of residuals, which may diverge.
+
+    `note` is called with the start and with each accepted step's end.
+    """
     here = np.clip(start, lower, upper)
     found = residuals(here)
     squares, used, growth = _squares(found), 1, options.growth
+    if note is not None:
+        note(here)
     curvature, gradient = _model(jacobian(here), found)
     damping = options.damping * _size(curvature)
     while used < options.evaluations and np.isfinite(damping):
@@ -46,6 +52,8 @@ def least_squares(
             continue
         last = gained <= options.tolerance * squares and gained > options.trusted * predicted
         here, squares = there, squares - gained
+        if note is not None:
+            note(here)
         if last:
             break
         curvature, gradient = _model(jacobian(here), found)

@@ -18,6 +18,8 @@ import numpy as np
 
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.orbits.flight.certificate import Certificate, certify
+from wingbeat.orbits.flight.period import CLOSURE_SCALE
+from wingbeat.orbits.nlp.programme import Step
 
 if TYPE_CHECKING:
     from wingbeat.orbits.nlp.transcription import Candidate, Transcription
@@ -225,6 +227,10 @@ def follow_to_certificate(programme: Transcription, newton: NewtonKKT, scaled: n
     updates = 0
     for tried in range(options.corrections):
         here = certified(programme, scaled)
+        if programme.steps is not None:
+            moved = float(np.abs(scaled - tries[-1].scaled).max()) if tries else 0.0
+            apart = size(here.residual / CLOSURE_SCALE)
+            programme.steps.append(Step("certificate", tried, programme.objective(scaled), apart, moved))
         if here.is_orbit(options.aimed_closure):
             return dataclasses.replace(here, reduced_hessian=newton.reduced_hessian)
         tries.append(here)
@@ -238,7 +244,7 @@ def follow_to_certificate(programme: Transcription, newton: NewtonKKT, scaled: n
         programme = programme.matched_to(scaled, here.certificate)
         if closes:
             # In a finer flight an active bound may become inactive, or another one active.
-            scaled = programme.optimise(scaled, options.iterations, options.tolerance)[0]
+            scaled = programme.optimise(scaled, options.iterations, options.tolerance, stage="correction")[0]
             newton = NewtonKKT(programme, scaled)
             updates += 1
         scaled = _optimum(programme, newton, scaled)
@@ -264,7 +270,9 @@ def _optimum(
     """Return the optimum near a point, from Newton's method or else from SLSQP."""
     options = programme.options.certificate
     found = newton.converge(programme, scaled, step_tolerance)
-    return programme.optimise(scaled, options.iterations, options.tolerance)[0] if found is None else found
+    if found is not None:
+        return found
+    return programme.optimise(scaled, options.iterations, options.tolerance, stage="correction")[0]
 
 
 def _fly(programme: Transcription, scaled: np.ndarray, *, rough: bool = False) -> tuple[Wingbeat, Certificate]:

@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy.optimize import minimize
 
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.orbits.flight.beat import Beat, highest_sample, peak_weights
 from wingbeat.orbits.flight.certificate import Certificate, certify, map_and_changes, monodromy
 from wingbeat.orbits.flight.period import CLOSURE_SCALE, Flown, StrokeLimits, flier, fly_part
 from wingbeat.orbits.flight.time_series import beat_reader, flown_beat
-from wingbeat.orbits.nlp.levenberg_marquardt import Values, least_squares, multiplier_residual
+from wingbeat.orbits.nlp.levenberg_marquardt import least_squares, multiplier_residual
+from wingbeat.orbits.nlp.programme import Programme
 from wingbeat.orbits.options import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.outputs import Outputs, Read
-from wingbeat.orbits.search_options import SearchOptions
 
 if TYPE_CHECKING:
     from wingbeat.orbits.problem.problem import OrbitProblem, Unknowns
@@ -42,63 +40,6 @@ class Point(NamedTuple):
     path_jacobian: np.ndarray
     outputs: np.ndarray
     outputs_jacobian: np.ndarray
-
-
-class _DivergedError(Exception):
-    """A local search has diverged."""
-
-
-class Programme:
-    """A nonlinear programme in scaled unknowns: least objective, closure 0, no negative inequality."""
-
-    lower: np.ndarray
-    upper: np.ndarray
-    closure: Values
-    closure_jacobian: Values
-    inequalities: Values
-    inequalities_jacobian: Values
-    objective: Callable[[np.ndarray], float]
-    objective_gradient: Values
-
-    def violation(self, scaled: np.ndarray) -> float:
-        """Return the largest violation of closure and inequalities, in the optimiser's scale."""
-        exceeded = np.maximum(-self.inequalities(scaled), 0.0)
-        return float(max(np.abs(self.closure(scaled)).max(), exceeded.max()))
-
-    def is_closed(self, scaled: np.ndarray, tolerance: float) -> bool:
-        """Return whether closure and inequalities hold, to a tolerance in the user's units."""
-        residual = np.abs(self.closure(scaled) * CLOSURE_SCALE).max()
-        return bool(residual <= tolerance and self.inequalities(scaled).min() >= -tolerance)
-
-    def optimise(
-        self, scaled: np.ndarray, iterations: int, tolerance: float, patience: SearchOptions | None = None
-    ) -> tuple[np.ndarray, bool]:
-        """Minimise the objective over closed orbits with SLSQP; return where it ended and whether it converged.
-
-        With `patience`, a search that diverges by its options ends where its violation was least.
-        """
-        nearest, least, flights = scaled, np.inf, 0
-
-        def closure(x: np.ndarray) -> np.ndarray:
-            nonlocal nearest, least, flights
-            away = self.violation(x)
-            if away < least:
-                nearest, least = x.copy(), away
-            flights += 1
-            if patience and flights >= patience.diverged_flights and least > patience.diverged_closure:
-                raise _DivergedError
-            return self.closure(x)
-
-        equal = {"type": "eq", "fun": closure if patience else self.closure, "jac": self.closure_jacobian}
-        within = {"type": "ineq", "fun": self.inequalities, "jac": self.inequalities_jacobian}
-        try:
-            start, bounds = np.clip(scaled, self.lower, self.upper), list(zip(self.lower, self.upper, strict=True))
-            how = {"method": "SLSQP", "options": {"maxiter": iterations, "ftol": tolerance}}
-            limits = {"bounds": bounds, "constraints": [equal, within]}
-            found = minimize(self.objective, start, jac=self.objective_gradient, **limits, **how)
-        except _DivergedError:
-            return np.clip(nearest, self.lower, self.upper), False
-        return np.clip(found.x, self.lower, self.upper), bool(found.status == 0)
 
 
 class Transcription(Programme):
@@ -156,6 +97,7 @@ class Transcription(Programme):
         """Return a copy without the correction, for a parallel local search; the copy keeps the cached flights."""
         other = self._corrected(*self._no_correction)
         other._points, other.certifying = dict(self._points), []
+        other.steps = None if self.steps is None else []
         return other
 
     def _corrected(self, anchor: np.ndarray, by: Point) -> Transcription:
@@ -433,4 +375,5 @@ def restore_feasibility(programme: Transcription, scaled: np.ndarray) -> np.ndar
         return np.concatenate([programme.closure_jacobian(x), exceeded * programme.inequalities_jacobian(x)])
 
     options = programme.options.search.restoration
-    return least_squares(residuals, jacobian, scaled, programme.lower, programme.upper, options)
+    limits, note = (programme.lower, programme.upper), programme.noting("restoration")
+    return least_squares(residuals, jacobian, scaled, *limits, options, note)

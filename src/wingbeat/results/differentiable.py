@@ -7,6 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import numpy as np
+from jax.core import Tracer
 
 from wingbeat._base import Fault, FaultList, InvalidInputError, suggest
 from wingbeat._jax.arrays import jax, jnp
@@ -29,6 +30,12 @@ class DifferentiableOptimum:
     ----------
     parameters : names of the numbers that it takes, as in ``--set``.
     at : their values in the orbit's problem, shape (P,).
+
+    >>> import wingbeat as wb
+    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0), starts=1)
+    >>> frequency = wb.differentiable_optimum(orbit, "body.mass")
+    >>> frequency.parameters, round(float(frequency(frequency.at)), 1)
+    (('body.mass',), 9.5)
     """
 
     def __init__(
@@ -74,7 +81,7 @@ class DifferentiableOptimum:
                 with ThreadPoolExecutor(1) as pool:
                     return np.asarray(pool.submit(function, np.asarray(held, dtype=float)).result(), dtype)
 
-            if not isinstance(values, jax.core.Tracer):
+            if not isinstance(values, Tracer):
                 return jnp.asarray(call(values))
             result = jax.ShapeDtypeStruct(of, dtype)
             return jax.pure_callback(call, result, values, vmap_method="sequential")

@@ -6,11 +6,12 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from wingbeat._base import Line, Report, Reported, Row, Table, plain_unit
-from wingbeat.orbits.uncertainty import Multiplier
 from wingbeat.records.tables import table_of
 
 if TYPE_CHECKING:
     import pandas as pd
+
+    from wingbeat.orbits.uncertainty import Multiplier
 
 
 class Trace(Reported):

@@ -17,6 +17,7 @@ from wingbeat._base import (
     find,
     for_people,
     in_words,
+    plain_unit,
     written,
     written_range,
 )
@@ -79,7 +80,8 @@ def _measured(beside: dict[str, Any]) -> list[Block]:
     blocks: list[Block] = []
     for quantity in dict.fromkeys(point["quantity"] for point in beside["points"]):
         points = [point for point in beside["points"] if point["quantity"] == quantity]
-        unit, name = ("Hz" if quantity == "frequency" else "W"), quantity.replace("_", " ")
+        unit = plain_unit("frequency" if quantity == "frequency" else "metabolic_power")
+        name = quantity.replace("_", " ")
         against = _AGAINST.get(quantity, "")
         title = f"{beside['file']}: measured {name} [{unit}]{against}"
         blocks += [Line(""), Line(title, tone="title")]

@@ -34,7 +34,7 @@ def test_a_unit_that_does_not_fit_is_a_fault(heading, wanted):
         ("LabVIEW Measurement\t\nSeparator\tTab\n", "LabVIEW"),
         ("ATI DAQ FT.NET log\nCalibration,FT1.cal\n", "a log of an ATI force sensor"),
         ("Log of Monday\nCalibration,FT12345.cal\nTime,Fx,Fy\n", "a log of an ATI force sensor"),
-        ("Time,Fx,Fy,Fz,Tx,Ty,Tz\n0,1,2,3,4,5,6\n", "the axes Fx, Fy, Fz; write .* normal_force"),
+        ("Time,Fx,Fy,Fz,Tx,Ty,Tz\n0,1,2,3,4,5,6\n", "the axes Fx, Fy, Fz; wingbeat reduce reads it"),
         ("scorer,DLC,DLC\nbodyparts,tip,tip\ncoords,x,y\n", "DeepLabCut; wingbeat reads angles"),
         ("pt1_X,pt1_Y,pt1_Z\n1,2,3\n", "DLTdv"),
         ("tip_x,tip_y,tip_z,tip_error,tip_ncams,fnum\n", "Anipose"),

@@ -98,7 +98,7 @@ def asked(solved: Solved, monkeypatch: pytest.MonkeyPatch) -> list[Any]:
     """Whatever is asked for, the orbit at hand is the answer; what was asked for is listed here."""
     questions: list[Any] = []
 
-    def answer(*question: Any) -> wb.Orbit:
+    def answer(*question: Any, **_: Any) -> wb.Orbit:
         questions.extend(question)
         return wb.load_orbit(solved.folder / "orbit.nc")
 
@@ -279,7 +279,7 @@ def test_an_infeasible_problem_exits_with_3(
 
 
 def test_an_interrupt_leaves_the_old_files(run: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def stop(*_: Any) -> None:
+    def stop(*_: Any, **__: Any) -> None:
         assert sorted(path.name for path in tmp_path.iterdir()) == ["orbit.nc", "page.pdf"]
         raise KeyboardInterrupt
 

@@ -248,6 +248,19 @@ def test_all_bad_settings_are_told_at_once(run: Any) -> None:
     assert (code, len(errors)) == (2, 1)
 
 
+def test_faults_of_alternative_settings_and_air_are_told_at_once_by_their_options(run: Any) -> None:
+    """`species` once stopped at the first of these, and named `altitude`, which is no option."""
+    words = ("--alternative", "x", "--set", "wing.mass=y", "air.density=1", "--altitude", "20000")
+    code, out, errors = run("species", "pigeon", *words)
+    assert (code, out, len(errors)) == (2, "", 4)
+    assert errors[0].startswith("error: alternative = 'x'")
+    assert errors[2] == "error: --set = 'air.density=1': is what --altitude sets; keep one of them"
+    assert errors[3].startswith("error: --altitude = 20000.0: must be >= -500 and <= 9000 m")
+    code, out, errors = run("species", "pigeon", "--altitude", "2000", "--set", "air.gravity=9.8", "--json")
+    assert (code, errors) == (0, [])
+    assert json.loads(out)["air"]["density"] == pytest.approx(1.0065, abs=1e-4)
+
+
 def test_markup_in_a_file_is_text(run: Any, tmp_path: Path) -> None:
     path = tmp_path / "x.toml"
     path.write_text(template().replace('name = "my-flyer"', 'name = "[bold]:bat:[/x]"'))

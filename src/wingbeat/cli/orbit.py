@@ -25,7 +25,7 @@ from wingbeat.cli.arguments import (
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import answer, print_json, print_report, progress_bar
 from wingbeat.orbits.options import Status
-from wingbeat.orbits.problem.filmed import filmed_problem, filmed_species, trim_of
+from wingbeat.orbits.problem.filmed import filmed_problem, trimmed
 from wingbeat.orbits.problem.quantities import WingbeatLimit
 from wingbeat.records.numbers import power_account
 from wingbeat.results.optimum import trace_report
@@ -52,8 +52,8 @@ def orbit(
         str | None,
         option(
             "Quantity to minimise: frequency, power, positive-power, peak-power, cost-of-transport, "
-            "peak-flap-torque, body-pitch-range, metabolic-power, ...; default that of the model, "
-            "or positive-power if a film gives the frequency."
+            "peak-flap-torque, body-pitch-range, metabolic-power, ...; default that of the model, or with "
+            "--model paper positive-power if a film gives the frequency."
         ),
     ] = None,
     subject_to: Annotated[
@@ -145,9 +145,8 @@ def orbit(
         else:
             beat = filmed.filmed_beat(kinematics, side)
             if model.model == "animal":
-                free, reach = trim_of(beat, animal)
-                asked |= {"free": free, "bounds": reach | asked["bounds"], "wings_may_cross": True}
-                problem = whole.problem(filmed_species(beat, animal), speed, **asked)
+                animal, free, asked = trimmed(beat, animal, asked)
+                problem = whole.problem(animal, speed, free=free, **asked)
             else:
                 problem = filmed_problem(beat, animal, speed, aero=whole.aero, **asked)
     fit = model.fit()

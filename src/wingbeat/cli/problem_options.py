@@ -194,8 +194,21 @@ def with_settings(
 ) -> Species:
     """Return a species with the numbers of ``--set``, a payload and the air of an altitude.
 
-    All faults are reported at once. Standard error says which air an altitude gives, and if only a density is set.
+    Standard error says which air an altitude gives, and if only a density is set.
     """
+    species = changed(species, settings, altitude, temperature)
+    if altitude is not None or temperature is not None:
+        print(f"note: {species.numbers['air.density'].source}: {air_in_words(vars(species.air))}", file=sys.stderr)
+    for warning in species.warnings:
+        if warning.startswith(DENSITY_ALONE):
+            print(f"warning: {warning}", file=sys.stderr)
+    return species.with_payload(payload)
+
+
+def changed(
+    species: Species, settings: list[str] | None, altitude: float | None = None, temperature: float | None = None
+) -> Species:
+    """Return a species with the numbers of ``--set`` and the air of an altitude; report all faults at once."""
     values, faults = {}, FaultList()
     above = {"--altitude": altitude, "--temperature": temperature}
     above = {name: value for name, value in above.items() if value is not None}
@@ -223,13 +236,7 @@ def with_settings(
         except InvalidInputError as error:
             faults.faults += [dataclasses.replace(fault, where=f"--{fault.where}") for fault in error.faults]
     faults.raise_if_any()
-    if above:
-        print(f"note: {species.numbers['air.density'].source}: {air_in_words(vars(species.air))}", file=sys.stderr)
-    species = species.with_values(values) if values else species
-    for warning in species.warnings:
-        if warning.startswith(DENSITY_ALONE):
-            print(f"warning: {warning}", file=sys.stderr)
-    return species.with_payload(payload)
+    return species.with_values(values) if values else species
 
 
 # --- saved orbits ---

@@ -45,37 +45,33 @@ def show(
         return
 
     from wingbeat.animal.species.making import load_species
-    from wingbeat.animal.species.reading import parse_setting, species_names
+    from wingbeat.animal.species.reading import species_names
 
-    faults, values = FaultList(), {}
+    faults = FaultList()
     if name is None:
         changes = {"--alternative": alternative, "--set": set_ or None, "--altitude": altitude}
         changes |= {"--temperature": temperature}
-        if option := next((option for option, value in changes.items() if value is not None), None):
-            faults.add(option, "no species", "needs a species to change", f"wingbeat species pigeon {option} ...")
+        if given := [each for each, value in changes.items() if value is not None]:
+            fix = f"wingbeat species pigeon {given[0]} ..."
+            faults.add(given[0], "no species", "needs a species to change", fix)
         faults.raise_if_any()
         everyone = [load_species(each) for each in species_names()]
         print_json([_summary(each) for each in everyone]) if json else _print_list(everyone)
         return
     chosen = load_species(name)
-    in_air = altitude is not None or temperature is not None
     if alternative is not None:
-        chosen = chosen.with_alternative(alternative)
-    for text in set_ or []:
         try:
-            path, value = parse_setting(text)
+            chosen = chosen.with_alternative(alternative)
         except InvalidInputError as error:
             faults.faults += error.faults
-            continue
-        if path in values:
-            faults.add(path, value, "is given twice", "keep one of the two")
-        if in_air and path in ("air.density", "air.viscosity"):
-            faults.add("--set", text, "is what --altitude and --temperature set too", "keep one of them")
-        values[path] = value
+    if any(value is not None for value in (set_, altitude, temperature)):
+        from wingbeat.cli.problem_options import changed  # slow to import
+
+        try:
+            chosen = changed(chosen, set_, altitude, temperature)
+        except InvalidInputError as error:
+            faults.faults += error.faults
     faults.raise_if_any()
-    if in_air:
-        chosen = chosen.at_altitude(altitude or 0.0, temperature)
-    chosen = chosen.with_values(values)
     if json:
         print_json(chosen.as_dict())
     else:
@@ -104,12 +100,12 @@ def new(
 
     faults, size = FaultList(), {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
     for key, value in size.items():
-        option = f"--{key.replace('_', '-')}"
+        flagged = f"--{key.replace('_', '-')}"
         if kind is None and value is not None:
             rule = "needs the kind of animal, which sets the scaling laws"
-            faults.add(option, value, rule, "add --kind bird, bat or robot")
+            faults.add(flagged, value, rule, "add --kind bird, bat or robot")
         elif kind is not None and value is None:
-            faults.add(option, None, "must be given", f"the scaling laws of a {kind} need mass, span and area")
+            faults.add(flagged, None, "must be given", f"the scaling laws of a {kind} need mass, span and area")
     faults.raise_if_any()
     if kind is None:
         text = template()

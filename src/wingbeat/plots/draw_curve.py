@@ -26,6 +26,7 @@ from wingbeat._base.style import (
 from wingbeat.experiment.flights_file import FlightPoints
 from wingbeat.plots.published import Published
 from wingbeat.records.characteristic import best_line, characteristic_speeds
+from wingbeat.records.measured import COMPARED
 from wingbeat.words.curve_words import speed_in_words, speed_label
 
 if TYPE_CHECKING:
@@ -80,7 +81,7 @@ def curve_page(
     metabolic = own if minimised == "metabolic_power" else "metabolic_power"
     if measured is not None and "metabolic_power" in measured.values and metabolic not in panels:
         panels.insert(-1, metabolic)
-    places = {"frequency": "frequency", "mechanical_power": "mean_positive_power", "metabolic_power": metabolic}
+    places = COMPARED | {"metabolic_power": metabolic}
     # From 0 on, where the tangent of greatest range starts, unless that leaves much of the panel empty.
     start = 0.0 if speed[0] < _MOST_EMPTY * speed[-1] else speed[0]
     least, most = start, speed[-1]

@@ -85,7 +85,7 @@ def trace_report(steps: Sequence[Mapping[str, Any]], objective: str) -> Report:
 
 
 class Multipliers(Reported):
-    """Lagrange multipliers of an optimum; `Orbit.multipliers` returns it.
+    """Lagrange multipliers of an optimum; `Orbit.multipliers` returns it. Floquet multipliers are in the record.
 
     Each is the derivative of the least objective by the right-hand side of its condition, in the objective's unit
     per unit of the condition: of closure, by a prescribed miss, ``q(T) - q(0) - (U_x, U_z, 0, ...) T = miss``; of a

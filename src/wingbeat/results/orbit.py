@@ -234,7 +234,7 @@ class Orbit(Saveable, Reported):
 
     @functools.cached_property
     def multipliers(self) -> Multipliers:
-        """Lagrange multipliers of closure, active bounds and limits; `Multipliers` states their signs and units.
+        """Lagrange, not Floquet, multipliers of closure, active bounds and limits, as `Multipliers` says.
 
         Raises
         ------

@@ -23,7 +23,7 @@ from wingbeat.stability.options import (
     noise_of,
     weights_of,
 )
-from wingbeat.stability.reports import feedback_report
+from wingbeat.stability.reports import feedback_report, pairs
 from wingbeat.stability.riccati import (
     Reach,
     check_reach,
@@ -179,7 +179,7 @@ class Feedback(Reported):
             "cost": self.cost.tolist(),
             "lower": dict(zip(self.inputs, self.lower.tolist(), strict=True)),
             "upper": dict(zip(self.inputs, self.upper.tolist(), strict=True)),
-            "multipliers": [[value.real, value.imag] for value in self.multipliers.astype(complex).tolist()],
+            "multipliers": pairs(self.multipliers),
             "spectral_radius": self.spectral_radius,
             "open_loop": {
                 "multipliers": [[m.multiplier.real, m.multiplier.imag] for m in flight.modes],

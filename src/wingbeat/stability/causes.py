@@ -16,7 +16,7 @@ from wingbeat.orbits.problem.quantity import MAP_QUANTITIES, MapQuantity
 from wingbeat.plots.draw_influences import tornado_page
 from wingbeat.records.tables import table_of
 from wingbeat.results.sensitivities import Sensitivities, sensitivities
-from wingbeat.stability.reports import causes_report
+from wingbeat.stability.reports import causes_report, pairs
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -82,7 +82,7 @@ class StabilitySensitivities(Reported):
         found = self.sensitivities
         return {
             "spectral_radius": self.spectral_radius,
-            "multipliers": _pairs(self.multipliers),
+            "multipliers": pairs(self.multipliers),
             "parameters": [
                 {
                     "parameter": slope.parameter.path,
@@ -91,7 +91,7 @@ class StabilitySensitivities(Reported):
                     "plausible": None if slope.parameter.plausible is None else list(slope.parameter.plausible),
                     "spectral_radius": slope.quantities[_RADIUS.name],
                     "change_to_ends": list(found.swing(slope, _RADIUS.name)),
-                    "multipliers": _pairs(self.by_parameter[slope.parameter.path]),
+                    "multipliers": pairs(self.by_parameter[slope.parameter.path]),
                 }
                 for slope in found.ranked(_RADIUS.name)
             ],
@@ -145,7 +145,3 @@ def multiplier_slopes(stroke_map: np.ndarray, change: np.ndarray) -> np.ndarray:
 
 def _matrix(entries: dict[str, float]) -> np.ndarray:
     return np.reshape([entries[one.name] for one in _ENTRIES], (4, 4))
-
-
-def _pairs(values: np.ndarray) -> list[list[float]]:
-    return [[one.real, one.imag] for one in values.astype(complex).tolist()]

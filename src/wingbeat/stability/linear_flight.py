@@ -25,7 +25,7 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.plots.draw_stability import stability_page
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.stability.inputs import Compensation, compensation, smooth_ones
-from wingbeat.stability.options import LINEAR, LinearOptions, check_certified, check_inputs
+from wingbeat.stability.options import FLIGHT_STATE, LINEAR, LinearOptions, check_certified, check_inputs
 from wingbeat.stability.reports import linear_report, mode_report
 
 if TYPE_CHECKING:
@@ -370,7 +370,7 @@ def linearise(
     rows = slice(0 if height else 1, None)
     return LinearFlight(
         orbit,
-        ("z", *PITCH_STATE)[rows],
+        FLIGHT_STATE[rows],
         names,
         flown.by_state[rows, rows],
         by_inputs[rows],

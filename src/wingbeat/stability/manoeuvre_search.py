@@ -17,12 +17,12 @@ from scipy.sparse.linalg import splu
 from wingbeat.animal.kinematics import Wingbeat, parameter
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import fly_through
-from wingbeat.orbits.flight.period import PITCH_STATE, flier
+from wingbeat.orbits.flight.period import flier
 from wingbeat.orbits.options import Status
 from wingbeat.results.orbit import solve_orbit
 from wingbeat.stability.inputs import changed_wingbeat, parameters_and_slopes, smoother
 from wingbeat.stability.linear_flight import linearise
-from wingbeat.stability.options import ManoeuvreOptions
+from wingbeat.stability.options import FLIGHT_STATE, ManoeuvreOptions
 
 if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit
@@ -100,7 +100,7 @@ class BeatMap:
 def scales_of(beat: BeatMap, options: ManoeuvreOptions) -> tuple[np.ndarray, np.ndarray]:
     """Return the scales of the state and the units of the inputs."""
     feedback = options.feedback
-    scales = np.array([feedback.scale(name) for name in ("z", *PITCH_STATE)])
+    scales = np.array([feedback.scale(name) for name in FLIGHT_STATE])
     return scales, np.array([feedback.unit(name) for name in beat.inputs])
 
 

@@ -20,11 +20,10 @@ from wingbeat.aero.winds import CosineGust, Wind
 from wingbeat.animal.kinematics import Wingbeat, unpack
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.mechanics.flights import air_at, check_wind, fly_beat_in_steps, fly_through
-from wingbeat.orbits.flight.period import PITCH_STATE
 from wingbeat.plots.draw_stability import survey_page
 from wingbeat.stability.beat_feedback import Feedback, feedback
 from wingbeat.stability.inputs import Compensation, Smoother, parameters_of, smoother
-from wingbeat.stability.options import MANY, MOST_DELAY, ManyOptions, check_certified, noise_of
+from wingbeat.stability.options import FLIGHT_STATE, MANY, MOST_DELAY, ManyOptions, check_certified, noise_of
 from wingbeat.stability.reports import survey_report
 from wingbeat.stability.segment_feedback import SegmentFeedback, bump_parameters
 
@@ -117,7 +116,6 @@ def fly_held(
     return states, times, commands, largest
 
 
-_STATE = ("z", *PITCH_STATE)
 # Shortest and longest gust, and the time in which it may begin [beats].
 _DURATION = (1.0, 8.0)
 _BEGIN = 1.0
@@ -211,7 +209,7 @@ def simulate_many(
     if isinstance(feedback, SegmentFeedback) and late:
         faults.add("late", late, "is not known to feedback within a beat", "give 0, or feedback from beat to beat")
     faults.raise_if_any()
-    deviations = noise_of(noise, _STATE, seed)
+    deviations = noise_of(noise, FLIGHT_STATE, seed)
     lanes = min(options.lanes, len(winds)) if len(winds) < 8 else options.lanes
     hold, names = _hold(orbit, feedback, options.steps)
     place = np.array(orbit.initial_state, dtype=float), np.array(float(orbit.inputs["climb"]))
@@ -219,7 +217,7 @@ def simulate_many(
     slower = 0.0 if isinstance(feedback, SegmentFeedback) else min([0.0, *hold.lower.tolist()])
     random, found = np.random.default_rng(seed), []
     for air in _tables(orbit, winds, beats, slower, lanes, options.air_samples):
-        measured = deviations[:, None] * random.standard_normal((beats, len(hold.gains), len(_STATE), lanes))
+        measured = deviations[:, None] * random.standard_normal((beats, len(hold.gains), len(FLIGHT_STATE), lanes))
         found.append(fly(air, 1.0 / (options.air_samples * orbit.wingbeat.frequency), measured))
     states, time, changes, pitch = (
         np.concatenate([np.moveaxis(part[i], -1, 0) for part in found])[: len(winds)] for i in range(4)
@@ -239,7 +237,7 @@ def _hold(orbit: Orbit, feedback: Feedback | SegmentFeedback | None, steps: int)
     path[0, 1:] = start[2:]
     inputs: tuple[str, ...] = ()
     harmonics, delay = Compensation((), np.zeros((0, 0))), 0
-    gains, limits, shares = np.zeros((1, 0, len(_STATE))), (np.zeros(0), np.zeros(0)), np.zeros((0, 0))
+    gains, limits, shares = np.zeros((1, 0, len(FLIGHT_STATE))), (np.zeros(0), np.zeros(0)), np.zeros((0, 0))
     if isinstance(feedback, SegmentFeedback):
         gains, ends, path = feedback.gains, feedback.phases, feedback.path[:-1]
         inputs, shares = bump_parameters(len(gains))

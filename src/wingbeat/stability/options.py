@@ -12,8 +12,11 @@ import numpy as np
 from wingbeat._base import SHARES, FaultList, InvalidInputError, suggest
 from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.animal.vehicle import Vehicle
+from wingbeat.orbits.flight.period import PITCH_STATE
 from wingbeat.orbits.options import Status
 from wingbeat.orbits.search_options import Options
+
+FLIGHT_STATE = ("z", *PITCH_STATE)  # what a flight returns to after a beat, and feedback measures: all but x
 
 
 @dataclass(frozen=True)

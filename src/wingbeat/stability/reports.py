@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import numpy as np
+
 from wingbeat._base import Line, Report, Row, Table, grouped
 from wingbeat.animal.kinematics import ANGLES
 
@@ -148,3 +150,8 @@ def manoeuvre_report(record: dict[str, Any]) -> Report:
         Table(tuple(rows), ("to [m/s]", "beats", "f [Hz]", "least f [Hz]"), "rrrr"),
         *([Line(f"{record['time'][-1]:.2f} s, {record['distance']:.1f} m")] if len(record["time"]) > 1 else []),
     ]
+
+
+def pairs(values: np.ndarray) -> list[list[float]]:
+    """Return complex numbers as pairs of real and imaginary part, fit for JSON."""
+    return [[one.real, one.imag] for one in values.astype(complex).tolist()]

@@ -17,8 +17,8 @@ from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat, parameter, stroke_phase, with_parameters
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import air_at, air_phases, check_wind, fly_through
-from wingbeat.orbits.flight.period import PITCH_STATE, flier
-from wingbeat.stability.options import FEEDBACK, FeedbackOptions, check_certified
+from wingbeat.orbits.flight.period import flier
+from wingbeat.stability.options import FEEDBACK, FLIGHT_STATE, FeedbackOptions, check_certified
 from wingbeat.stability.riccati import multipliers_over, periodic_linear_quadratic
 
 if TYPE_CHECKING:
@@ -159,7 +159,7 @@ def feedback_in_beat(orbit: Orbit, segments: int = 4, *, options: FeedbackOption
     faults.whole("segments", segments, 2, HIGHEST_ORDER, "4 for example")
     faults.raise_if_any()
     phases, path, by_state, by_bumps = _segment_maps(orbit, segments, options.linear.blocks)
-    scales = np.array([options.scale(name) for name in ("z", *PITCH_STATE)])
+    scales = np.array([options.scale(name) for name in FLIGHT_STATE])
     costs = np.diag(1.0 / scales**2), np.eye(len(_LAWS)) / options.angle**2
     gains = periodic_linear_quadratic(by_state, by_bumps, *costs)
     return SegmentFeedback(orbit, phases, path, by_state, by_bumps, gains, options.reach * options.angle)

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import wingbeat as wb
 from tests.helpers.species_texts import faults_of
-from wingbeat.animal.species import scaling
+from wingbeat.animal.species import deriving, scaling
 from wingbeat.animal.species.building import DERIVED
 from wingbeat.animal.species.writing import species_text
 
@@ -182,6 +182,22 @@ def test_bounds_of_frequency_grow_as_animals_shrink() -> None:
     assert known.bounds["frequency"] == (2.0, 6.0)
     assert "frequency" not in known.guessed_bounds
     assert "frequency" in wb.robot(**SIZE).guessed_bounds
+
+
+@pytest.mark.parametrize("make", MAKERS.values())
+def test_the_air_of_a_derived_animal_is_that_of_whoever_names_none(make: Any) -> None:
+    """The numbers of standard air stand in `deriving.toml` and in `Air`; they must not part."""
+    assert make(**SIZE).air == wb.Air()
+
+
+def test_a_fault_of_the_stock_numbers_is_not_swallowed(monkeypatch: pytest.MonkeyPatch, tmp_path: Any) -> None:
+    """A misspelt number of `deriving.toml` would be left out without a word."""
+    path = tmp_path / "deriving.toml"
+    path.write_text(deriving._FILE.read_text().replace("\ndensity =", "\ndensty ="))
+    monkeypatch.setattr(deriving, "_FILE", path)
+    with pytest.raises(wb.InvalidInputError) as caught:
+        deriving._stock.__wrapped__()
+    assert [fault.where for fault in caught.value.faults] == ["air.densty"]
 
 
 def test_odd_sizes_draw_a_warning() -> None:

@@ -5,6 +5,7 @@ What is the same for all animals, or for all of a kind, stands in `deriving.toml
 
 from __future__ import annotations
 
+import functools
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,8 +17,6 @@ from wingbeat.animal.species.reading import read_species_text
 from wingbeat.animal.species.scaling import Law
 
 _FILE = Path(__file__).with_suffix(".toml")
-# The faults of the file are the numbers that it lacks, which laws give.
-_STOCK = read_species_text(_FILE.read_text(encoding="utf-8"), _FILE.name, "", FaultList())
 _SPEED = 7.0  # m/s, of a bat's stock wingbeat: in the middle of the speeds that the law's spread covers
 # Bounds of the frequency in a search. Two frequencies determine them: the stock one, and that of the cruising law
 # of birds, which depends on size, weight and air. The lower bound is the first factor times the lower frequency;
@@ -76,6 +75,16 @@ ROBOT = Kind(
 )
 
 
+@functools.cache
+def _stock() -> SpeciesText:
+    """Return the content of `deriving.toml`, in which nothing may be wrong but what it lacks and laws give."""
+    faults = FaultList()
+    stock = read_species_text(_FILE.read_text(encoding="utf-8"), _FILE.name, "", faults)
+    faults.faults = [fault for fault in faults.faults if fault.rule != "must be given"]
+    faults.raise_if_any()
+    return stock
+
+
 def plausible_of(kind: Kind, mass: float, chord: float, viscosity: float) -> dict[str, Range]:
     """Return the plausible ranges for an animal of this mass [kg], mean chord [m] and air viscosity [m2/s].
 
@@ -94,7 +103,7 @@ def plausible_of(kind: Kind, mass: float, chord: float, viscosity: float) -> dic
     slowest, fastest = cruise.range or (0.0, math.inf)
     whose = "; birds, no law of bats was found" if kind is BAT else ""
     law = f"{scaling.CRUISE_BY_MASS.formula} = {cruise.value:.3g} m/s, {scaling.CRUISE_BY_MASS.source}{whose}"
-    found = dict(_STOCK.plausible)
+    found = dict(_stock().plausible)
     power = found["positive_power_per_mass"]
     assert power.high is not None
     found["positive_power_per_mass"] = power._replace(
@@ -116,7 +125,8 @@ def derive(
     The bounds of the wingbeat frequency are `frequencies` [Hz], or wide ones around the stock frequency.
     """
     numbers = content.numbers
-    found = _STOCK.numbers | _STOCK.alternatives[kind.name].numbers | _vehicle(kind, numbers, mass, span, area)
+    stock = _stock()
+    found = stock.numbers | stock.alternatives[kind.name].numbers | _vehicle(kind, numbers, mass, span, area)
     air = [single(numbers.get(path, found[path])) for path in ("air.density", "air.gravity")]
     if kind is BAT:
         frequency, amplitude = bat_beat(mass, area)
@@ -141,8 +151,8 @@ def derive(
             True,
         )
     )
-    content.free, content.path = {"frequency": bound} | _STOCK.free, dict(_STOCK.path)
-    content.written = _STOCK.written | {"frequency": ("free.frequency", list(bound.bounds))}
+    content.free, content.path = {"frequency": bound} | stock.free, dict(stock.path)
+    content.written = stock.written | {"frequency": ("free.frequency", list(bound.bounds))}
     content.plausible = plausible_of(kind, mass, area / span, single(numbers["air.viscosity"]))
     drag, rigid = Numbers(), Numbers()
     drag["vehicle.body.drag_area"] = scaling.BODY_DRAG_AREA.number(mass)

@@ -74,6 +74,17 @@ def trim_of(beat: Filmed, species: Species) -> tuple[tuple[str, ...], dict[str, 
     return tuple(free), bounds
 
 
+def trimmed(
+    beat: Filmed, species: Species, asked: dict[str, Any]
+) -> tuple[Species, tuple[str, ...], dict[str, Any]]:
+    """Return filmed species, free parameters and other arguments of `OrbitProblem`, with those asked for."""
+    free, bounds = trim_of(beat, species)
+    # The filmed stroke is fixed, so a limit could not keep the wings apart. An orbit whose wings cross draws a
+    # warning.
+    more = {"wings_may_cross": True} | asked | {"bounds": bounds | asked.get("bounds", {})}
+    return filmed_species(beat, species), free, more
+
+
 def filmed_problem(beat: Filmed, species: Species, speed: float, **more: Any) -> OrbitProblem:
     """Return the orbit problem that trims a filmed wingbeat for flight at a speed.
 
@@ -95,11 +106,7 @@ def filmed_problem(beat: Filmed, species: Species, speed: float, **more: Any) ->
     >>> wb.filmed_problem(wb.experiment.fit_film(film), pigeon, speed=10.0).free
     ('pitch_mean', 'pitch_amplitude')
     """
-    free, bounds = trim_of(beat, species)
+    own, free, more = trimmed(beat, species, more)
     if "frequency" not in free:
         more.setdefault("minimise", "mean_positive_power")
-    bounds |= more.pop("bounds", {})
-    # The filmed stroke is fixed, so a limit could not keep the wings apart. An orbit whose wings cross draws a
-    # warning.
-    more.setdefault("wings_may_cross", True)
-    return OrbitProblem(filmed_species(beat, species), speed, free=free, bounds=bounds, **more)
+    return OrbitProblem(own, speed, free=free, **more)

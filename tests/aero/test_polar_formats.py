@@ -69,6 +69,40 @@ def test_a_moment_about_the_quarter_chord_becomes_a_centre_of_pressure():
     assert wing.used_range_deg == (-180, 180)
 
 
+def test_moments_of_angles_from_0_to_355_are_turned_with_their_own_angle(tmp_path):
+    """The rows are sorted to -180 to 175; the moment of each must be moved by the forces at its own angle."""
+    head, _, body = (CASES / "aerodyn.dat").read_text().partition("    -180.00 ")
+    rows = np.array([line.split() for line in f"-180 {body}".splitlines()], dtype=float)
+    turned = rows[1:]  # -180 degrees repeats 180
+    turned[:, 0] %= 360
+    turned = turned[np.argsort(turned[:, 0])]
+    text = "".join(f"{' '.join(map(str, row))}\n" for row in turned.tolist())
+    path = written(tmp_path, head.replace("73   NumAlf", "72   NumAlf") + text, "turned.dat")
+    whole, found = load_measurements(CASES / "aerodyn.dat"), load_measurements(path)
+    assert "angles from 0 to 355 degrees are read as -180 to 180" in found.notes
+    assert found.alpha_deg == pytest.approx(whole.alpha_deg[1:])
+    assert found.mean["C_M"] == pytest.approx(whole.mean["C_M"][1:], abs=1e-12)
+    at = np.radians(np.arange(-170, 171, 10.0))
+    wings = [load_coefficients(str(one)) for one in (CASES / "aerodyn.dat", path)]
+    assert wings[1].centre_of_pressure(at) == pytest.approx(wings[0].centre_of_pressure(at), abs=1e-9)
+
+
+@pytest.mark.parametrize("form", ["xfoil.txt", "aerodyn.dat", "AeroDyn 14", "QBlade"])
+def test_exponents_of_fortran_are_read(form, tmp_path):
+    """Fortran writes 3.0D-02 for 0.03, which Python does not read."""
+    text = {"AeroDyn 14": AERODYN14, "QBlade": QBLADE}.get(form) or (CASES / form).read_text()
+    rows = r"(?m)^ *-?\d+(?:\.\d+)?(?: +-?\d+\.\d+){3,}"
+    spelled = re.sub(rows, lambda row: re.sub(r"(-?\d+\.\d+)", r"\1D+00", row[0]), text)
+    assert spelled.count("D+00") > 20
+    spelled = re.sub(r"0\.050 +e 6", "0.050D+06", spelled)
+    name = "a.plr" if form == "QBlade" else "a.txt"
+    plain, found = (load_measurements(written(tmp_path, one, name)) for one in (text, spelled))
+    assert found.alpha_deg == pytest.approx(plain.alpha_deg)
+    np.testing.assert_array_equal(found.columns().get("reynolds"), plain.columns().get("reynolds"))
+    for quantity in plain.mean:
+        assert found.mean[quantity] == pytest.approx(plain.mean[quantity])
+
+
 def test_a_circle_from_0_to_355_is_closed_and_used_as_it_is():
     wing = load_coefficients(str(CASES / "full_circle_0_355.csv"))
     rows = np.loadtxt(CASES / "full_circle_0_355.csv", delimiter=",", skiprows=1)
@@ -224,6 +258,9 @@ BROKEN = {
     "no viscosity": (XFOIL.replace("0.050 e 6", "0.000 e 6"), "a polar without viscosity"),
     "NumAlf": ((CASES / "aerodyn.dat").read_text().replace("73   NumAlf", "74   NumAlf"), "states 1 rows more"),
     "Re in units": ((CASES / "aerodyn.dat").read_text().replace("0.050   Re", "50000   Re"), "write 0.05"),
+    "points in Re": (XFOIL.replace("0.050 e 6", "50.000.000"), "is no Reynolds number; write plain digits"),
+    "points in Mach": (XFOIL.replace("Mach =   0.000", "Mach =   0.0.0"), "is not a number; write one number"),
+    "points in Ncrit": (XFOIL.replace("Ncrit =   9.000", "Ncrit =   9.0.0"), "is not a number; write one number"),
     "comma in Re": (
         (CASES / "airfoil_site.csv").read_text().replace("number,50000", "number,50,000"),
         "two numbers",

@@ -41,7 +41,7 @@ _PROGRAMS = {
     "XFOIL": r"(?i)^\s*xfoil\b|calculated polar for|^\s*xtrf\s*=|^\s*mach\s*=.*\bre\s*=",
 }
 _RE = re.compile(
-    r"(?im)(?:\bre\s*=|^\s*reynolds number\s*,|^\s*average reynolds[^\n]*:)\s*([\d.,]+)(?:\s*e\s*([+-]?\d+))?"
+    r"(?im)(?:\bre\s*=|^\s*reynolds number\s*,|^\s*average reynolds[^\n]*:)\s*([\d.,]+)(?:\s*[ed]\s*([+-]?\d+))?"
 )
 _NCRIT = re.compile(r"(?i)\bncrit\s*[=,]\s*([\d.]+)")
 _MACH = re.compile(r"(?i)\bmach\s*[=,]\s*([\d.]+)")
@@ -87,6 +87,11 @@ def polar_of(faults: FaultList, file: str, text: str) -> PolarFile | None:
     return None
 
 
+def _plain(cells: list[str]) -> list[str]:
+    """Return cells whose numbers Python reads: Fortran's 1.0D-02 is 1.0E-02."""
+    return [re.sub("[dD]", "E", cell) if _NUMBER.match(cell) else cell for cell in cells]
+
+
 def _split(line: str, separator: str) -> list[str]:
     """Return the cells of a line, with names of two words as one."""
     line = re.sub(r"(?i)\b(top|bot) (xtr|itr)\b", r"\1_\2", line)
@@ -94,7 +99,7 @@ def _split(line: str, separator: str) -> list[str]:
     cells = line.split() if separator == " " else [cell.strip() for cell in line.split(separator)]
     while cells and not cells[-1]:
         cells.pop()
-    return cells
+    return _plain(cells)
 
 
 def _separator(line: str) -> str:
@@ -216,10 +221,13 @@ class _Stated(NamedTuple):
         reynolds, kind = None, 1
         if found := _RE.search(head):
             digits, power = found.groups()
+            digits = digits.rstrip(".")
             if "," in digits:
                 faults.add(where, found[0].strip(), "has a comma, which can mean two numbers", "write plain digits")
+            elif not _NUMBER.match(digits):
+                faults.add(where, found[0].strip(), "is no Reynolds number", "write plain digits, without marks")
             else:
-                reynolds = float(f"{float(digits.rstrip('.')) * 10.0 ** int(power or 0):.12g}")
+                reynolds = float(f"{digits}e{power or 0}")
         if way := _TYPE.search(head):
             kind = {"fixed": 1, "~1/sqrt(cl)": 2, "~1/cl": 3}[way[1].lower().replace(" ", "")]
         elif program in ("XFOIL", "XFLR5", "flow5"):
@@ -228,15 +236,21 @@ class _Stated(NamedTuple):
             fix = "switch viscosity on (VISC 50000) and compute the polar again"
             faults.add(where, "Re = 0", "is a polar without viscosity, which has no drag", fix)
             reynolds = None
-        name, ncrit, mach = _NAME.search(head), _NCRIT.search(head), _MACH.search(head)
+        name, values = _NAME.search(head), list[float | None]()
+        for pattern in (_NCRIT, _MACH):
+            found = pattern.search(head)
+            values.append(float(found[1].rstrip(".")) if found and _NUMBER.match(found[1].rstrip(".")) else None)
+            if found and values[-1] is None:
+                faults.add(where, found[0].strip(), "is not a number", "write one number with a decimal point")
+        ncrit, mach = values
         parts = [f"{program}: {name[1]}" if name else program]
         parts.append("no Re in the head" if reynolds is None else f"Re {reynolds:.0f}")
-        parts += [f"Ncrit {float(ncrit[1].rstrip('.')):g}"] if ncrit else []
-        parts += [f"Mach {float(mach[1].rstrip('.')):g}"] if mach and float(mach[1].rstrip(".")) else []
+        parts += [f"Ncrit {ncrit:g}"] if ncrit is not None else []
+        parts += [f"Mach {mach:g}"] if mach else []
         if kind > 1 and reynolds:
             law = "Re/sqrt(C_L)" if kind == 2 else "Re/C_L"
             parts.append(f"a polar of type {kind}: Re of a row is {law}")
-        if mach and float(mach[1].rstrip(".")) > _INCOMPRESSIBLE:
+        if mach and mach > _INCOMPRESSIBLE:
             parts.append("compressible, which flapping flight is not")
         count = re.search(r"(?im)^number of angles[^\n]*:\s*(\d+)", head)
         return cls(reynolds, kind, int(count[1]) if count else None, ", ".join(parts))
@@ -288,7 +302,7 @@ def _table(
     header = ["alpha", *(["reynolds"] if stated else []), "CL", "CD", *(["CM"] if moment else [])]
     table = []
     for one in kept:
-        angle, *loads = (cell.replace("D", "E").replace("d", "e") for cell in one.cells)
+        angle, *loads = one.cells
         cells = [angle, *([one.reynolds] if stated else []), *loads[: 3 if moment else 2]]
         table.append((one.row, ",".join(cells)))
     constants = {"aspect_ratio": (header_row, "inf")} if section else {}
@@ -297,7 +311,7 @@ def _table(
 
 def _numbers(faults: FaultList, where: str, line: str, least: int, most: int) -> list[str] | None:
     """Return the numbers of a row, or note what is wrong with it."""
-    cells = line.replace(",", " ").split()
+    cells = _plain(line.replace(",", " ").split())
     if not least <= len(cells) <= most or not all(_NUMBER.match(cell) for cell in cells):
         wanted = f"{least} to {most}" if most > least else f"{least}"
         faults.add(where, line.strip(), f"is no row of {wanted} numbers", _WHOLE)
@@ -314,7 +328,7 @@ def _airfoil_info(faults: FaultList, file: str, lines: list[str]) -> PolarFile:
         where, text = f"{file} row {number}", line.strip()
         if not text or text.startswith(("!", "#", "=")):
             continue
-        words = text.split()
+        words = _plain(text.split())
         if left:
             if cells := _numbers(faults, where, text, 3, 5):
                 rows.append(_Row(number, reynolds, tuple(cells[:4]), float(reynolds or 0)))
@@ -357,7 +371,7 @@ def _aerodyn_14(faults: FaultList, file: str, lines: list[str]) -> PolarFile:
     reynolds, identity, stated, ended, header_row, tables = "", "", 1, False, 1, 0
     for number, line in enumerate(lines, start=1):
         where, text = f"{file} row {number}", line.strip()
-        words = text.split()
+        words = _plain(text.split())
         if not words:
             continue
         if re.search(r"(?i)number of airfoil tables", text):
@@ -399,7 +413,7 @@ def _qblade(faults: FaultList, file: str, lines: list[str]) -> PolarFile:
     header_row = 1
     for number, line in enumerate(lines, start=1):
         where, text = f"{file} row {number}", line.strip()
-        words = re.split(r"[\s,]+", text)
+        words = _plain(re.split(r"[\s,]+", text))
         if not text or set(text) <= set("-") or text.startswith(("#", "!")):
             continue
         numbers = [word for word in words if _NUMBER.match(word)]

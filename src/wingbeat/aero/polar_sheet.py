@@ -95,7 +95,7 @@ def read_polar(path: str | Path, faults: FaultList) -> PolarSheet:
         columns = {name: column[order] for name, column in (columns | {"alpha_deg": alpha}).items()}
         sheet = sheet._replace(rows=[sheet.rows[k] for k in order])
     if foreign is not None and foreign.quarter and not faults.faults:
-        turn = np.radians(alpha)
+        turn = np.radians(columns["alpha_deg"])
         columns["C_M"] += 0.25 * (columns["C_L"] * np.cos(turn) + columns["C_D"] * np.sin(turn))
     found = PolarSheet(sheet, headings, columns, tuple(notes), foreign is not None)
     if not sheet.rows:

@@ -22,7 +22,7 @@ from wingbeat.experiment.load_cell_run import (
     TARE_UNITS,
     LoadCellRun,
 )
-from wingbeat.experiment.load_cell_setup import KINDS, LoadCellSetup, unit_factor
+from wingbeat.experiment.load_cell_setup import KINDS, LoadCellSetup, unit_factor, unit_in
 from wingbeat.experiment.steadiness import standard_error
 
 _SPELLINGS = {same_name(name): name for name in CONSTANT_UNITS | OPTIONAL_UNITS | TARE_UNITS}
@@ -99,7 +99,7 @@ def _mapped_run(path: Path, setup: LoadCellSetup) -> LoadCellRun:
         tare[2] = tare[2] - axis * tare[0]
         if tare_se is not None:
             tare_se[2] = np.hypot(tare_se[2], axis * tare_se[0])
-    elif recording.kind.startswith("a log of an ATI"):
+    elif recording.kind.startswith("a log of an ATI") and "moment_axis" not in setup.constants:
         notes.append(
             f"{file}: the moment was taken as about mid-chord; ATI's is about the sensor's origin: if that is "
             "elsewhere, give its distance behind mid-chord, --set moment_axis=.."
@@ -153,18 +153,23 @@ def _channels(
     converted, unstated = [], []
     for k, name in enumerate(order):
         column, sign, own = columns[name]
-        label, unit = recording.names[column], own or recording.units[column]
+        label = recording.names[column]
+        stated = [unit for unit in (recording.units[column], unit_in(label)) if unit]
+        unit = own or next(iter(stated), None)
         factor = 1.0
+        if own is None and len({unit_factor(one, KINDS[name]) for one in stated}) > 1:
+            fix = f"say which its numbers are in, such as {split_unit(label).name} [{stated[1]}]"
+            faults.add(f"{file}, {name} = {label}", " and ".join(stated), "are two units of one channel", fix)
         if unit is None and not (name == "alpha_deg" and "deg" in label.lower()):
             unstated.append(f"{label} ({COLUMN_UNITS[name]})")
         elif unit is not None:
-            factor, kind = unit_factor(unit, KINDS[name])
-            if factor is None and kind == "force" and unit_factor(unit, "force")[0] == 1.0 and own is None:
+            factor, why = unit_factor(unit, KINDS[name])
+            if factor is None and name == "moment" and own is None and unit_factor(unit, "force")[0] == 1.0:
                 factor = 1.0
                 notes.append(f"{file}: the moment is read from {label}, which the file calls a force: taken as N m")
             elif factor is None:
                 fix = f"state the unit of its numbers, such as {label} [{COLUMN_UNITS[name]}]"
-                faults.add(f"{file}, {name} = {label}", unit, kind, fix)
+                faults.add(f"{file}, {name} = {label}", unit, why, fix)
                 factor = 1.0
             elif factor != 1.0:
                 converted.append(f"{label} from {unit} to {COLUMN_UNITS[name]}")
@@ -189,16 +194,20 @@ def _channels(
             k for k, name in enumerate(recording.names) if same_name(name) in ("time", "t", "timestamp", "times")
         ]
         if len(named) == 1 and rate is None and not faults.faults:
-            label, unit = recording.names[named[0]], recording.units[named[0]]
+            label, bad = recording.names[named[0]], FaultList()
+            unit = recording.units[named[0]] or unit_in(label)
             factor = unit_factor(unit, "time")[0] if unit else 1.0
-            own = (factor or np.nan) * recording.numbers(faults, named)[:, 0]
+            times = recording.numbers(bad, named)[:, 0]
             if factor is None:
                 faults.add(f"{file}, {label}", unit, "is no unit of time that is read", "give time=NAME [s]")
-            if unit is None:
-                notes.append(f"{file}: no unit is stated for {label}; it is taken as the time in s")
+            elif np.isfinite(times).any():  # else a clock as text, which says nothing
+                own = factor * times
+                faults.faults.extend(bad.faults)
+                if unit is None:
+                    notes.append(f"{file}: no unit is stated for {label}; it is taken as the time in s")
     if rate is not None:
         count = values.shape[0]
-        if own is not None and abs(float(np.median(np.diff(own))) * rate - 1) > 0.01 and own.size > 1:
+        if own is not None and own.size > 1 and abs(float(np.median(np.diff(own))) * rate - 1) > 0.01:
             step = float(np.median(np.diff(own)))
             notes.append(f"{file}: samples are {step:.4g} s apart by the file; the stated {rate:g} Hz was used")
         own = np.arange(count) / rate

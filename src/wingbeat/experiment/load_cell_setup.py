@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from wingbeat._base import FaultList, InvalidInputError, is_number, read_text, suggest, toml_tables
+from wingbeat._base.sheets import split_unit
 from wingbeat.experiment.load_cell_run import COLUMN_UNITS, CONSTANT_UNITS, OPTIONAL_UNITS, TARE_UNITS
 
 # What a setup can give beside the constants of a run.
@@ -162,9 +163,25 @@ def load_setup(path: str | Path) -> tuple[LoadCellSetup, tuple[tuple[float, floa
     return setup, tuple((float(start), float(end)) for start, end in pairs)
 
 
+def unit_in(name: str) -> str | None:
+    """Return the unit that a channel's name ends in, as in "Ty [N mm]"; "(Filtered)" and "[0]" are none.
+
+    >>> unit_in("Ty [N mm]"), unit_in("Fz (N)"), unit_in("Fz (Filtered)"), unit_in("Force[0]")
+    ('N mm', 'N', None, None)
+    """
+    unit = split_unit(name).unit or ""
+    known = _plain(unit) in _UNCLEAR or any(_plain(unit) in table for table in _FACTORS.values())
+    square = name.rstrip().endswith("]") and re.search(r"[^\W\d_]", unit)
+    return unit if known or square else None
+
+
+def _plain(unit: str) -> str:
+    return re.sub(r"[\s·*.\-⋅^]", "", unit).lower()
+
+
 def unit_factor(unit: str, kind: str) -> tuple[float | None, str]:
-    """Return the factor from a unit to SI; if there is none, None and why, or the kind that the unit is of."""
-    plain = re.sub(r"[\s·*.\-⋅^]", "", unit.strip()).lower()
+    """Return the factor from a unit to SI, and nothing; if there is none, None and why."""
+    plain = _plain(unit)
     if unit.strip()[:1] == "M" and plain in ("mn", "mnm"):
         return None, "is mega, not milli, of a unit"
     if (found := _FACTORS[kind].get(plain)) is not None:
@@ -172,6 +189,4 @@ def unit_factor(unit: str, kind: str) -> tuple[float | None, str]:
     if plain in _UNCLEAR:
         return None, _UNCLEAR[plain]
     other = next((name for name, table in _FACTORS.items() if plain in table), None)
-    if other == "force" and kind == "moment":
-        return None, "force"
     return None, f"is a unit of {other}, not of {kind}" if other else f"is no unit of {kind} that is read"

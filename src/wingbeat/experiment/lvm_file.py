@@ -14,6 +14,7 @@ from wingbeat.experiment.recording import SHOWN_FAULTS, Array, Recording, cell_n
 
 # Absolute times of LabVIEW count seconds from 1904; a number above this is one, of 1936 or later.
 _ABSOLUTE = 1e9
+_COUNTED_FROM_FIRST = "its times are absolute; they are counted from the first sample here"
 # Keys of a packet's header in .lvm files (NI 4139, Specification for the LabVIEW Measurement File).
 _PACKET_KEYS = {
     *("Channels", "Samples", "Date", "Time", "Y_Unit_Label", "X_Unit_Label", "Y_Dimension", "X_Dimension", "X0"),
@@ -95,8 +96,13 @@ def read_lvm(file: str, text: str, notes: list[str]) -> Recording:
             rule = "is the dimension of x, but a run needs times"
             faults.add(f"{file}, X_Dimension", dimension, rule, "save the signals over time")
             return None
+        factor = {"": 1.0, "s": 1.0, "sec": 1.0, "ms": 1e-3}.get(stated("X_Unit_Label", places[0]).lower())
+        if factor is None:
+            unit = stated("X_Unit_Label", places[0])
+            faults.add(f"{file}, X_Unit_Label", unit, "is no unit of time that is read", "save seconds")
+            return None
         if which == "No":
-            return _counted(faults, file, packets, places, stated, comma, notes)
+            return _counted(faults, file, packets, places, stated, factor, notes)
         x_of = {places[0]: 0} if which == "One" else {k: k - 1 for k in places}
         found = [cell_numbers(faults, file, rows, {x: "X_Value"})[:, 0] for x in sorted(set(x_of.values()))]
         if faults.faults:
@@ -104,11 +110,6 @@ def read_lvm(file: str, text: str, notes: list[str]) -> Recording:
         if any(np.abs(other - found[0]).max() > 1e-6 * max(np.ptp(found[0]), 1e-9) for other in found[1:]):
             fix = "resample the channels to common times before you save them"
             faults.add(f"{file}, X_Value", "", "differs between the channels of one run", fix)
-            return None
-        factor = {"": 1.0, "s": 1.0, "sec": 1.0, "ms": 1e-3}.get(stated("X_Unit_Label", places[0]).lower())
-        if factor is None:
-            unit = stated("X_Unit_Label", places[0])
-            faults.add(f"{file}, X_Unit_Label", unit, "is no unit of time that is read", "save seconds")
             return None
         return _joined(file, factor * found[0], packets, notes)
 
@@ -188,21 +189,24 @@ def _counted(
     packets: list[_Packet],
     places: list[int],
     stated: Callable[..., str],
-    comma: bool,
+    factor: float,
     notes: list[str],
 ) -> Array | None:
-    """Return the times of a file without x-values, from X0 and Delta_X."""
+    """Return the times [s] of a file without x-values, from X0 and Delta_X times a factor; an empty X0 is 0."""
     steps = {}
     for key in ("Delta_X", "X0"):
         texts = {stated(key, place) for place in places}
         try:
-            values = {float(text.replace(",", ".")) for text in texts if text or key == "X0"}
+            values = {float(text.replace(",", ".") or 0) for text in texts if text or key == "X0"}
         except ValueError:
             values = set()
         if len(values) != 1:
             faults.add(f"{file}, {key}", " ".join(sorted(texts)), "must be one number for all channels of a run")
             return None
-        steps[key] = values.pop()
+        steps[key] = factor * values.pop()
+    if steps["X0"] > _ABSOLUTE:
+        notes.append(f"{file}: {_COUNTED_FROM_FIRST}")
+        steps["X0"] = 0.0
     count = [len(packet.rows) for packet in packets]
     samples = stated("Samples", places[0])
     per_packet = int(samples) if samples.isdecimal() and int(samples) else sum(count)
@@ -215,7 +219,7 @@ def _counted(
 def _joined(file: str, x: Array, packets: list[_Packet], notes: list[str]) -> Array:
     """Return the times of all packets; where x begins anew in each, the packets are joined, and that is said."""
     if x[0] > _ABSOLUTE:
-        notes.append(f"{file}: its times are absolute; they are counted from the first sample here")
+        notes.append(f"{file}: {_COUNTED_FROM_FIRST}")
         x = x - x[0]
     back = np.flatnonzero(np.diff(x) <= 0) + 1
     if not back.size or x.size < 4:

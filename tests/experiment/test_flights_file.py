@@ -1,6 +1,7 @@
 """Files of measured flights: columns by forgiving names, units, errors; powers of two kinds are never mixed."""
 
 import random
+import re
 
 import numpy as np
 import pytest
@@ -59,7 +60,23 @@ def test_headers_are_read_forgivingly(tmp_path, header, quantity):
     flights = read(tmp_path, f"{header}\n8,9.5\n10,NA\n12,9.25\n")
     assert flights.speed.tolist() == [8.0, 12.0]
     assert {name: values.tolist() for name, values in flights.values.items()} == {quantity: [9.5, 9.25]}
-    assert flights.notes == ("1 of 3 rows hold nothing to compare",)
+    assert flights.notes[-1] == "1 of 3 rows hold nothing to compare"
+    units = {"speed": "m/s", "frequency": "Hz"}
+    pairs = zip(header.split(","), ("speed", quantity), strict=True)
+    cells = [f"{cell} ({units.get(what, 'W')})" for cell, what in pairs]
+    bare = [cell.replace('"', "") for cell in cells if not re.search(r"[\])] \(|_(s|hz|W) \(", cell)]
+    said = f"no unit is stated for {', '.join(bare)}; the numbers are taken in these units"
+    assert flights.notes[:-1] == ((said,) if bare else ())
+
+
+def test_every_column_that_is_not_read_is_named(tmp_path):
+    """An error was left out without a word if the table has no column of its quantity."""
+    flights = read(tmp_path, "speed [m/s],f [Hz],power sd [W],mechanical power sd [W],speed sd [m/s]\n8,9,1,1,1\n")
+    assert flights.notes == (
+        "column 'power sd [W]' is not read: its quantity has no column",
+        "the column error of mechanical power is not read: its quantity has no column",
+        "the column error of speed is not read: errors of speed are not used",
+    )
 
 
 def test_mechanical_and_metabolic_power_are_two_columns_with_their_own_errors(tmp_path):
@@ -70,14 +87,18 @@ def test_mechanical_and_metabolic_power_are_two_columns_with_their_own_errors(tm
     assert flights.errors["mechanical_power"].tolist() == pytest.approx([1.0, np.nan], nan_ok=True)
     assert flights.errors["metabolic_power"].tolist() == pytest.approx([6.0, np.nan], nan_ok=True)
     assert flights.labels == ("a", "b")
-    assert flights.notes == ("column 'mass [kg]' is not read",)
+    assert flights.notes == (
+        "column 'mass [kg]' is not read",
+        "no unit is stated for speed (m/s), mechanical power (W), metabolic power (W); the numbers are taken in "
+        "these units",
+    )
 
 
 def test_separators_and_decimal_commas_are_read_and_said(tmp_path):
     flights = read(tmp_path, "speed [m/s];f [Hz];label\n7,5;8,25;a\n12;9;b\n")
     assert (flights.speed.tolist(), flights.values["frequency"].tolist()) == ([7.5, 12.0], [8.25, 9.0])
     assert flights.labels == ("a", "b")
-    assert flights.notes == ("read with semicolons between the columns and decimal commas",)
+    assert flights.notes[0] == "read with semicolons between the columns and decimal commas"
     assert read(tmp_path, "u\tf\n8\t9.5\n").values["frequency"].tolist() == [9.5]
 
 
@@ -123,7 +144,7 @@ def test_all_faults_of_the_rows_are_reported_at_once(tmp_path):
 
 
 def test_a_fast_bird_is_asked_for_its_unit(tmp_path):
-    (note,) = read(tmp_path, "speed,f\n72,8\n").notes
+    (note,) = read(tmp_path, "speed [m/s],f [Hz]\n72,8\n").notes
     assert note == "the fastest speed, 72 m/s, is that of no level flight of an animal: is it in km/h?"
 
 

@@ -102,6 +102,26 @@ def test_a_frequency_that_follows_from_the_limit_of_the_amplitude_is_marked():
     assert point["set_by_limit"]
 
 
+def test_the_figure_and_the_table_agree_on_what_a_limit_has_set():
+    """The figure looked at the number's own limit only, and drew a point as predicted that the table starred."""
+    curve = curve_of("frequency", objective_value=[8.0, 7.0, 6.0, np.nan, 6.5])
+    curve["active_bounds"][1, 0] = "flap_amplitude"
+    frequency = curve_page(curve).axes[-1]
+    (empty,) = [line for line in frequency.lines if line.get_label() == "set by a limit, not predicted"]
+    points = measured_beside(curve, flights(SPEEDS[:3], frequency=[9.0] * 3))["points"]
+    assert empty.get_xdata().tolist() == [point["speed"] for point in points if point["set_by_limit"]] == [4.0, 6.0]
+
+
+def test_a_power_of_zero_has_no_share_and_no_division():
+    """Where a computed number is 0, a difference has no share of it; JSON has no infinity."""
+    curve = curve_of(mean_positive_power=[0.0, 16.0, 14.0, np.nan, 22.0])
+    with np.errstate(divide="raise"):
+        beside = measured_beside(curve, flights([4.0, 6.0], mechanical_power=[2.0, 18.0]))
+    assert beside["residuals"]["mechanical_power"]["mean_share"] is None
+    texts = [line.text for line in _measured(beside) if hasattr(line, "text")]
+    assert "  residual = measured - computed: mean +2 W, rms 2 W, of 2" in texts
+
+
 @pytest.mark.parametrize("columns", [{}, {"metabolic_power": [50.0, 40.0, 40.0, np.nan, 60.0]}])
 def test_each_kind_of_power_has_its_own_panel(columns):
     given = flights(

@@ -111,6 +111,7 @@ def read_flights(path: str | Path) -> FlightPoints:
         faults.raise_if_any()
     columns: list[str] = []  # what each column is: a quantity, "error of" one, "label", or "" if it is not read
     unnamed: list[int] = []
+    bare: list[str] = []  # columns without a unit
     for place, cell in enumerate(sheet.header):
         words, unit = _words_and_unit(cell)
         what, is_error = "", bool(_ERROR & {*words})
@@ -150,7 +151,11 @@ def read_flights(path: str | Path) -> FlightPoints:
         if unit and wanted and unit not in _SPELLED[wanted]:
             fix = _CONVERT.get(unit, "convert the numbers")
             faults.add(where, cell, f"is not in {wanted}", f"{fix}, and write [{wanted}]")
+        elif not unit and what in UNITS:
+            bare.append(f"{cell} ({wanted})")
         columns.append(what)
+    if bare:
+        notes.append(f"no unit is stated for {', '.join(bare)}; the numbers are taken in these units")
     given = [what for what in UNITS if what in columns and what != "speed"]
     for place, what in enumerate(columns):
         of = [one for one in given if what == "error of power" and one.endswith("power")]
@@ -165,6 +170,7 @@ def read_flights(path: str | Path) -> FlightPoints:
                 )
             else:
                 columns[place] = ""
+                notes.append(f"column {sheet.header[place]!r} is not read: {_without_value(what)}")
     for what in [what for what in columns if what.startswith("error of ")]:
         if what.removeprefix("error of ") not in given:
             columns[columns.index(what)] = ""

@@ -26,6 +26,7 @@ from wingbeat._base.style import (
 from wingbeat.experiment.flights_file import FlightPoints
 from wingbeat.plots.published import Published
 from wingbeat.records.characteristic import best_line, characteristic_speeds
+from wingbeat.records.judgements import set_by_limits_along
 from wingbeat.records.measured import COMPARED
 from wingbeat.words.curve_words import speed_in_words, speed_label
 
@@ -100,7 +101,7 @@ def curve_page(
             limited = minimised if name == "objective_value" else name
             top = 0.0
             if name in dataset:
-                at_limit = np.array([limited in reached for reached in line.limits])
+                at_limit = np.array([limited in limits for limits in set_by_limits_along(dataset)])
                 top = max(_draw_optima(axes, dataset, name, at_limit), _draw_published(axes, published, name))
             if measured is not None:
                 drawn = [_draw_measured(axes, measured, one) for one, place in places.items() if place == name]

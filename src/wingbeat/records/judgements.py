@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import math
 import re
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._base import in_words
 from wingbeat.animal.species.species import Species
 from wingbeat.orbits.flight.period import PATH_NAMES
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 # The reader's name of each judged number.
 JUDGED_NAMES = {
@@ -155,3 +158,9 @@ def set_by_limit(record: dict[str, Any]) -> dict[str, SetBy]:
 def called(name: str) -> str:
     """Return how a limited number is called within a sentence, such as ``tail tilt``."""
     return _CALLED.get(name, in_words(name))
+
+
+def set_by_limits_along(dataset: xr.Dataset) -> list[dict[str, SetBy]]:
+    """Return `set_by_limit` of the best orbit at each speed of a curve; empty where there is none."""
+    texts, about = dataset["active_bounds"].values[:, 0], {"objective": dataset.attrs["objective"]}
+    return [set_by_limit(about | {"active_bounds": list(filter(None, str(text).split(", ")))}) for text in texts]

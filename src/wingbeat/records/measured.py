@@ -8,7 +8,7 @@ import numpy as np
 
 from wingbeat.experiment.flights_file import FlightPoints
 from wingbeat.records.characteristic import best_line
-from wingbeat.records.judgements import set_by_limit
+from wingbeat.records.judgements import set_by_limits_along
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,9 +28,7 @@ def measured_beside(dataset: xr.Dataset, flights: FlightPoints) -> dict[str, Any
     outside the curve, beside a speed without a certified wingbeat, or where another kind of wingbeat takes over.
     """
     line, speeds = best_line(dataset), dataset["speed"].values
-    reached = [[name for name in str(text).split(", ") if name] for text in dataset["active_bounds"].values[:, 0]]
-    about = {"objective": dataset.attrs["objective"]}
-    limits = [set_by_limit(about | {"active_bounds": names}) for names in reached]
+    limits = set_by_limits_along(dataset)
     rows: list[dict[str, Any]] = []
     notes = list(flights.notes)
     for quantity, measured in flights.values.items():
@@ -70,10 +68,9 @@ def measured_beside(dataset: xr.Dataset, flights: FlightPoints) -> dict[str, Any
     for quantity in flights.values:
         found = [row for row in rows if row["quantity"] == quantity and row["residual"] is not None]
         if found:
-            left = np.array([row["residual"] for row in found])
-            share = left / np.array([row["computed"] for row in found])
+            left, computed = (np.array([row[key] for row in found]) for key in ("residual", "computed"))
             sums[quantity] = {
                 **{"count": len(found), "mean": float(left.mean()), "rms": float(np.sqrt(np.mean(left**2)))},
-                "mean_share": float(share.mean()),
+                "mean_share": float((left / computed).mean()) if computed.all() else None,
             }
     return {"file": flights.name, "points": rows, "residuals": sums, "notes": notes}

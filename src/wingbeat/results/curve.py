@@ -148,7 +148,8 @@ class Curve(Saveable, Reported):
         -------
         ``file``; ``points``, each with ``quantity``, ``speed`` [m/s], ``measured``, ``error``, ``computed`` and
         ``residual`` [Hz or W] and, where nothing is computed, why (``not_compared``); ``residuals``, for each
-        quantity ``count``, ``mean``, ``rms`` and ``mean_share`` of the computed; ``notes``.
+        quantity ``count``, ``mean``, ``rms`` and ``mean_share`` of the computed (None where one is 0);
+        ``notes``.
         """
         return measured_beside(self._dataset, data)
 

@@ -101,9 +101,8 @@ def _measured(beside: dict[str, Any]) -> list[Block]:
             head = ("U\n[m/s]", "measured", "error", "computed", "residual", "residual\n[%]", "within\nerror", "")
             blocks.append(Table(tuple(rows), head, "rrrrrrll"))
             sums = beside["residuals"][quantity]
-            mean = (
-                f"mean {sums['mean']:+.3g} {unit} ({100 * sums['mean_share']:+.0f} %), rms {sums['rms']:.3g} {unit}"
-            )
+            share = "" if sums["mean_share"] is None else f" ({100 * sums['mean_share']:+.0f} %)"
+            mean = f"mean {sums['mean']:+.3g} {unit}{share}, rms {sums['rms']:.3g} {unit}"
             blocks.append(Line(f"  residual = measured - computed: {mean}, of {sums['count']}"))
         if any(point["set_by_limit"] for point in points):
             blocks.append(Line("  * set by a limit, so not predicted"))

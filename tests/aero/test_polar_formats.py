@@ -227,6 +227,13 @@ def test_what_a_form_hides_is_said(tmp_path):
     )
     said = " | ".join(load_measurements(written(tmp_path, AERODYN14)).notes)
     assert "the table's ID is 0.05; some programs write Re in millions there, which is not read" in said
+    first, rows = AERODYN14[: AERODYN14.index("    -4.000")], AERODYN14[AERODYN14.index("    -4.000") :]
+    head = first.replace("1              Number of", "2              Number of")
+    head = head.replace("0.05           Table ID parameter", "0.05           Reynolds number in millions")
+    second = head[head.index("0.05 ") :].replace("0.05 ", "0.1  ")
+    table = load_measurements(written(tmp_path, f"{head}{rows}EOT\n{second}{rows}"))
+    assert (len(table.alpha_deg), set(table.columns()["reynolds"])) == (14, {5e4, 1e5})
+    assert "AeroDyn table: Re 50000, 100000, from millions" in table.notes
     both = load_measurements(written(tmp_path, QBLADE, "a.plr"))
     assert (len(both.alpha_deg), set(both.columns()["reynolds"])) == (14, {5e4, 1e5})
     lift = UIUC.replace("Cl       Cd      Cd1     Cd2", "Cl       Cm")

@@ -400,8 +400,9 @@ def _aerodyn_14(faults: FaultList, file: str, lines: list[str]) -> PolarFile:
         faults.add(file, "", "seems to be an airfoil file of AeroDyn, but has no row of numbers", _WHOLE)
     if tables != stated:
         faults.add(file, stated, f"is the stated number of tables, but the file has {tables}", _WHOLE)
-    notes.append(f"AeroDyn table: Re {reynolds}, from millions" if reynolds else "AeroDyn table without Re")
-    if not reynolds and identity and float(identity):
+    known = ", ".join(dict.fromkeys(one.reynolds for one in rows if one.reynolds))
+    notes.append(f"AeroDyn table: Re {known}, from millions" if known else "AeroDyn table without Re")
+    if not known and identity and float(identity):
         notes.append(f"the table's ID is {identity}; some programs write Re in millions there, which is not read")
     return _table(faults, file, header_row, rows, notes, section=False)
 

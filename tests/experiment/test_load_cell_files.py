@@ -11,11 +11,9 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
-from tests.helpers.places import ROOT
 from wingbeat.cli.app import main
-from wingbeat.experiment import LoadCellSetup, load_setup, read_run, reduce_run
+from wingbeat.experiment import LoadCellSetup, read_run, reduce_run
 
-CASES = ROOT / "tests/cases/loadcell"
 PLATE = {"speed": 0.4, "density": 998.0, "viscosity": 1e-6, "chord": 0.076, "span": 0.456}
 NAMES = {"normal": "Fz", "tangential": "Fx", "moment": "Ty", "alpha": "Angle"}
 SETUP = LoadCellSetup(NAMES, PLATE)
@@ -351,79 +349,3 @@ def test_tdms_is_read_with_its_clock_units_and_properties():
     tdms("run.tdms", loads, units=("Volts",) * 3)
     with pytest.raises(wb.InvalidInputError, match="electric signal"):
         read_run("run.tdms", setup)
-
-
-def test_a_tare_file_is_the_zero_with_its_error():
-    plate, setup = signals(zero=0.3), LoadCellSetup(NAMES, PLATE, tare=(Path("still.lvm"),))
-    Path("run.lvm").write_text(lvm(plate))
-    Path("still.lvm").write_text(lvm(signals(0.0, 0.3, seed=1)))
-    true = reduce_run(read_run("run.lvm", LoadCellSetup(NAMES, PLATE)), 20).mean[:2]
-    means = reduce_run(read_run("run.lvm", setup), 20)
-    force = 0.5 * 998 * 0.4**2 * 0.076 * 0.456
-    assert abs(means.normal - 2.9 / force) < 4 * means.normal_se
-    assert abs(true[0] - means.mean[0]) > 0.05
-    assert 0.01 / force / np.sqrt(COUNT) < means.normal_se < 0.01 / force / np.sqrt(100)
-    assert "zero readings are missing" not in " ".join(means.notes)
-    drifted = np.asarray([signals(0.0, zero, seed=2) for zero in (0.2, 0.4)])
-    for name, loads in zip(("a.lvm", "b.lvm"), drifted, strict=True):
-        Path(name).write_text(lvm(loads))
-    run = read_run("run.lvm", LoadCellSetup(NAMES, PLATE, tare=(Path("a.lvm"), Path("b.lvm"))))
-    np.testing.assert_allclose(run.tare, drifted.mean(axis=2).T, atol=1e-9)
-
-
-def test_a_tare_file_that_is_none_is_refused():
-    Path("run.lvm").write_text(lvm(signals()))
-    with pytest.raises(wb.InvalidInputError, match="is the run itself"):
-        read_run("run.lvm", LoadCellSetup(NAMES, PLATE, tare=(Path("run.lvm"),)))
-    flow = signals(0.0)
-    flow[0, COUNT // 2 :] += 2.0
-    Path("still.lvm").write_text(lvm(flow))
-    with pytest.raises(wb.InvalidInputError, match="is not at rest: the force changes within the record"):
-        read_run("run.lvm", LoadCellSetup(NAMES, PLATE, tare=(Path("still.lvm"),)))
-
-
-def test_a_toml_holds_channels_constants_and_zero(capsys):
-    Path("rig").mkdir()
-    Path("run.lvm").write_text(lvm(signals(zero=0.3)))
-    Path("rig/still.lvm").write_text(lvm(signals(0.0, 0.3, seed=1)))
-    constants = "\n".join(f"{name} = {value}" for name, value in PLATE.items())
-    names = "\n".join(f'{role} = "{name}"' for role, name in NAMES.items())
-    Path("rig/rig.toml").write_text(f'tare = "still.lvm"\nrest = [[0, 1]]\n{constants}\n[channels]\n{names}\n')
-    setup, rest = load_setup("rig/rig.toml")
-    assert rest == ((0.0, 1.0),)
-    assert dict(setup.constants) == PLATE
-    Path("rig/rig.toml").write_text(Path("rig/rig.toml").read_text().replace("rest = [[0, 1]]", ""))
-    assert main(["reduce", "run.lvm", "-o", "c.csv", "--channels", "rig/rig.toml"]) == 0
-    assert "zero readings are missing" not in capsys.readouterr().err
-    words = ["reduce", "run.lvm", "-o", "c.csv", "--channels", "normal=-Fz,tangential=Fx,moment=Ty,alpha=Angle"]
-    assert main([*words, "--set", *(f"{name}={value}" for name, value in PLATE.items())]) == 2
-    assert "--channels normal=-NAME reverses one" in capsys.readouterr().err
-    for wrong, said in [
-        ("speeed = 1", "speeed': is not known; did you mean speed?"),
-        ("speed = 'fast'", "bad.toml, speed = 'fast': must be a number"),
-        ("channels = 3", "must be a table"),
-        ("rest = [1, 2]", "must be pairs of numbers"),
-        ("tare = 3", "must be the names of files"),
-    ]:
-        Path("bad.toml").write_text(wrong + "\n")
-        assert main(["reduce", "run.lvm", "-o", "c.csv", "--channels", "bad.toml"]) == 2
-        assert said in capsys.readouterr().err
-
-
-def test_a_reversed_moment_is_noted():
-    Path("run.lvm").write_text(lvm(signals()))
-    run = read_run("run.lvm", LoadCellSetup(NAMES | {"moment": "-Ty"}, PLATE))
-    assert "is it nose-up positive? --channels moment=-NAME reverses it" in " ".join(reduce_run(run, 20).notes)
-
-
-def test_tables_with_other_names_are_mapped():
-    text = (CASES / "good.csv").read_text()
-    plain = read_run(CASES / "good.csv")
-    renamed = text.replace("normal_force [N]", "Fz (N)").replace("tangential_force [N]", "Fx [mN]")
-    Path("run.csv").write_text(renamed.replace("moment [N m]", "Ty"))
-    run = read_run("run.csv", LoadCellSetup({"normal": "Fz", "tangential": "Fx", "moment": "Ty"}))
-    np.testing.assert_array_equal(run.normal_force, plain.normal_force)
-    np.testing.assert_allclose(run.tangential_force, 1e-3 * plain.tangential_force)
-    assert run.speed == plain.speed
-    with pytest.raises(wb.InvalidInputError, match="speed = 2: is stated, but the file says"):
-        read_run("run.csv", LoadCellSetup({"normal": "Fz", "tangential": "Fx", "moment": "Ty"}, {"speed": 2}))

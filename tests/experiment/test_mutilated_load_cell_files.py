@@ -53,6 +53,14 @@ def damaged(random, content):
     return content
 
 
+# Notes that name what the accidents do: a number beside one of them is not wrong in silence.
+NAMED = (
+    "spikes, the largest",
+    "is the file cut short",
+    "was the recording interrupted",
+)
+
+
 def outcome(path, truth, usual):
     """Return what became of a file: refused, right, said; or a sentence that says what is wrong."""
     try:
@@ -61,11 +69,13 @@ def outcome(path, truth, usual):
     except (wb.InvalidInputError, wb.FileError) as error:
         lines = str(error).splitlines()
         return "refused" if all(lines) and len(lines) < 14 else f"{len(lines)} lines: {error}"
-    if set(re.sub(r"[\d.]+", "", note) for note in means.notes) - usual:
-        return "said"
     found = np.array([*means.mean[:3], means.normal])
-    off = np.abs(found / truth - 1).max()
-    return "right" if off < 0.01 and abs(np.median(np.diff(run.time)) - 0.05) < 1e-4 else f"{found} in silence"
+    if np.abs(found / truth - 1).max() < 0.01 and abs(np.median(np.diff(run.time)) - 0.05) < 1e-4:
+        return "right"
+    new = [note for note in means.notes if re.sub(r"[\d.]+", "", note) not in usual]
+    if any(words in note for note in new for words in NAMED):
+        return "said"
+    return f"{found} instead of {truth} in silence; new notes: {new}"
 
 
 @pytest.mark.slow
@@ -92,7 +102,6 @@ def test_300_damaged_files(tmp_path, monkeypatch):
         counts[result[:7]] = counts.get(result[:7], 0) + 1
         if result not in ("refused", "right", "said"):
             wrong.append(f"{case} {name}: {result}")
-    print(counts)
     assert not wrong, "\n".join(wrong)
     assert counts["refused"] > 100
     assert counts["right"] > 20

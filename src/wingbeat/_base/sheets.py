@@ -20,7 +20,7 @@ MAX_CELL_FAULTS = 40
 # A file needs some twenty constants. More lines than these are not ours, and would fill the memory.
 MAX_CONSTANTS = 1000
 # No instrument gives larger numbers, and their squares would overflow.
-_LARGEST = 1e100
+LARGEST = 1e100
 # What programs write where there is no value, in lower case: pandas, NumPy, MATLAB, R, LabVIEW, spreadsheets.
 NO_VALUE = {"", "nan", "-nan", "na", "n/a", "#n/a", "null", "none", "<na>", "1.#qnan", "-1.#ind", "nan(ind)"}
 _SAME = {"n·m": "n m", "n*m": "n m", "nm": "n m", "n.m": "n m", "-": "", "1": ""}
@@ -191,12 +191,12 @@ def _with_commas(
     return changed, plain, (f"read with {said}",)
 
 
-def read_sheet(path: str | Path) -> Sheet:
+def read_sheet(path: str | Path, *, of_program: bool = False) -> Sheet:
     """Split a CSV file into its constants (``# name = value``) and its table, without converting numbers.
 
     Columns may be separated by commas, semicolons, tabs or spaces; the sheet's notes say so. Blank rows are left
     out, and so are rows of commas alone, which spreadsheets write for them. A file is refused if it is empty or of
-    another format, or if a constant appears twice in any spelling.
+    another format (unless it is known to be a table `of_program`), or if a constant appears twice in any spelling.
     """
     path = Path(path)
     faults = FaultList()
@@ -205,7 +205,7 @@ def read_sheet(path: str | Path) -> Sheet:
     table: list[tuple[int, str]] = []
     try:
         whole = read_text(path, limit=MAX_BYTES)
-        words = seems_to_be(whole)
+        words = None if of_program else seems_to_be(whole)
     except FileError:
         words, whole = _BINARY.get(path.suffix.lower()), path.suffix
         if words is None or not path.is_file():
@@ -238,7 +238,7 @@ def read_sheet(path: str | Path) -> Sheet:
     faults.raise_if_any()
     table, constants, notes = _with_commas(path.name, table, constants)
     notes = (*notes, *cut_short(whole))
-    header = _cells(table[0][1])
+    header = split_cells(table[0][1])
     if all(_is_number(cell) for cell in header):
         rule, fix = (
             "holds numbers, but the first row of the table must name the columns",
@@ -262,10 +262,10 @@ def parse_numbers(
         except ValueError:
             numbers = np.empty((0, 0))
         # Not a number compares as False.
-        if numbers.shape == (len(sheet.rows), len(names)) and (np.abs(numbers) <= _LARGEST).all():
+        if numbers.shape == (len(sheet.rows), len(names)) and (np.abs(numbers) <= LARGEST).all():
             return numbers
     values = np.full((len(sheet.rows), len(names)), np.nan)
-    widths = {len(_cells(text)) for _, text in sheet.rows[:MAX_CELL_FAULTS]}
+    widths = {len(split_cells(text)) for _, text in sheet.rows[:MAX_CELL_FAULTS]}
     if len(sheet.rows) > 1 and len(widths) == 1 and (width := widths.pop()) != len(names):
         rule = f"and all others have {width} cells, but the header names {len(names)} columns"
         row, text = sheet.rows[0]
@@ -280,7 +280,7 @@ def parse_numbers(
             shown = f"{MAX_CELL_FAULTS} faults and more"
             faults.add(sheet.file, shown, "too many to list", "is it the right file?")
             break
-        cells = _cells(text)
+        cells = split_cells(text)
         if len(cells) != len(names):
             rule = f"has {len(cells)} cells, but the header names {len(names)} columns"
             faults.add(f"{sheet.file} row {row}", text, rule, "write decimal points, not commas")
@@ -291,9 +291,12 @@ def parse_numbers(
     return values
 
 
-def _cells(text: str) -> list[str]:
+def split_cells(text: str, sign: str = ",") -> list[str]:
+    """Return the cells of a row between commas or another sign; between spaces none are empty."""
+    if sign == " ":
+        return text.split()
     try:
-        return [cell.strip() for cell in next(csv.reader([text]))]
+        return [cell.strip() for cell in next(csv.reader([text], delimiter=sign))]
     except csv.Error:  # a cell of more than 131072 characters
         return [text]
 
@@ -314,7 +317,7 @@ def _number(faults: FaultList, where: str, cell: str) -> float:
         faults.add(where, cell, "is not a number", "write one number with a decimal point, or drop the row")
     elif not np.isfinite(number := float(cell)):
         faults.add(where, number, "must be finite", "drop the row or give a value")
-    elif abs(number) > _LARGEST:
+    elif abs(number) > LARGEST:
         faults.add(where, number, "is larger than any measurement", "drop the row or give a value")
     else:
         return number

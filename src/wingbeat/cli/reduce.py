@@ -124,9 +124,13 @@ def _setup(
         return None, ()
     setup, spans = LoadCellSetup(), ()
     named: dict[str, str] = {}
+    tomls = [word for word in channels or [] if "=" not in word and word.lower().endswith(".toml")]
+    if len(tomls) > 1:
+        faults.add("--channels", " ".join(tomls), "are several TOMLs", "keep one, with all of the setup")
+    elif tomls:
+        setup, spans = load_setup(tomls[0])
     for word in channels or []:
-        if "=" not in word and word.lower().endswith(".toml"):
-            setup, spans = load_setup(word)
+        if word in tomls:
             continue
         for part in re.split(rf",(?=\s*(?:{'|'.join(ROLES)})\s*=)", word):
             role, equals, name = part.partition("=")

@@ -15,6 +15,8 @@ from wingbeat._base.sheets import MAX_BYTES, parse_numbers, read_sheet, split_un
 from wingbeat.experiment.lvm_file import read_lvm
 from wingbeat.experiment.recording import Array, Recording, cell_numbers
 
+# Where a log may name its axes.
+_HEAD_LINES, _HEAD_BYTES = 40, 1 << 16
 _AXES = re.compile(r"(?i)(^|[,;\t]\s*\"?)fx\b[^,;\t]*[,;\t]\s*\"?fy\b[^,;\t]*[,;\t]\s*\"?fz\b")
 
 
@@ -42,23 +44,28 @@ def open_recording(path: Path) -> Recording:
     if text.startswith("LabVIEW Measurement"):
         return read_lvm(path.name, text, notes)
     lines = text.splitlines()
-    axes = next((i for i, line in enumerate(lines[:40]) if _AXES.search(line)), None)
+    axes = _axes_row(lines)
     if axes is not None and not lines[0].startswith("#"):
         return _read_ati(path.name, lines, axes)
-    return _read_table(path)
+    return _read_table(path, of_program=axes is not None)
 
 
 def is_instrument_file(path: Path) -> bool:
     """Return whether a file is one that an instrument writes, and not a table with our names."""
     try:
         with open(path, "rb") as file:
-            head = file.read(4000)
+            head = file.read(_HEAD_BYTES)
     except (OSError, ValueError):
         return False
     if head[:4] in (b"TDSm", b"TDSh") or head.lstrip(b"\xef\xbb\xbf").startswith(b"LabVIEW Measurement"):
         return True
-    lines = [line for line in head.decode("latin-1").splitlines() if not line.startswith("#")]
-    return any(_AXES.search(line) for line in lines)
+    return _axes_row(head.decode("latin-1").splitlines()) is not None
+
+
+def _axes_row(lines: list[str]) -> int | None:
+    """Return the index of the line that names the axes of a force sensor, or None."""
+    named = (i for i, line in enumerate(lines[:_HEAD_LINES]) if not line.startswith("#") and _AXES.search(line))
+    return next(named, None)
 
 
 # --- LabVIEW, .tdms ---
@@ -240,9 +247,9 @@ def _number_or_none(text: str | None) -> float | None:
         return None
 
 
-def _read_table(path: Path) -> Recording:
+def _read_table(path: Path, of_program: bool) -> Recording:
     """Read a table with a header row, in which the columns may have any names."""
-    sheet = read_sheet(path)
+    sheet = read_sheet(path, of_program=of_program)
     heads = [split_unit(cell) for cell in sheet.header]
 
     def numbers(faults: FaultList, columns: list[int]) -> Array:

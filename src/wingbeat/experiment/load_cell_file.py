@@ -241,6 +241,7 @@ def _zero(
     for path in setup.tare:
         recording = open_recording(path)
         series, names = _channels(faults, recording, setup, notes, still=True)
+        notes += recording.notes
         still = np.stack([series[name] for name in CHANNELS])
         if names != given:
             notes.append(

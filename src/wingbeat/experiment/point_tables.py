@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Sequence
 from typing import Any, NamedTuple, NoReturn
@@ -11,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import Fault, FaultList, InvalidInputError
-from wingbeat._base.sheets import MAX_CELL_FAULTS, NO_VALUE, same_name, split_unit
+from wingbeat._base.sheets import MAX_CELL_FAULTS, NO_VALUE, same_name, split_cells, split_unit
 
 Array = NDArray[np.float64]
 # Metres in a unit of length.
@@ -56,7 +55,7 @@ def split_table(file: str, text: str) -> Table:
     sign = max(counts, key=lambda one: (counts[one], one != ",")) if any(counts.values()) else " "
     if sign == "," and counts[";"] >= len(lines[:40]):
         sign = ";"  # decimal commas
-    rows = [(row, _cells(line, sign)) for row, line in lines]
+    rows = [(row, split_cells(line, sign)) for row, line in lines]
     first = rows[0][1]
     key = same_name(first[0])
     if key == "pathfiletype":
@@ -97,15 +96,6 @@ def split_table(file: str, text: str) -> Table:
             f"{file} row {rows[head - 1][0]}", ", ".join(sorted(units)), "are units of one table", "use one unit"
         )
     return Table(kind, labels, table, None, next(iter(units), None))
-
-
-def _cells(line: str, sign: str) -> list[str]:
-    if sign == " ":
-        return line.split()
-    try:
-        return [cell.strip() for cell in next(csv.reader([line], delimiter=sign))]
-    except csv.Error:  # a cell of more than 131072 characters
-        return [line]
 
 
 def _filled(cells: Sequence[str]) -> list[str]:

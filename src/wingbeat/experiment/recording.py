@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import FaultList
-from wingbeat._base.sheets import NO_VALUE
+from wingbeat._base.sheets import LARGEST, NO_VALUE
 
 Array = NDArray[np.float64]
 # More than these do not help the reader.
@@ -49,7 +49,7 @@ def cell_numbers(faults: FaultList, file: str, rows: list[tuple[int, list[str]]]
         except ValueError:
             values[:, k] = np.nan
         # Python reads 1_000 as a number; a Unicode digit is none either.
-        good = np.isfinite(values[:, k]) & (np.abs(values[:, k]) < 1e100)
+        good = np.isfinite(values[:, k]) & (np.abs(values[:, k]) <= LARGEST)
         if good.all() and not any("_" in cell for cell in cells):
             continue
         for (row, _), cell, i in zip(rows, cells, range(len(rows)), strict=True):
@@ -57,7 +57,7 @@ def cell_numbers(faults: FaultList, file: str, rows: list[tuple[int, list[str]]]
                 values[i, k] = np.nan if "_" in cell else float(cell)
             except ValueError:
                 values[i, k] = np.nan
-            if not np.isfinite(values[i, k]) or abs(values[i, k]) > 1e100:
+            if not np.isfinite(values[i, k]) or abs(values[i, k]) > LARGEST:
                 wrong += 1
                 if wrong <= SHOWN_FAULTS:
                     rule = "has no value" if cell.strip().lower() in NO_VALUE else "is not a number"

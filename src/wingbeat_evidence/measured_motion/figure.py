@@ -21,7 +21,7 @@ from wingbeat._base.style import (
     THIRD,
     drawing,
     dress,
-    legend_above,
+    legend_below,
     letter_panels,
     new_figure,
 )
@@ -49,7 +49,11 @@ _TERMS = {
     "thin-aerofoil-wake": "rotation, added mass, wake",
     "momentum": "induced flow",
 }
-_STATIONS = ((0.25, FIRST), (0.5, SECOND), (0.75, THIRD))
+# Of the strips' angles; no row of the page has these styles, as one legend names both.
+_STATIONS: tuple[tuple[float, dict[str, Any]], ...] = tuple(
+    (reach, {"color": "k", "linewidth": 0.8, "linestyle": dashes})
+    for reach, dashes in ((0.25, ":"), (0.5, "--"), (0.75, "-."))
+)
 
 
 @drawing()
@@ -69,7 +73,7 @@ def validation_page(found: Validation) -> Figure:
     axes_shown = through_time or ["fz"]
     rows = 3 if through_time else 2
     width = PAGE if len(axes_shown) > 1 else 0.7 * PAGE if through_time else COLUMN
-    figure = new_figure(width, 26.0 + 40.0 * rows)
+    figure = new_figure(width, 46.0 + 40.0 * rows)
     heights = (3, 2, 2) if through_time else (3, 2)
     grid = figure.subplots(rows, len(axes_shown), sharex=True, squeeze=False, height_ratios=heights)
     for panels, axis in zip(grid.T, axes_shown, strict=True):
@@ -81,6 +85,7 @@ def validation_page(found: Validation) -> Figure:
     for panel in grid.ravel():
         _shade(panel, found)
     letter_panels(grid)
+    legend_below(figure, grid, columns=2)
     regime = found.regime
     title = f"{heading(case.title or case.name)}: {regime.wing} wing, Re {significant(regime.reynolds)}"
     figure.suptitle(title, fontsize=8, parse_math=False)
@@ -134,7 +139,6 @@ def _draw_force(panel: Axes, found: Validation, axis: str) -> None:
         panel.axhline(mean, label="measured mean", **_MEASURED)
         computed = found.case.mean(getattr(found.recommended.loads, axis)) / case.weight
         panel.axhline(float(computed), color=BLUE, linewidth=0.8, linestyle=(0, (6, 2)), label="computed mean")
-    legend_above(panel, columns=2)
 
 
 def _draw_residual(panel: Axes, found: Validation, axis: str) -> None:
@@ -161,7 +165,6 @@ def _draw_alpha(panel: Axes, found: Validation) -> None:
         jumps = np.abs(np.diff(line, prepend=line[:1])) > 180.0
         panel.plot(beats, np.where(jumps, np.nan, line), label=f"{station:g} reach", **style)
     panel.axhline(0.0, color="0.6", linewidth=0.6)
-    legend_above(panel)
 
 
 def _shade(panel: Axes, found: Validation) -> None:

@@ -115,8 +115,8 @@ def forces_figure(orbits: Orbits, sample: str = DEFAULT) -> Drawn:
         for axes, station in zip(panels[0], STATIONS, strict=True):
             axes.set_title(f"{station} span", fontsize=8, loc="right", pad=4)
             axes.tick_params(labelbottom=False)
-            if shown:
-                legend_above(axes)
+        if shown:
+            legend_above(panels[0, 0])
         for axes in panels[:2].flat:
             axes.set_xlabel("")
         figure.align_ylabels(panels)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base.style import PAGE, drawing, dress, letter_panels
+from wingbeat._base.style import PAGE, drawing, dress, legend_below, letter_panels
 from wingbeat.animal.species.making import load_species
 from wingbeat.plots.published import (
     MEASURED_FREQUENCIES,
@@ -19,7 +19,7 @@ from wingbeat.plots.published import (
     Measured,
 )
 from wingbeat_evidence.paper.contradictions import CLOSE, TWICE, Printed, told
-from wingbeat_evidence.paper.figure_style import FONT_SMALL, LOOKS, MEASURED, Drawn, sheet
+from wingbeat_evidence.paper.figure_style import LOOKS, MEASURED, Drawn, sheet
 from wingbeat_evidence.paper.treatments import ANIMALS, DEFAULT, DRAWN, MODELS, SPEEDS, Orbits, certified
 
 if TYPE_CHECKING:
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 # The treatments drawn, and whether the marker is filled.
 FILLS = {treatment.name: treatment.name == DEFAULT for treatment in DRAWN}
 _LEAST_TOP = 25.0  # Hz
+# Of laws and measurements over a range of speeds, one each: the page has one legend.
+_DASHES = ((0, (1, 1)), (0, (3, 1, 1, 1)), (0, (6, 1.5)), (0, (2, 2)), (0, (3, 1, 1, 1, 1, 1)), (0, (9, 2, 1, 2)))
 _NOTE = (
     "Wingbeat frequency against flight speed of (a) the pigeon and (b) the bat. "
     "Our points are certified orbits of minimum frequency. Filled points, thick lines: coefficients mirrored at "
@@ -60,6 +62,7 @@ def frequency_figure(orbits: Orbits) -> Drawn:
     drawn = [orbit for each in series for orbit in certified(orbits, *each).values()]
     # One scale for most runs, with room for every orbit.
     top = max([_LEAST_TOP, *(1.1 * orbit.wingbeat.frequency for orbit in drawn)])
+    dashes = iter(_DASHES)
     with drawing():
         figure = sheet(PAGE, 118.0)
         panels = figure.subplots(1, 2)
@@ -67,9 +70,9 @@ def frequency_figure(orbits: Orbits) -> Drawn:
             dress(axes, "flight speed U [m/s]", "wingbeat frequency f [Hz]")
             axes.set(xlim=(3, 21), ylim=(0, top))
             axes.set_title(animal, fontsize=8, pad=3)
-            measured, ours = _draw_measured(axes, animal), _draw_orbits(axes, orbits, animal)
-            below: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.16)}
-            axes.legend(handles=[*measured, *ours], fontsize=FONT_SMALL, handlelength=2.4, **below)
+            _draw_measured(axes, animal, dashes)
+            _draw_orbits(axes, orbits, animal)
+        legend_below(figure, panels, columns=2)
         _mark_printed(panels[ANIMALS.index("bat")])
         letter_panels(panels)
     caption = f"{_NOTE.format(**_leaning(drawn))} {told(5, _printed(orbits))}"
@@ -85,15 +88,14 @@ def _leaning(drawn: Sequence[Orbit]) -> dict[str, int]:
     return {"leaning": sum(reached), "all": len(drawn)}
 
 
-def _draw_orbits(axes: Axes, orbits: Orbits, animal: str) -> list[Any]:
-    handles = []
+def _draw_orbits(axes: Axes, orbits: Orbits, animal: str) -> None:
     for (treatment, filled), (i, model) in itertools.product(FILLS.items(), enumerate(MODELS)):
         look = LOOKS[model]
         found = certified(orbits, treatment, animal, model)
         style: dict[str, Any] = {"marker": look.marker, "markersize": 3.6, "markeredgewidth": 0.8, **look.line}
         style |= {"markerfacecolor": look.color if filled else "w", "linewidth": 1.1 if filled else 0.6}
         points = sorted((speed, orbit.wingbeat.frequency) for speed, orbit in found.items())
-        handles += axes.plot(*np.reshape(points, (-1, 2)).T, label=f"{look.name}, {treatment}", **style)
+        axes.plot(*np.reshape(points, (-1, 2)).T, label=f"{look.name}, {treatment}", **style)
         absent = [c.speed for c in orbits if (c.treatment, c.animal, c.model) == (treatment, animal, model)]
         absent = sorted(set(absent) - set(found))
         # In rows along the foot of the panel, one for each series.
@@ -101,7 +103,6 @@ def _draw_orbits(axes: Axes, orbits: Orbits, animal: str) -> list[Any]:
         cross: dict[str, Any] = {"marker": "x" if filled else "+", "linestyle": "", "markersize": 3.5}
         place = {"transform": axes.get_xaxis_transform(), "color": look.color, "gid": f"absent-{treatment}-{model}"}
         axes.plot(absent, [height] * len(absent), **cross, **place)
-    return handles
 
 
 def _mark_printed(axes: Axes) -> None:
@@ -149,21 +150,19 @@ def measured_values(measured: Measured, speeds: np.ndarray) -> np.ndarray:
     return np.array([measured.value(species.vehicle, species.air, float(speed)) for speed in speeds])
 
 
-def _draw_measured(axes: Axes, animal: str) -> list[Any]:
-    handles, dashes = [], itertools.cycle([(0, (1, 1)), (0, (3, 1, 1, 1)), (0, (6, 1.5))])
+def _draw_measured(axes: Axes, animal: str, dashes: Iterator[Any]) -> None:
     for measured in (m for m in MEASURED_FREQUENCIES if m.animal == animal):
         speeds = _reach(measured)
         values, label = measured_values(measured, speeds), f"{measured.label} ({measured.grade})"
         if len(speeds) == 1:
             bar: dict[str, Any] = {"fmt": "D", "markersize": 4, "capsize": 2, "elinewidth": 0.8}
-            handles.append(axes.errorbar(speeds, values, measured.spread, color=MEASURED, label=label, **bar))
+            axes.errorbar(speeds, values, measured.spread, color=MEASURED, label=label, **bar)
             continue
         if measured.spread:
             axes.fill_between(
                 speeds, values - measured.spread, values + measured.spread, color=MEASURED, alpha=0.2, lw=0
             )
-        handles += axes.plot(speeds, values, color=MEASURED, linestyle=next(dashes), label=label)
-    return handles
+        axes.plot(speeds, values, color=MEASURED, linestyle=next(dashes), label=label)
 
 
 def _orbit_rows(orbits: Orbits) -> list[dict[str, Any]]:

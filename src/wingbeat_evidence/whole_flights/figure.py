@@ -17,6 +17,7 @@ from wingbeat._base.style import (
     VERMILION,
     drawing,
     dress,
+    legend_below,
     letter_panels,
     new_figure,
 )
@@ -64,12 +65,7 @@ def flights_page(prediction: Prediction) -> Figure:
     for axes in grid.ravel()[len(shown) :]:
         axes.remove()
     letter_panels(grid.ravel()[: len(shown)])
-    handles = {
-        label: handle
-        for axes in figure.axes
-        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
-    }
-    figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=3)
+    legend_below(figure, figure.axes, columns=3)
     animal, objective = heading(prediction.flights.species), in_words(prediction.objective)
     title = f"{animal}: model {prediction.model}, least {objective}"
     figure.suptitle(title, fontsize=8, x=0.01, ha="left")

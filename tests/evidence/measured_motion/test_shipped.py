@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from tests.helpers.figures import check_legends
 from tests.helpers.places import ROOT
 from wingbeat.cli import main
 from wingbeat_evidence.measured_motion import read_strip_case, shipped_cases, validate
@@ -139,6 +140,7 @@ def test_the_figure_shows_force_residual_and_angles(found):
     figure = validation_page(found["flapper-yeo2011"])
     labels = [axes.get_ylabel() for axes in figure.axes]
     assert labels == ["upward force / weight [-]", "residual / weight [-]", "angle of attack α [deg]"]
+    assert "0.75 reach" in check_legends(figure)
     shown = {line.get_label() for line in figure.axes[0].get_lines()}
     assert {"measured", "best sine", "Su-Fan + rotation, added mass, wake", "Su-Fan alone", "other models"} <= shown
     assert figure.get_suptitle().startswith("Flapping wing, Yeo et al. 2011: rigid wing, Re ")

@@ -10,6 +10,7 @@ import pytest
 from matplotlib.image import imread
 
 import wingbeat as wb
+from tests.helpers.figures import check_legends
 from wingbeat.mechanics.wing_motion import strips_of
 from wingbeat.plots.published import MEASURED_FREQUENCIES
 from wingbeat_evidence.paper.figure_coefficients import coefficients_figure
@@ -163,6 +164,8 @@ def gids(axes):
 def test_what_the_paper_prints_is_marked_and_a_contradiction_is_said_with_its_reason(orbits):
     drawn = [drawing(orbits) for drawing in (frequency_figure, forces_figure, power_figure, pitch_figure)]
     frequency, forces, power, pitch = (one.figure for one in drawn)
+    for page in (frequency, forces, power, pitch):
+        check_legends(page)
     captions = [one.caption for one in drawn]
     assert {"paper-su-fan", "paper-dickinson"} <= gids(frequency.axes[1])
     (star,) = (line for line in frequency.axes[1].get_lines() if line.get_gid() == "paper-dickinson")

@@ -1,4 +1,4 @@
-"""Tables that end at the stall, completed by Viterna's rule (Viterna and Janetzke 1982, doi 10.2172/6763041)."""
+"""Tables that end at the stall, completed by Viterna's rule (Viterna and Janetzke 1982, NASA TM-82944)."""
 
 import math
 from pathlib import Path

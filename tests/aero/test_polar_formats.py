@@ -1,6 +1,6 @@
 """Polars as other programs write them: each is read right, or refused with the sentence that helps.
 
-The files of `polars` were written by XFOIL 6.99 (its README has the commands). The other forms are documented:
+The files of `polars` were written by XFOIL 6.99 and openfast_io 5.0.0. The other forms are documented:
 XFLR5 6.61 and JavaFoil by XFLR5's source, AeroDyn by its manual and QBlade's source, QBlade and UIUC by readers.
 """
 
@@ -121,6 +121,29 @@ def test_xfoil_sweeps_are_sorted_and_what_did_not_converge_is_said():
     assert "sorted by angle" in said
     plate = load_measurements(OWN / "xfoil_plate_re50k.pol")
     assert "rows that repeat one are left out, at 0.000 degrees" in " | ".join(plate.notes)
+
+
+def test_a_part_polar_whose_ends_openfast_io_moved_is_refused():
+    """openfast_io 5.0.0 writes the rows of -10 and 12 degrees at -180 and 180, both with the lift of 12."""
+    said = refused(OWN / "openfast_io_part.dat")
+    assert "row 55 = -180.0: is 174 degrees from the row beside it: was its angle changed?" in said
+    assert "row 64 = 180.0: is 170 degrees" in said
+    assert "drop the two rows, or export again" in said
+
+
+def test_a_circle_that_openfast_io_wrote_for_two_re_is_read():
+    table = load_measurements(OWN / "openfast_io_two_re.dat")
+    assert sorted(set(table.columns()["reynolds"])) == pytest.approx([5e4, 2e5])
+    assert set(table.alpha_deg[:27]) >= {-180.0, -16.0, 0.0, 16.0, 180.0}
+    assert " | ".join(table.notes).count("from millions") == 2
+
+
+def test_a_cylinder_with_three_rows_is_no_moved_polar(tmp_path):
+    """NREL's tables of cylinders have rows at -180, 0 and 180 degrees alone."""
+    text = (CASES / "aerodyn.dat").read_text()
+    head = re.sub(r"(?m)^\s*\d+(\s+NumAlf)", r"3\1", text[: text.index("\n", text.index("NumAlf"))])
+    rows = "".join(f"{angle} 0.0 0.5 0.0\n" for angle in ("-180.0", "0.0", "180.0"))
+    assert load_measurements(written(tmp_path, f"{head}\n{rows}", "cylinder.dat")).mean["C_D"].tolist() == [0.5] * 3
 
 
 def test_rows_behind_a_second_visc_are_refused():

@@ -60,7 +60,7 @@ def viterna(
     Below the first row likewise, with the sign of lift reversed; a table from 0 degrees, without lift there, gets
     its mirror image. From behind, the wing is the mirrored plate: C_L(180-a) = -C_L(a), C_D(180-a) = C_D(a),
     x_cp(180-a) = 1 - x_cp(a). The centre of pressure moves linearly to mid-chord at 90 degrees. Source: Viterna and
-    Janetzke 1982 (NASA TM-82944, doi 10.2172/6763041). Theory: equation ``viterna``.
+    Janetzke 1982 (NASA TM-82944). Theory: equation ``viterna``.
     """
     angles = columns["alpha_deg"]
     last = len(angles) - 1

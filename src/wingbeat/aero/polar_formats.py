@@ -3,18 +3,7 @@
 Each form becomes the table that a CSV file would hold: angle, lift, drag and, if the file has it, the moment about
 the quarter chord, with the file's own row numbers. What the head says (Re, Ncrit, Mach) becomes a column, a note.
 
-| program | what differs from what one would guess |
-| --- | --- |
-| XFOIL 6.99 (run) | rows stand in the order of the sweeps; points that did not converge are left out |
-| | a second `VISC` switches viscosity off; its rows, without drag, are appended below the head of the first Re |
-| | polars of type 2 and 3 state Re at a lift coefficient of 1; Re of a row is Re/sqrt(C_L) or Re/C_L |
-| | the head of 6.99 has two values of Ncrit and two columns more than that of 6.96 |
-| XFLR5 6.61 (its source) | names 10 columns and writes 12 numbers; those behind C_M stand under wrong names |
-| AeroDyn 15 (its manual) | Re is in millions; the length of each table is stated |
-| AeroDyn 14 (QBlade's source) | states no Re, but a table ID in which some programs write Re |
-| QBlade .plr (readers of it) | one block for several Re, with three columns for each |
-| UIUC (readers of it) | the third column of a lift file is the moment, not drag; Re stands in a line of its own |
-| JavaFoil (XFLR5's reader) | decimal commas where the country has them, and a second line of units |
+What differs from what one would guess: the table of tests/cases/README.md.
 """
 
 from __future__ import annotations
@@ -291,6 +280,18 @@ def _table(
                 repeats.append(one.cells[0])
                 continue
         kept.append(one)
+    for group in dict.fromkeys(one.group for one in kept):
+        own = [one for one in kept if one.group == group]
+        angles = np.array([float(one.cells[0]) for one in own])
+        for end, beside in ((0, 1), (-1, -2)) if len(own) > 3 else ():
+            gap = abs(angles[end] - angles[beside])
+            if abs(angles[end]) == 180 and gap > max(60, 4 * np.median(np.diff(angles))):
+                rule = f"is {gap:g} degrees from the row beside it: was its angle changed?"
+                fix = (
+                    "openfast_io moves both ends of a part polar to 180 degrees: drop the two rows, or export again"
+                )
+                faults.add(f"{file} row {own[end].row}", float(angles[end]), rule, fix)
+    faults.raise_if_any()
     if repeats:
         notes.append(f"rows that repeat one are left out, at {', '.join(repeats[:6])} degrees")
     if [one.row for one in ordered] != sorted(one.row for one in rows):

@@ -51,6 +51,8 @@ def split_table(file: str, text: str) -> Table:
     lines = [(row, line) for row, line in lines if not line.lstrip().startswith("#")]
     if len(lines) < 2:
         refuse(file, text[:40], "holds no table of points", "is it the right file?")
+    if re.match(r"(?i)sparse format\b", lines[0][1].strip()):
+        return _sparse(file, lines)
     counts = {sign: sum(line.count(sign) for _, line in lines[:40]) for sign in "\t;,"}
     sign = max(counts, key=lambda one: (counts[one], one != ",")) if any(counts.values()) else " "
     if sign == "," and counts[";"] >= len(lines[:40]):
@@ -78,9 +80,6 @@ def split_table(file: str, text: str) -> Table:
                 names = [f"{a} {b}" for a, b in zip(animals, names, strict=False)]
         labels = [("", "frame"), *zip(names[1:], heads[words.index("coords")][1:], strict=False)]
         return Table("DeepLabCut", [(name, part.lower()) for name, part in labels], table)
-    if sum(cell.strip().lower() in ("row", "col", "column", "value") for cell in first) >= 2 and len(first) <= 3:
-        fix = "in DLTdv choose the flat format and give the file ...xyzpts.csv"
-        refuse(file, ",".join(first), "is DLTdv's sparse format", fix)
     last, units = heads[-1], set()
     if len(heads) > 1 and sum(cell.strip().lower() in ("x", "y", "z") for cell in last) >= 3:
         names = _filled(heads[-2])
@@ -138,6 +137,30 @@ def _label(cell: str, units: set[str]) -> tuple[str, str]:
         units.add(UNIT_WORDS[(unit or "").lower()])
     axis = next(value for key, value in match.groupdict().items() if key != "name" and value)
     return match["name"].strip() or "point", axis.lower()
+
+
+def _sparse(file: str, lines: list[tuple[int, str]]) -> Table:
+    """Return the table of DLTdv's sparse form: a title, the size, then row, column, value; the rest are gaps."""
+    if "3D" not in lines[0][1]:
+        fix = "give the file ...xyzpts.tsv beside it, which DLTdv writes where the cameras are calibrated"
+        refuse(f"{file} row {lines[0][0]}", lines[0][1].strip(), "is DLTdv's sparse format without 3D points", fix)
+    try:
+        frames, columns, entries = (int(cell) for cell in lines[1][1].split())
+        given = [(int(a), int(b), float(c)) for a, b, c in (line.split() for _, line in lines[2:])]
+    except ValueError:
+        frames, columns, entries, given = 0, 0, 0, []
+    inside = all(1 <= i <= frames and 1 <= k <= columns for i, k, _ in given)
+    if not given or len(given) != entries or columns % 3 or not inside:
+        rule = "is DLTdv's sparse format, but the rows do not fit the size in row 2: frames, columns, entries"
+        refuse(f"{file} row {lines[1][0]}", lines[1][1].strip(), rule, "is the file whole? Save it again")
+    first, last = min(i for i, _, _ in given), max(i for i, _, _ in given)
+    if last - first >= _MOST_FRAMES:
+        refuse(file, f"{last - first + 1} frames", f"are more than {_MOST_FRAMES}", "cut the clip")
+    cells = [[str(i)] + [""] * columns for i in range(first, last + 1)]
+    for i, k, value in given:
+        cells[i - first][k] = repr(value)
+    labels = [("", "frame"), *((f"pt{k // 3 + 1}", "xyz"[k % 3]) for k in range(columns))]
+    return Table("DLTdv, sparse", labels, list(enumerate(cells, start=3)))
 
 
 def _trc(file: str, rows: list[tuple[int, list[str]]]) -> Table:

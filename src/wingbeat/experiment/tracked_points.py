@@ -27,6 +27,8 @@ _FLAT = (
 )
 # No camera takes more frames [Hz].
 _FASTEST = 1e6
+# Frames from which a clock is checked against the stated rate.
+_FEW = 10
 
 
 @dataclass(frozen=True)
@@ -122,6 +124,9 @@ def read_points(source: Any) -> TrackedPoints:
             rule = f"must be above the {word} before it, {series[k - 1]:g}"
             fix = "sort the rows; drop repeated ones"
             refuse(f"{path.name} row {table.rows[k][0]}, {word}", float(series[k]), rule, fix)
+    rate = table.rate
+    if times is not None and len(times) >= _FEW:
+        times, rate = _even(path.name, times, frames, rate, notes, warnings)
     if "frame" not in clock and times is None:
         same = [k for k in range(1, len(numbers)) if np.array_equal(numbers[k], numbers[k - 1])]
         if same:
@@ -129,9 +134,32 @@ def read_points(source: Any) -> TrackedPoints:
             warnings.append(f"{path.name}: row {rows} repeats the row before it; a doubled row shifts the clock")
     return _checked(
         TrackedPoints(
-            path.name, table.kind, positions, times, frames, table.rate, table.unit, None, (*notes,), (*warnings,)
+            path.name, table.kind, positions, times, frames, rate, table.unit, None, (*notes,), (*warnings,)
         )
     )
+
+
+def _even(
+    file: str, times: Array, frames: Array, rate: float | None, notes: list[str], warnings: list[str]
+) -> tuple[Array, float | None]:
+    """Return the times, evened if they were rounded to a millisecond, and the frames per second that fit them."""
+    usual = (frames[-1] - frames[0]) / (times[-1] - times[0])
+    slack = 0.02 + 0.001 / (times[-1] - times[0])
+    if rate is not None and abs(rate / (len(times) * usual) - 1) < slack:
+        warnings.append(
+            f"{file}: the stated {rate:.0f} frames a second are the number of frames times the rate, as Kinetics "
+            f"Toolkit 0.17 writes it; {rate / len(times):g} is taken, which fits the times"
+        )
+        rate = rate / len(times)
+    whole = bool((abs(times * 1000 - np.round(times * 1000)) < 1e-6).all())
+    if not whole or np.ptp(np.diff(times) / np.diff(frames)) < 1e-6:
+        return times, rate
+    fits = rate if rate is not None and abs(rate / usual - 1) < slack else usual
+    even = times[0] + (frames - frames[0]) / fits
+    if abs(even - times).max() > 0.001 or np.array_equal(times, np.round(times)):
+        return times, rate
+    notes.append(f"{file}: the times are rounded to a millisecond; {fits:.5g} frames a second are taken for even")
+    return even, rate
 
 
 def _checked(points: TrackedPoints) -> TrackedPoints:
@@ -207,8 +235,15 @@ def _read_hdf5(path: Path) -> TrackedPoints:
                     for i in range(tracks.shape[1])
                     for k, name in enumerate(names)
                 }
-                frames = np.arange(len(tracks), dtype=float)
-                return _checked(TrackedPoints(path.name, "SLEAP in 3-D", found, None, frames))
+                frames, told = np.arange(len(tracks), dtype=float), []
+                if "node_names" not in file:
+                    told = [
+                        f"{path.name}: sleap-anipose smooths, fills frames that no camera saw, and marks neither: "
+                        "amplitudes may be too small"
+                    ]
+                    if "frames" in file:
+                        frames += float(np.asarray(file["frames"]).ravel()[0])
+                return _checked(TrackedPoints(path.name, "SLEAP in 3-D", found, None, frames, warnings=tuple(told)))
             if "position" not in file:
                 rule = "is HDF5 without points that wingbeat knows"
                 fix = "give NetCDF of movement, HDF5 of sleap-anipose, or a table with tip_x, tip_y, tip_z"

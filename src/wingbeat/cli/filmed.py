@@ -14,9 +14,10 @@ from wingbeat._base import NOMENCLATURE, FaultList, for_people, plain_unit, writ
 from wingbeat.aero import BladeElement
 from wingbeat.animal.species.species import Species
 from wingbeat.cli.arguments import option
+from wingbeat.experiment.body_path import BodyPath, fit_body_path
 from wingbeat.experiment.film import WHOLE
 from wingbeat.experiment.film_file import read_film
-from wingbeat.experiment.film_fit import FilmedBeat, fit_body_path, fit_film
+from wingbeat.experiment.film_fit import FilmedBeat, fit_film
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.results.flight import CarriedFlight, carry
 from wingbeat.words.orbit_words import power_label
@@ -138,6 +139,11 @@ _MISSING = {
     "missing_force_z": ("missing force up", "of the weight"),
     "missing_moment": ("missing moment nose-up", "of weight times chord"),
 }
+_WORDS = {"missing_force_x": "thrust", "missing_force_z": "upward force", "missing_moment": "nose-up moment"}
+# A missing force below this share of the weight, or moment of weight times chord, is less than models differ by.
+_TRIMMED = 0.05
+# How far a tail tilts [rad].
+_MOST_TILT = math.radians(30.0)
 
 
 def carried(
@@ -147,10 +153,10 @@ def carried(
     given: Mapping[str, float | None],
     beats: int,
     samples: int,
-) -> tuple[CarriedFlight, dict[str, float | None]]:
-    """Return the flight of a filmed body with filmed wings, and the standard errors of its summary.
+) -> tuple[CarriedFlight, dict[str, float | None], list[str]]:
+    """Return the flight of a filmed body with filmed wings, the standard errors of its summary, and warnings.
 
-    The errors include the noise of the filmed wing motion, but not the noise of the filmed path of the body.
+    The errors are those of the noise of the filmed wing motion and of the filmed path of the body.
     `given` holds u, w and body pitch where the film does not show them; a pitch rate is refused.
     """
     faults = FaultList()
@@ -162,14 +168,53 @@ def carried(
     model = FlightModel(animal.vehicle, aero, animal.air, velocity=path.velocity)
     flight = carry(model, animal.wingbeat, path, beats, samples, species=animal)
     told, rows = flight.summary, []
-    for wingbeat in beat.draws(flight.wingbeat, DRAWS):
+    wings = beat.draws(flight.wingbeat, DRAWS)
+    for wingbeat, moved in zip(wings, path.draws(len(wings)), strict=True):
         # The body keeps the beat of the film.
         same = dataclasses.replace(wingbeat, frequency=path.frequency)
-        rows.append([*carry(flight.model, same, path, 1, samples).summary.values()])
+        rows.append([*carry(flight.model, same, moved, 1, samples).summary.values()])
+    warnings = [*path.warnings]
+    if animal.vehicle.tail is not None:
+        warnings.append(_of_the_tail(flight, path, samples))
     if not rows:
-        return flight, dict.fromkeys(told)
+        return flight, dict.fromkeys(told), warnings
     errors = np.sqrt(np.mean((np.array(rows) - [*told.values()]) ** 2, axis=0))
-    return flight, dict(zip(told, errors.tolist(), strict=True))
+    return flight, dict(zip(told, errors.tolist(), strict=True)), warnings
+
+
+def _of_the_tail(flight: CarriedFlight, path: BodyPath, samples: int) -> str:
+    """Say at which tilt the tail, which no film shows, would balance the pitching moment."""
+
+    def missing(tilt: float) -> dict[str, float]:
+        tilted = dataclasses.replace(flight.wingbeat, tail_tilt=tilt)
+        return carry(flight.model, tilted, path, 1, samples).summary
+
+    here = flight.wingbeat.tail_tilt
+    said = f"{math.degrees(here):.3g} deg, is not filmed (--set wingbeat.tail_tilt_deg=..)"
+    ends = [(tilt, missing(tilt)) for tilt in (-_MOST_TILT, _MOST_TILT)]
+    (low, one), (high, other) = ends
+    if one["missing_moment_mean"] * other["missing_moment_mean"] > 0:
+        return f"the tail's tilt, {said}; no tilt within 30 deg balances the pitching moment"
+    tilt, found = low, one
+    for _ in range(6):  # false position; the tail's moment is almost linear
+        change = other["missing_moment_mean"] - one["missing_moment_mean"]
+        tilt = low - one["missing_moment_mean"] * (high - low) / change
+        found = missing(tilt)
+        if found["missing_moment_mean"] * one["missing_moment_mean"] > 0:
+            low, one = tilt, found
+        else:
+            high, other = tilt, found
+    x, z = (found[f"missing_force_{axis}_mean"] for axis in "xz")
+    return (
+        f"the tail's tilt, {said}; at {math.degrees(tilt):.3g} deg it would balance the pitching moment, and the "
+        f"missing force would be {x:.2g} of the weight forward and {z:.2g} up"
+    )
+
+
+def trimmed(told: Mapping[str, float], errors: Mapping[str, float | None]) -> bool:
+    """Return whether missing force and moment are zero on average, within two errors or `_TRIMMED`."""
+    names = [f"{name}_mean" for name in _MISSING]
+    return all(abs(told[name]) <= max(_TRIMMED, 2.0 * (errors[name] or 0.0)) for name in names)
 
 
 def print_carried(told: Mapping[str, float], errors: Mapping[str, float | None]) -> None:
@@ -177,6 +222,16 @@ def print_carried(told: Mapping[str, float], errors: Mapping[str, float | None])
 
     The model lacks the force and moment that must be added to its air loads to give the filmed motion.
     """
+    verdict = f"yes, no missing force or moment above {_TRIMMED:g} on average"
+    if not trimmed(told, errors):
+        found = []
+        for name, (_, unit) in _MISSING.items():
+            mean, error = told[f"{name}_mean"], errors[f"{name}_mean"]
+            if abs(mean) > max(_TRIMMED, 2.0 * (error or 0.0)):
+                short = "too little" if mean > 0 else "too much"
+                found.append(f"{plus_minus(abs(mean), error, unit)} {short} {_WORDS[name]}")
+        verdict = f"no, on average the model gives {'; '.join(found)}"
+    print(f"trimmed: {verdict}")
     print("the body moves as filmed; its motion is not integrated")
     for name, (label, series) in _NAMES.items():
         (factor, unit), error = for_people(NOMENCLATURE[series].unit), errors[name]

@@ -87,6 +87,7 @@ def simulate(
     given["body_pitch"] = None if body_pitch_deg is None else math.radians(body_pitch_deg)
     disturbed = {name: value for name, value in given.items() if value is not None}
     beat = prescribed = flown_by = None
+    doubts: list[str] = []
     start = State(u=10.0)
     if from_ is not None:
         orbit = load_orbit(from_)
@@ -113,8 +114,9 @@ def simulate(
             velocity = float(start.u), float(start.w)
             flown_by = FlightModel(animal.vehicle, whole.aero, animal.air, velocity=velocity)
     if prescribed is not None:
-        flight, errors = prescribed
-        record: dict[str, Any] = {"body": "prescribed", "summary": flight.summary, "standard_errors": errors}
+        flight, errors, doubts = prescribed
+        record: dict[str, Any] = {"body": "prescribed", "trimmed": filmed.trimmed(flight.summary, errors)}
+        record |= {"summary": flight.summary, "standard_errors": errors}
         report, completed = functools.partial(filmed.print_carried, flight.summary, errors), True
     else:
         assert flown_by is not None
@@ -127,7 +129,7 @@ def simulate(
         record = {"completed": completed, "beats": rows}
         report = functools.partial(_print, rows, completed)
     notes = [*crossing(flight.model.vehicle, flight.model.strips, wingbeat, reach)]
-    notes += beat.warnings if beat else ()
+    notes += [*(beat.warnings if beat else ()), *doubts]
     record |= {"warnings": notes} | ({} if beat is None else {"kinematics": filmed.film_record(beat)})
     with answer() as told:
         told.tell(record, report, json)
@@ -135,6 +137,11 @@ def simulate(
             told.show(lambda line=line: print(line))
         for note in notes:
             print(f"warning: {note}", file=sys.stderr)
+        if prescribed is not None and not json:
+            speed, climb = (round(prescribed[0].summary[name], 2) for name in ("mean_u", "mean_w"))
+            words = f"{species} --speed {speed:g}" + (f" --climb {climb:g}" if abs(climb) > 0.05 * speed else "")
+            words += f" --kinematics {kinematics}" + (f" --model {model.model}" if model.model != "paper" else "")
+            told.show(lambda: print(f"next, the trim that holds this wingbeat in the air: wingbeat orbit {words}"))
         told.save(output, flight.save)
         told.draw(plot_kinematics, None if beat is None else lambda: film_page(beat))
     return EXIT_GOOD if completed else EXIT_NOT_CERTIFIED

@@ -1,5 +1,7 @@
 # The public names and where they live, once: type checkers read this, and `wingbeat.experiment` loads from it.
 
+from .body_path import BodyPath as BodyPath
+from .body_path import fit_body_path as fit_body_path
 from .campaign import Campaign as Campaign
 from .campaign import save_runs as save_runs
 from .campaign import synthetic_runs as synthetic_runs
@@ -11,9 +13,7 @@ from .curve_forms import WingForm as WingForm
 from .film import Film as Film
 from .film import synthetic_film as synthetic_film
 from .film_file import read_film as read_film
-from .film_fit import BodyPath as BodyPath
 from .film_fit import FilmedBeat as FilmedBeat
-from .film_fit import fit_body_path as fit_body_path
 from .film_fit import fit_film as fit_film
 from .flights_file import FlightPoints as FlightPoints
 from .flights_file import read_flights as read_flights

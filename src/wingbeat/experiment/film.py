@@ -72,6 +72,7 @@ class Film:
     fitted : whether the frequency is that of the frames themselves.
     stated : the frequency that the film's file states, None if it states none [Hz].
     read_notes, read_warnings : what the reader of the file found, see `notes` and `warnings`.
+    wrist : where the hand folds, as a fraction of the span; None if not filmed.
 
     Attributes
     ----------
@@ -96,6 +97,7 @@ class Film:
     stated: float | None = None
     read_notes: tuple[str, ...] = ()
     read_warnings: tuple[str, ...] = ()
+    wrist: float | None = None
     clip: Clip | None = field(default=None, init=False)
     notes: tuple[str, ...] = field(default=(), init=False)
     warnings: tuple[str, ...] = field(default=(), init=False)
@@ -105,6 +107,9 @@ class Film:
         if self.frequency is not None:
             faults.number(f"{self.name}, frequency", self.frequency, above=0, unit="Hz")
         faults.number(f"{self.name}, frequency_se", self.frequency_se, at_least=0, unit="Hz")
+        if self.wrist is not None:
+            fix = "a fraction of the span, from the shoulder"
+            faults.number(f"{self.name}, wrist", self.wrist, above=0, below=1, fix=fix)
         if not set(self.columns) & set(FILMED) or set(self.columns) - set(COLUMNS):
             shown = ", ".join(self.columns) or "nothing"
             faults.add(f"{self.name}, columns", shown, "cannot be filmed", f"any of {', '.join(COLUMNS)}")
@@ -250,6 +255,8 @@ class Film:
             lines.append("# synthetic = yes, made by wingbeat's random generator from a known wingbeat, not filmed")
         if self.frequency is not None:
             lines += [f"# frequency [Hz] = {self.frequency!r}", f"# frequency_se [Hz] = {self.frequency_se!r}"]
+        if self.wrist is not None:
+            lines.append(f"# wrist = {self.wrist!r}")
         lines.append(",".join(["phase", *self.columns]))
         for row in zip(self.phase, *self.columns.values(), strict=True):
             lines.append(",".join("" if math.isnan(value) else f"{value:.8g}" for value in row))

@@ -20,7 +20,7 @@ from wingbeat.experiment.periodic import MIN_BEATS, SURE, Array, Clip, clip_rate
 MAX_FRAMES = 100_000
 SIDES = ("both", "left", "right")
 _CLOCKS = {"phase": "", "time": "s", "frame": ""}
-_CONSTANTS = {"frequency": "Hz", "frequency_se": "Hz", "frame_rate": "Hz"}
+_CONSTANTS = {"frequency": "Hz", "frequency_se": "Hz", "frame_rate": "Hz", "wrist": ""}
 _SPELLINGS = {
     **{same_name(name): name for name in (*_CLOCKS, *COLUMNS, *_CONSTANTS)},
     **dict.fromkeys(("frames", "framenumber", "frameno", "frameindex", "fnum"), "frame"),
@@ -55,9 +55,10 @@ def read_film(path: str | Path, side: str = "both") -> Film:
 
     One column is phase (in beats), time [s], or frame (a number, which needs a line ``# frame rate [Hz] = 240``).
     Times and frames need a line ``# frequency [Hz] = 6.1`` above the table if the clip has fewer than two beats. A
-    longer clip determines its frequency; one that disagrees is refused. The other columns are any of those of
-    `Film`, each for both wings together or for one wing: ``left_flap_deg``, ``right_flap_deg``; unknown columns are
-    refused. A cell is empty, NaN or NA where the wing was not seen.
+    longer clip determines its frequency; one that disagrees is refused. A line ``# wrist = 0.5`` says where the
+    hand folds, as a fraction of the span. The other columns are any of those of `Film`, each for both wings
+    together or for one wing: ``left_flap_deg``, ``right_flap_deg``; unknown columns are refused. A cell is empty,
+    NaN or NA where the wing was not seen.
 
     Parameters
     ----------
@@ -111,7 +112,8 @@ def read_film(path: str | Path, side: str = "both") -> Film:
     synthetic = any(same_name(key) == "synthetic" for key in sheet.constants)
     stated = given["frequency"].value if "frequency" in given else None
     notes = (*sheet.notes, *notes)
-    return Film(sheet.file, phase, columns, rate, rate_se, synthetic, fitted, stated, notes, warnings)
+    wrist = given["wrist"].value if "wrist" in given else None
+    return Film(sheet.file, phase, columns, rate, rate_se, synthetic, fitted, stated, notes, warnings, wrist)
 
 
 def _columns(faults: FaultList, sheet: Sheet) -> list[tuple[str, str]]:
@@ -161,14 +163,18 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, _Given]:
         if name not in _CONSTANTS:
             continue
         where = f"{sheet.file} row {row}, {name.replace('frame_', 'frame ')}"
-        check_unit(faults, where, (split_unit(key).unit or "Hz").replace("fps", "Hz"), _CONSTANTS[name])
+        unit = _CONSTANTS[name]
+        check_unit(faults, where, (split_unit(key).unit or unit).replace("fps", "Hz"), unit)
         try:
             value = float(text)
         except ValueError:
-            faults.add(where, text, "must be one number", "in Hz")
+            faults.add(where, text, "must be one number", f"in {unit}" if unit else "a fraction of the span")
             continue
         above, at_least = (-math.inf, 0.0) if name == "frequency_se" else (0.0, -math.inf)
-        faults.number(where, value, above=above, at_least=at_least, unit="Hz")
+        if name == "wrist":
+            faults.number(where, value, above=0, below=1, fix="a fraction of the span, from the shoulder")
+        else:
+            faults.number(where, value, above=above, at_least=at_least, unit="Hz")
         if name in found:
             faults.add(where, text, f"is given twice, as {found[name].text} too", "keep one")
         found[name] = _Given(value, text, where)

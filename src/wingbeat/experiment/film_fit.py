@@ -1,7 +1,7 @@
-"""From a film to a wingbeat and the motion of the body, with errors: a periodic spline for each column.
+"""From a film to a wingbeat, with errors: a periodic spline for each column.
 
 The result is a `Wingbeat` with harmonics up to order 8, even if they are zero, so that one compiled program serves
-all films. The body moves by uniform travel plus a spline.
+all films.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from wingbeat._base import HIGHEST_ORDER, Fault, FaultList, InvalidInputError
-from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat, span_ratio
+from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat, recovery, span_ratio
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.experiment.film import FILMED, WHOLE, Film
 from wingbeat.experiment.periodic import Array, FilmedLaw, fit_law, fourier_columns, from_phase
@@ -33,6 +33,8 @@ _SWAPPED, _SWAPPED_SHARE = 9.0, 0.25
 # Least share of a flap's amplitude in its first harmonic. A sawtooth has 0.64, a square wave 1.27. Frames of ten
 # phases in radians, taken for beats, have 0.06.
 _ONCE = 0.4
+# A filmed fold that differs from its law by this and by so many errors does not follow it [deg].
+_LEAST_FOLD, _SURE_FOLD = 2.0, 4.0
 # Noise alone exceeds this chi squared of four numbers in one film of a hundred.
 _CHANCE = 13.28
 
@@ -141,6 +143,8 @@ class FilmedBeat:
 
     def _numbers(self, span: Array | None) -> dict[str, Any]:
         known = {} if self.film.frequency is None else {"frequency": self.film.frequency}
+        if self.film.wrist is not None and "fold_deg" in self.laws:
+            known["wrist"] = self.film.wrist
         return known | _numbers({name: law.coefficients for name, law in self.laws.items()}, span)
 
     def numbers_of(self, vehicle: Vehicle, wingbeat: Wingbeat) -> dict[str, Any]:
@@ -179,12 +183,17 @@ class FilmedBeat:
                 f"{self.film.name}, column stroke_plane_deg: the angle varies by {2 * _amplitude(law):.2g} degrees "
                 "over the beat, more than the noise; a wingbeat has a fixed stroke plane, so the mean angle is used"
             )
-        return (*notes, *self._misfits)
+        if "fold_deg" in self.laws:
+            where = "the wrist is the species'; the film's line '# wrist = 0.5' would state it"
+            if self.film.wrist is not None:
+                where = f"the wrist is at {self.film.wrist:.3g} of the span, as the film says"
+            notes.append(f"{self.film.name}, column fold_deg: {where}")
+        return (*notes, *self._misfits, *self._misfold)
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """Those notes that may change every number computed from the film."""
-        return (*self.film.warnings, *self._misfits)
+        return (*self.film.warnings, *self._misfits, *self._misfold)
 
     @functools.cached_property
     def _misfits(self) -> tuple[str, ...]:
@@ -212,6 +221,25 @@ class FilmedBeat:
                     "numbers computed from this film"
                 )
         return tuple(found)
+
+    @functools.cached_property
+    def _misfold(self) -> tuple[str, ...]:
+        """Say where the filmed fold differs from the law by which the hand folds, that of the span's retraction."""
+        if "fold_deg" not in self.laws:
+            return ()
+        law, phase = self.laws["fold_deg"], np.arange(64) / 64
+        filmed, error = law.curve(phase + self.shift)
+        size = math.degrees(self.numbers["fold_amplitude"])
+        off = size * np.asarray(recovery(phase)) - filmed
+        worst = int(np.argmax(np.abs(off) / error))
+        way = "more" if off[worst] > 0 else "less"
+        if abs(off[worst]) < max(_SURE_FOLD * float(error[worst]), _LEAST_FOLD):
+            return ()
+        return (
+            f"{self.film.name}, column fold_deg: the model folds the hand by {size:.3g} deg (1 - sin)/2, which is "
+            f"{abs(off[worst]):.2g} +- {error[worst]:.1g} deg {way} than filmed at "
+            f"phase {phase[worst]:.2f} (0 is the top of the stroke); the filmed fold does not follow this law",
+        )
 
     @property
     def held(self) -> frozenset[str]:
@@ -285,106 +313,3 @@ def fit_film(film: Film) -> FilmedBeat:
             faults.add(f"{film.name}, span_fraction", float(mean), rule, "divide by the species' semi_span")
     faults.raise_if_any()
     return FilmedBeat(film, laws)
-
-
-# A film must show this share of a beat in one piece: in a shorter piece, travel and periodic motion look alike.
-_SHORTEST = 0.9
-
-
-@dataclass(frozen=True)
-class BodyPath:
-    """Uniform travel of the body plus a periodic motion; made by `fit_body_path`.
-
-    Parameters
-    ----------
-    frequency : wingbeats per second [Hz].
-    velocity : of the travel, forward and up [m/s].
-    series : x, z [m] and body pitch [rad] over the phase of the wingbeat, as mean, cosine and sine of order 1, of
-        order 2 and so on up to 8, shape (3, 17); the place at phase 0 is the origin.
-    """
-
-    frequency: float
-    velocity: tuple[float, float]
-    series: Array
-
-    def states(self, phase: Any) -> Array:
-        """Return (x, z, body_pitch, u, w, pitch_rate), shape (K, 6) [m, m, rad, m/s, m/s, rad/s].
-
-        Parameters
-        ----------
-        phase : of the wingbeat, shape (K,).
-        """
-        phase = np.asarray(phase, dtype=float)
-        place, rate = (self._series(phase, order) for order in (0, 1))
-        place[:, :2] -= self._series(np.zeros(1), 0)[:, :2]
-        travel = np.array([*self.velocity, 0.0])
-        return np.hstack([place + travel * phase[:, None] / self.frequency, rate + travel])
-
-    def accelerations(self, phase: Any) -> Array:
-        """Return (x'', z'', psi''), shape (K, 3) [m/s2, m/s2, rad/s2].
-
-        Parameters
-        ----------
-        phase : of the wingbeat, shape (K,).
-        """
-        return self._series(np.asarray(phase, dtype=float), 2)
-
-    def _series(self, phase: Array, derivative: int) -> Array:
-        """Return the series or one of their time derivatives, shape (K, 3)."""
-        turning = 2 * math.pi * self.frequency * np.arange(1, HIGHEST_ORDER + 1)
-        waves = self.series[:, 1::2] + 1j * self.series[:, 2::2]
-        # Cosine and sine are the real part of (a + i b) exp(-i w t).
-        waves = waves * (-1j * turning) ** derivative
-        pairs = np.stack([waves.real, waves.imag], axis=-1).reshape(3, -1)
-        mean = self.series[:, :1] * (derivative == 0)
-        return fourier_columns(phase) @ np.hstack([mean, pairs]).T
-
-
-def fit_body_path(
-    beat: FilmedBeat, u: float | None = None, w: float | None = None, body_pitch: float | None = None
-) -> BodyPath:
-    """Fit the motion of a filmed body.
-
-    Each coordinate, x and z, is uniform travel plus a periodic smoothing spline like those of the wings' laws. Body
-    pitch is such a spline alone. A velocity or pitch that was not filmed is constant, and given by the caller.
-
-    Parameters
-    ----------
-    beat : the fitted wingbeat of a film with any of ``body_x_m``, ``body_z_m`` and ``body_pitch_deg``.
-    u, w : velocity forward and up, if x or z was not filmed [m/s]; w is 0 if not given.
-    body_pitch : constant pitch, if it was not filmed [rad]; 0 if not given.
-
-    Raises
-    ------
-    InvalidInputError : a film of less than nine tenths of a beat, a quantity that is both given and filmed, or no
-        velocity.
-    """
-    film, faults = beat.film, FaultList()
-    given = {"body_x_m": u, "body_z_m": w, "body_pitch_deg": body_pitch}
-    for name, number in given.items():
-        if name in film.columns and number is not None:
-            faults.add(f"{film.name}, column {name}", number, "is filmed and given too", "give one of the two")
-    if "body_x_m" not in film.columns and u is None:
-        faults.add(f"{film.name}, body_x_m", "", "is missing", "add the column, or give the mean velocity u [m/s]")
-    laws: list[Array] = []
-    velocity = []
-    frequency = film.frequency or math.nan
-    for name in ("body_x_m", "body_z_m"):
-        travel, series = (given[name] or 0.0) / frequency, np.zeros(2 * HIGHEST_ORDER + 1)
-        if name in film.columns:
-            phase, values = film.seen(name)
-            covered = float(np.ptp(phase))
-            if covered < _SHORTEST:
-                rule = f"covers only {covered:.2g} beats: too little to separate travel from periodic motion"
-                faults.add(f"{film.name}, column {name}", f"{len(phase)} frames", rule, "film a whole wingbeat")
-            found = fit_law(phase, values - values.mean(), (phase - phase.mean())[:, None]).coefficients
-            travel, series = float(found[0]), found[1:].copy()
-            series[0] -= travel * phase.mean()
-        velocity.append(travel * frequency)
-        laws.append(series)
-    faults.raise_if_any()
-    pitch = np.array([body_pitch or 0.0, *[0.0] * 2 * HIGHEST_ORDER])
-    if "body_pitch_deg" in film.columns:
-        pitch = np.radians(fit_law(*film.seen("body_pitch_deg")).coefficients)
-    moved = np.stack([from_phase(beat.shift, one) for one in (*laws, pitch)])
-    return BodyPath(frequency, (velocity[0], velocity[1]), moved)

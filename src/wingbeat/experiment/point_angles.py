@@ -106,6 +106,7 @@ class PointAngles:
         found["semi_span"] = None if self.unit is None else self.semi_span
         found["speed"] = self.axes.speed * metres if self.unit is not None and self.axes.travels else None
         found["climb_deg"] = math.degrees(self.axes.climb) if self.axes.travels else None
+        found["wrist"] = film.wrist
         found["frames"] = len(self.time)
         found["frames_used"] = int(np.isfinite(film.columns["flap_deg"]).sum())
         found["beats"] = self.clip.beats
@@ -138,6 +139,7 @@ class PointAngles:
         film = self.film
         lines = [f"# note: {note}" for note in self.notes]
         lines += [f"# frequency [Hz] = {film.frequency!r}", f"# frequency_se [Hz] = {film.frequency_se!r}"]
+        lines += [] if film.wrist is None else [f"# wrist = {film.wrist:.4f}"]
         lines.append(",".join(["time [s]", *film.columns]))
         for row in zip(self.time, *film.columns.values(), strict=True):
             lines.append(",".join("" if math.isnan(value) else f"{value:.8g}" for value in row))
@@ -341,9 +343,13 @@ def angles_from_points(
     elif not axes.travels:
         notes.append(f"{file}: the animal travels less than a wing's length, so the film has no path of the body")
     read_notes, read_warnings = tuple(notes), tuple(warnings)
+    wrist = None
+    if all("wrist" in found for found in every.values()):
+        wrist = float(np.nanmean([found["wrist"] for found in every.values()]))
     film = Film(
-        file, clip.rate * time, columns, clip.rate, clip.rate_se, False, True, None, read_notes, read_warnings
-    )
+        file, clip.rate * time, columns, clip.rate, clip.rate_se, False, True, None, read_notes, read_warnings,
+        wrist,
+    )  # fmt: skip
     beat = fit_film(film)
     # Scatter that the noise of the points explains is no sign of beats that differ.
     sizes = {name: float(np.sqrt(np.nanmean(errors[name] ** 2))) for name in names}
@@ -403,7 +409,7 @@ def _folds(file: str, every: Mapping[str, Mapping[str, Array]], phase: Array, no
     if 2.0 * size > _LEAST_FOLD and size > _SURE_FOLD * error:
         notes.append(
             f"{file}: the hand folds against the arm by {2 * size:.2g} deg; flap is the arm's, and the wrist is at "
-            f"{wrist:.2f} of the span (--set wingbeat.wrist={wrist:.2f})"
+            f"{wrist:.2f} of the span, where the film then folds it"
         )
         return True
     notes.append(f"{file}: the hand stays in line with the arm ({size:.2g} +- {error:.2g} deg)")

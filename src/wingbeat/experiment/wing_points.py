@@ -54,10 +54,22 @@ def wing_columns(wing: Mapping[str, Array], pitch: Array, normal: Array, fold: b
     if chord is not None:
         raw, chord = chord, normal_to(chord, e)
         if "wrist" in wing and trail is not None:
-            # The wrist without its place ahead of the line of quarter chords: what is left is the arm.
-            ahead = chord / np.linalg.norm(chord, axis=1)[:, None]
-            arm = normal_to(turned(wing["wrist"], wing["shoulder"]), ahead)
-            hand = normal_to(span, ahead) - arm
+            # The arm lies in the plane of shoulder, wrist and trailing edge, swept as the line to the tip is. Where
+            # the hand folds, the chord is normal to the arm, but not to that line.
+            wrist = turned(wing["wrist"], wing["shoulder"])
+            one = raw / np.linalg.norm(raw, axis=1)[:, None]
+            two = normal_to(wrist, one)
+            two = two / np.linalg.norm(two, axis=1)[:, None]
+            forth = np.stack([one @ n, two @ n], axis=1)
+            size = np.linalg.norm(forth, axis=1)
+            along = np.clip((e @ n) / np.maximum(size, 1e-9), -1.0, 1.0)
+            forth = forth / np.maximum(size, 1e-9)[:, None]
+            ahead = forth[:, :1] * one + forth[:, 1:] * two
+            out = forth[:, 1:] * one - forth[:, :1] * two
+            out = out * np.where((out * e).sum(axis=1) < 0, -1.0, 1.0)[:, None]
+            out = along[:, None] * ahead + np.sqrt(1.0 - along**2)[:, None] * out
+            arm = (wrist * out).sum(axis=1)[:, None] * out
+            hand = span - arm
             found["fold_deg"] = (flap_of(arm) - flap_of(hand) + 180.0) % 360.0 - 180.0
             if fold:
                 found["flap_deg"] = flap_of(arm)

@@ -10,7 +10,8 @@ import numpy as np
 
 from wingbeat._base import NOMENCLATURE, FaultList, for_people, suggest
 from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, Wingbeat, in_use, parameter
-from wingbeat.experiment.film_fit import FilmedBeat, fit_body_path
+from wingbeat.experiment.body_path import fit_body_path
+from wingbeat.experiment.film_fit import FilmedBeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.flight.period import PITCH_STATE
 from wingbeat.orbits.problem.filmed import filmed_species

@@ -1,0 +1,73 @@
+"""What is flown of tracked points besides angles: the fold with its wrist, and a body that changes speed."""
+
+import math
+
+import numpy as np
+import pytest
+
+import wingbeat as wb
+from tests.experiment.points_truth import a_beat, points_of, tracked
+from wingbeat.animal.kinematics import recovery
+from wingbeat.experiment import Film, TrackedPoints, angles_from_points, fit_body_path, fit_film, read_film
+
+TIME = np.arange(150) / 240
+BEAT = a_beat(3) | {"frequency": 8.2, "climb": 0.0, "fold": 30.0, "pitch_mean": 6.0, "pitch_amplitude": 18.0}
+
+
+def angles(noise=0.0):
+    at = tracked(points_of(BEAT, TIME), noise=noise)
+    return angles_from_points(TrackedPoints("a clip", "made", at, TIME, np.arange(150.0)))
+
+
+def test_a_fold_is_that_of_the_hand_whatever_the_pitch_of_the_wing():
+    # The chord is normal to the arm, not to the line from shoulder to tip: taken so, the fold was 12 % too small.
+    found = angles()
+    told = found.record()
+    assert (told["fold_mean_deg"], told["fold_amplitude_deg"]) == pytest.approx((15.0, 15.0), abs=0.05)
+    assert told["flap_mean_deg"] == pytest.approx(BEAT["flap_mean"], abs=0.05)
+    assert math.degrees(found.beat.numbers["fold_amplitude"]) == pytest.approx(30.0, abs=0.1)
+    assert not [one for one in told["warnings"] if "fold" in one]
+
+
+def test_the_wrist_is_kept_in_the_film_and_the_hand_folds_there(tmp_path):
+    found = angles(0.0005)
+    assert found.record()["wrist"] == pytest.approx(0.45, abs=0.01)
+    found.save(tmp_path / "film.csv")
+    film = read_film(tmp_path / "film.csv")
+    assert film.wrist == pytest.approx(found.film.wrist, abs=1e-4)
+    beat = fit_film(film)
+    assert wb.filmed_species(beat, wb.load_species("pigeon")).wingbeat.wrist == film.wrist
+    assert any("the wrist is at 0.45 of the span, as the film says" in note for note in beat.notes)
+    wing = {name: film.columns[name] for name in ("flap_deg", "fold_deg")}
+    Film("f", film.phase, wing, film.frequency, wrist=film.wrist).save(tmp_path / "again.csv")
+    assert read_film(tmp_path / "again.csv").wrist == film.wrist
+    (tmp_path / "bad.csv").write_text((tmp_path / "film.csv").read_text().replace("# wrist = 0", "# wrist = 4"))
+    with pytest.raises(wb.InvalidInputError, match="a fraction of the span, from the shoulder"):
+        read_film(tmp_path / "bad.csv")
+
+
+@pytest.mark.parametrize(("lag", "warned"), [(0.0, False), (0.15, True)])
+def test_a_fold_that_does_not_follow_the_law_of_the_model_is_a_warning(lag, warned):
+    phase = np.arange(90) / 30
+    noise = np.random.default_rng(2).normal(size=(2, 90))
+    columns = {"flap_deg": 40 * np.cos(2 * np.pi * phase) + noise[0]}
+    columns["fold_deg"] = 25 * np.asarray(recovery(phase - lag)) + noise[1]
+    beat = fit_film(Film("f", phase, columns, 8.0, wrist=0.5))
+    assert any("does not follow this law" in one for one in beat.warnings) == warned
+
+
+@pytest.mark.parametrize(("change", "warned"), [(0.0, False), (-2.0, True)])
+def test_a_body_that_slows_down_is_said_and_its_deceleration_is_part_of_the_missing_force(change, warned):
+    random, time = np.random.default_rng(3), np.arange(240) / 500
+    columns = {"flap_deg": 40 * np.cos(2 * np.pi * 7 * time)}
+    columns["body_x_m"] = 10 * time + change / 2 * time**2 + 0.002 * np.sin(2 * np.pi * 7 * time)
+    columns |= {"body_z_m": 0.004 * np.cos(2 * np.pi * 7 * time), "body_pitch_deg": 0 * time + 4.0}
+    columns = {name: one + 1e-3 * random.normal(size=240) for name, one in columns.items()}
+    path = fit_body_path(fit_film(Film("f", 7 * time, columns, 7.0)))
+    assert any("the flight is not steady" in one for one in path.warnings) == warned
+    assert path.velocity[0] == pytest.approx(10 + change * 0.24, abs=0.02)
+    assert path.acceleration == pytest.approx((change, 0.0), abs=0.1)
+    assert path.accelerations(np.arange(7) / 7)[:, 0].mean() == pytest.approx(change, abs=0.1)
+    spread = np.std([one.velocity[0] for one in path.draws(40)])
+    # The error of a slope through 240 places, about.
+    assert spread == pytest.approx(1e-3 * math.sqrt(12 / 240) / 0.48, rel=0.6)

@@ -11,11 +11,13 @@ from matplotlib.figure import Figure
 from wingbeat._base.style import (
     BLUE,
     GREEN,
+    ORANGE,
     PAGE,
+    PURPLE,
     SHADE,
     VERMILION,
     drawing,
-    legend_above,
+    legend_below,
     letter_panels,
     new_figure,
 )
@@ -24,6 +26,9 @@ from wingbeat.models import MODELS
 
 SLOW = {"color": BLUE, "marker": "o", "markersize": 3.5, "linestyle": "", "alpha": 0.75}
 FAST = {"color": VERMILION, "marker": "^", "markersize": 4.0, "linestyle": "", "alpha": 0.75}
+# Of the frequencies in panel c, so that one legend names all.
+LEAST_POWER = SLOW | {"color": PURPLE, "marker": "D", "markersize": 3.0}
+LEAST_FREQUENCY = FAST | {"color": ORANGE, "marker": "v"}
 # Labels and limits of the panels, from top to bottom; the limits hold for all models.
 PANELS = (
     ("measured airspeed [m/s]", "predicted speed [m/s]", (3, 30)),
@@ -46,8 +51,9 @@ def draw(found: list[Row], timed: list[Bird]) -> Figure:
     for model, column_of_panels in zip(flown, panels.T, strict=True):
         _draw_model(column_of_panels, of_model(found, model), timed)
         _finish(column_of_panels, model)
-        column_of_panels[0].set_title(f"model {model}", pad=16)
+        column_of_panels[0].set_title(f"model {model}", pad=4)
     letter_panels(panels[:, 0])
+    legend_below(figure, panels)
     return figure
 
 
@@ -65,15 +71,15 @@ def _draw_model(panels: np.ndarray, found: list[Row], timed: list[Bird]) -> None
         panels[0].loglog(measured, values, label=label, **look)
         panels[1].loglog(reynolds, values / measured, label=label, **look)
         panels[3].semilogx(reynolds, values / at_one, label=label, **look)
-    panels[3].semilogx(reynolds, measured / at_one, "x", color="0.3", markersize=4, label="measured")
+    panels[3].semilogx(reynolds, measured / at_one, "x", color="0.3", markersize=4, label="measured speed")
     _frequencies(panels[2], found, timed)
 
 
 def _frequencies(axes: Axes, found: list[Row], timed: list[Bird]) -> None:
     law, reynolds = column(found, "pennycuick_frequency"), column(found, "reynolds")
     looks = (
-        ("least_power_frequency", SLOW, "flown, least power"),
-        ("least_frequency", FAST, "flown, least frequency"),
+        ("least_power_frequency", LEAST_POWER, "flown, least power"),
+        ("least_frequency", LEAST_FREQUENCY, "flown, least frequency"),
     )
     for name, look, label in looks:
         axes.loglog(reynolds, column(found, name) / law, label=label, **look)
@@ -82,7 +88,7 @@ def _frequencies(axes: Axes, found: list[Row], timed: list[Bird]) -> None:
     for i, bird in enumerate(timed):
         own = scaling.BIRD_FREQUENCY(bird.mass, bird.span, bird.area, AIR.density, AIR.gravity)
         at = bird.airspeed * bird.area / bird.span / AIR.viscosity
-        bars = {"yerr": bird.frequency_sd / own, "capsize": 2, "label": "measured" if i == 0 else None}
+        bars = {"yerr": bird.frequency_sd / own, "capsize": 2, "label": "measured frequency" if i == 0 else None}
         axes.errorbar(at, bird.frequency / own, fmt="s", color="black", markersize=4, **bars)
 
 
@@ -90,7 +96,6 @@ def _finish(panels: np.ndarray, model: str) -> None:
     for row, (axes, (x, y, limits)) in enumerate(zip(panels, PANELS, strict=True)):
         axes.set(xlabel=x, ylabel=y, ylim=limits)
         axes.grid()
-        legend_above(axes, columns=2 if row == 2 else 3)
         if row:
             axes.axvspan(*FITTED[model], color=SHADE, zorder=0)
             axes.axhline(1.0, color="0.4", linewidth=1, linestyle="--")

@@ -17,11 +17,12 @@ import wingbeat as wb
 from wingbeat._base.style import (
     FIRST,
     PAGE,
+    PURPLE,
     SECOND,
     THIRD,
     drawing,
     dress,
-    legend_above,
+    legend_below,
     letter_panels,
     new_figure,
     shade_downstrokes,
@@ -35,6 +36,7 @@ from wingbeat_evidence.measured_motion.strip_motion import strip_motion
 DOCS = Path(__file__).parents[1] / "docs" / "guide"
 SPEED = 8.0
 STARTS = 4
+_FOURTH: dict[str, Any] = {"color": PURPLE, "linestyle": (0, (5, 1, 1, 1))}
 
 
 def case_of(orbit: wb.Orbit) -> StripCase:
@@ -96,15 +98,16 @@ def draw_parts(orbit: wb.Orbit) -> Any:
     )
     panels = figure.subplots(1, 2)
     names = (("rotation", "added mass"), ("damping couple", "couple of added mass"))
+    looks = dict(zip((name for group in names for name in group), (FIRST, SECOND, THIRD, _FOURTH), strict=True))
     labels = ("upward force / weight [-]", "couple / (weight × chord) [-]")
     for axes, group, label in zip(panels, names, labels, strict=True):
         shade_downstrokes(axes, 0.0, 1.0)
-        for name, look in zip(group, (FIRST, SECOND), strict=True):
-            axes.plot(phase, parts[name], label=name, **look)
+        for name in group:
+            axes.plot(phase, parts[name], label=name, **looks[name])
         axes.set_xlim(0.0, 1.0)
         dress(axes, "phase [beats]", label)
-        legend_above(axes, columns=2)
     letter_panels(panels)
+    legend_below(figure, panels)
     return figure
 
 

@@ -1,6 +1,6 @@
 """Polars as other programs write them: each is read right, or refused with the sentence that helps.
 
-The files of `polars` were written by XFOIL 6.99 and openfast_io 5.0.0. The other forms are documented:
+The files of `polars` were written by XFOIL 6.99, XFLR5 6.10.04 and openfast_io 5.0.0. Other forms are documented:
 XFLR5 6.61 and JavaFoil by XFLR5's source, AeroDyn by its manual and QBlade's source, QBlade and UIUC by readers.
 """
 
@@ -121,6 +121,23 @@ def test_xfoil_sweeps_are_sorted_and_what_did_not_converge_is_said():
     assert "sorted by angle" in said
     plate = load_measurements(OWN / "xfoil_plate_re50k.pol")
     assert "rows that repeat one are left out, at 0.000 degrees" in " | ".join(plate.notes)
+
+
+@pytest.mark.parametrize("name", ["xflr5_610.txt", "xflr5_610.csv"])
+def test_xflr5_sorts_the_rows_of_xfoil_and_writes_ten_numbers_below_ten_names(name):
+    """XFLR5 6.10.04's own export of XFOIL's rows: the same numbers, by angle, as text or with commas."""
+    table, rows = load_measurements(OWN / name), load_measurements(OWN / "xfoil_naca0012_re50k.pol")
+    assert table.alpha_deg == pytest.approx(rows.alpha_deg)
+    for quantity in ("C_L", "C_D", "C_M"):
+        assert table.mean[quantity] == pytest.approx(rows.mean[quantity], abs=2e-4), quantity
+    assert table.columns()["reynolds"] == pytest.approx(5e4)
+    assert "XFLR5: NACA 0012, Re 50000, Ncrit 9" in " | ".join(table.notes)
+
+
+def test_a_polar_of_one_angle_is_refused():
+    """XFLR5's type 4 holds one angle at many Reynolds numbers."""
+    said = refused(OWN / "xflr5_610_type4.txt")
+    assert "is a polar of one angle at several Reynolds numbers (type 4); export polars of type 1" in said
 
 
 def test_a_part_polar_whose_ends_openfast_io_moved_is_refused():

@@ -179,6 +179,11 @@ def _with_heads(faults: FaultList, file: str, lines: list[str], program: str) ->
                 f"the head names {len(names)} columns and the rows have {usual} numbers, as {program} writes them"
             )
             notes.append(f"{told}; those up to C_M are read")
+        if "reynolds" in places and len(own) > 1 and len({float(one.cells[places["alpha"]]) for one in own}) == 1:
+            rule = "is a polar of one angle at several Reynolds numbers (type 4)"
+            fix = "export polars of type 1, each at one Reynolds number and many angles"
+            faults.add(f"{file} row {at + 1}", lines[at].strip(), rule, fix)
+            faults.raise_if_any()
         wanted = [places[name] for name in ("alpha", "lift", "drag", "moment") if name in places]
         for one in own:
             chosen = tuple(one.cells[k] for k in wanted)

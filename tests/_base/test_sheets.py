@@ -129,6 +129,9 @@ def test_one_sentence_for_what_is_wrong_throughout(tmp_path):
     (commas,) = refused(tmp_path, "time,flap_deg\n" + "".join(f"0,{i:02},4{i % 10},5\n" for i in range(60)))
     assert "has 4 cells" not in commas
     assert "and all others have 4 cells, but the header names 2 columns; write decimal points" in commas
+    rows = "".join(f"0,{i:02},4{i % 10},5\n" * (i != 7) or "0.7\n" for i in range(60))
+    (most,) = refused(tmp_path, "time,flap_deg\n" + rows)
+    assert "and most others have 4 cells, but the header names 2 columns; write decimal points" in most
     (savetxt,) = refused(tmp_path, "# time,flap_deg\n0.1,2\n0.2,3\n")
     assert "a.csv row 2" in savetxt
     assert "write the names without # in front" in savetxt

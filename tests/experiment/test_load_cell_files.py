@@ -337,6 +337,11 @@ def test_tdms_is_read_with_its_clock_units_and_properties():
     assert "speed = 0.4, density = 998 by the file's properties" in " ".join(run.notes)
     tdms("run.tdms", loads, wf_start_offset=3.0)
     assert read_run("run.tdms", setup).time[0] == 3.0
+    torn = np.where(np.arange(COUNT) == COUNT - 1, 1e200, loads)  # as bytes that are lost or added make them
+    tdms("run.tdms", torn)
+    with pytest.raises(wb.InvalidInputError, match=r"channel Fz\[599\] = 1e\+200: is larger than any measurement"):
+        read_run("run.tdms", setup)
+    tdms("run.tdms", signals(), wf_start_offset=3.0)
     content = Path("run.tdms").read_bytes()
     Path("run.tdms").write_bytes(content[: len(content) // 2])
     with pytest.raises(

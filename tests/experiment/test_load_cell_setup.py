@@ -125,3 +125,12 @@ def test_tables_with_other_names_are_mapped():
     assert run.speed == plain.speed
     with pytest.raises(wb.InvalidInputError, match="speed = 2: is stated, but the file says"):
         read_run("run.csv", LoadCellSetup({"normal": "Fz", "tangential": "Fx", "moment": "Ty"}, {"speed": 2}))
+
+
+def test_no_error_bar_excuses_a_number_that_nothing_has():
+    """Wild samples widened the range of C_M by four of their own standard errors, and were in it."""
+    loads = signals()
+    loads[2, -150] = 1e20
+    Path("run.lvm").write_text(lvm(loads))
+    with pytest.raises(wb.InvalidInputError, match=r"C_M = .*: must lie between -5 and 5"):
+        reduce_run(read_run("run.lvm", LoadCellSetup(NAMES, PLATE)), 20)

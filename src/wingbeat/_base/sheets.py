@@ -265,10 +265,14 @@ def parse_numbers(
         if numbers.shape == (len(sheet.rows), len(names)) and (np.abs(numbers) <= LARGEST).all():
             return numbers
     values = np.full((len(sheet.rows), len(names)), np.nan)
-    widths = {len(split_cells(text)) for _, text in sheet.rows[:MAX_CELL_FAULTS]}
-    if len(sheet.rows) > 1 and len(widths) == 1 and (width := widths.pop()) != len(names):
-        rule = f"and all others have {width} cells, but the header names {len(names)} columns"
-        row, text = sheet.rows[0]
+    widths = [len(split_cells(text)) for _, text in sheet.rows[:MAX_CELL_FAULTS]]
+    width = max(set(widths), key=widths.count, default=0)
+    others = "all" if widths.count(width) == len(widths) else "most"
+    # A few rows are listed one by one; of many, the one sentence that holds for most helps more.
+    many = len(sheet.rows) > MAX_CELL_FAULTS and widths.count(width) > 0.8 * len(widths)
+    if len(sheet.rows) > 1 and width != len(names) and (others == "all" or many):
+        rule = f"and {others} others have {width} cells, but the header names {len(names)} columns"
+        row, text = sheet.rows[widths.index(width)]
         fix = "write decimal points, not commas" if width == 2 * len(names) else "name every column"
         if all(text.endswith(",") for _, text in sheet.rows):
             fix = "drop the commas at the ends of the rows"

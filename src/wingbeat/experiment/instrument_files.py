@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from wingbeat._base import Fault, FaultList, FileError, InvalidInputError, install_extra, read_text
-from wingbeat._base.sheets import MAX_BYTES, parse_numbers, read_sheet, split_unit
+from wingbeat._base.sheets import LARGEST, MAX_BYTES, parse_numbers, read_sheet, split_unit
 from wingbeat.experiment.lvm_file import read_lvm
 from wingbeat.experiment.recording import Array, Recording, cell_numbers
 
@@ -113,7 +113,12 @@ def _read_tdms(path: Path) -> Recording:
             fix = "was the recording interrupted?" if notes else "record them at one rate"
             faults.add(file, sizes, "are the numbers of samples of the channels", fix)
         faults.raise_if_any()
-        return np.stack([np.asarray(values, dtype=float) for values in series], axis=1)
+        table = np.stack([np.asarray(values, dtype=float) for values in series], axis=1)
+        for k, values in zip(columns, table.T, strict=True):
+            bad = np.isfinite(values) & (np.abs(values) > LARGEST)
+            rule, fix = "is larger than any measurement", "is the file damaged? Drop the sample"
+            faults.first(f"{file}, channel {names[k]}", values, bad, rule, fix)
+        return table
 
     def clock(faults: FaultList, columns: list[int]) -> Array | None:
         properties = [found[k][0].properties for k in columns]

@@ -186,8 +186,8 @@ _STEEP = 0.3
 # Largest distance of the centre of pressure from mid-chord, and moment about mid-chord that camber adds; the second
 # pair is for steep angles up to 90 degrees where the centre is behind mid-chord, as no plate's is there.
 _ARM, _ARM_BEHIND = (0.35, 0.15), (0.2, 0.1)
-# Standard errors that a range is widened by.
-_SURE = 4.0
+# Standard errors that a range is widened by, but no error excuses ten times what any wing has.
+_SURE, _MOST_ERROR = 4.0, 50.0
 # What makes the coefficients of a plate so many times too large.
 _FACTORS = {
     1e-6: "lengths in mm, or a speed in mm/s",
@@ -263,21 +263,22 @@ def constant_notes(run: LoadCellRun) -> list[str]:
 def check_coefficients(faults: FaultList, run: LoadCellRun, means: RunMeans) -> None:
     """Note mean coefficients that no plate has, with what may have gone wrong."""
     where = f"{run.name}, alpha_deg = {means.alpha_deg:.4g}"
-    (lift, drag, moment), (lift_se, drag_se, moment_se) = means.mean[:3].tolist(), means.se[:3].tolist()
+    (lift, drag, moment), (lift_se, drag_se) = means.mean[:3].tolist(), means.se[:2].tolist()
     whole, error = math.hypot(lift, drag), math.hypot(lift_se, drag_se)
+    lift_more, drag_more, moment_more = np.minimum(_SURE * means.se[:3], _MOST_ERROR).tolist()
     sine = abs(math.sin(math.radians(means.alpha_deg)))
     factor = whole / (1.6 * sine + 0.05)
     near = min(_FACTORS, key=lambda power: abs(math.log(max(factor, 1e-300) / power)))
     off = "check the units of force, speed, density, chord and span"
     off = f"the numbers seem to have {_FACTORS[near]}: {off}" if 0.2 < factor / near < 5 else off
-    if abs(lift) > MAX_LIFT + _SURE * lift_se:
+    if abs(lift) > MAX_LIFT + lift_more:
         faults.add(f"{where}, C_L", lift, f"must lie between {-MAX_LIFT:g} and {MAX_LIFT:g}: no wing has more", off)
-    if drag > MAX_DRAG + _SURE * drag_se:
+    if drag > MAX_DRAG + drag_more:
         faults.add(f"{where}, C_D", drag, f"must be at most {MAX_DRAG:g}: no wing has more", off)
-    elif drag < -_ZERO_ERROR - _SURE * drag_se:
+    elif drag < -_ZERO_ERROR - drag_more:
         fix = "check the signs (tangential_force towards the trailing edge) and the zero readings"
         faults.add(f"{where}, C_D", drag, "must be > 0: the stream drags every plate with it", fix)
-    if abs(moment) > MAX_LIFT + _SURE * moment_se:
+    if abs(moment) > MAX_LIFT + moment_more:
         fix = "give it about mid-chord, in N m; is it in N mm?"
         faults.add(f"{where}, C_M", moment, f"must lie between {-MAX_LIFT:g} and {MAX_LIFT:g}", fix)
     # Friction on both sides of a smooth plate in laminar flow: Blasius 1908.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
@@ -11,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base.errors import Fault, FaultList, FileError, InvalidInputError
-from wingbeat._base.files import read_text
+from wingbeat._base.files import read_text, write_atomically
 
 # A record of 30 s at 10 kHz has some 20 MB.
 MAX_BYTES = 1 << 26
@@ -23,6 +24,9 @@ MAX_CONSTANTS = 1000
 LARGEST = 1e100
 # What programs write where there is no value, in lower case: pandas, NumPy, MATLAB, R, LabVIEW, spreadsheets.
 NO_VALUE = {"", "nan", "-nan", "na", "n/a", "#n/a", "null", "none", "<na>", "1.#qnan", "-1.#ind", "nan(ind)"}
+# Which wing columns and points belong to, and how names spell it.
+SIDES = ("both", "left", "right")
+SIDE_WORDS = {"left": "left", "l": "left", "right": "right", "r": "right"}
 _SAME = {"n·m": "n m", "n*m": "n m", "nm": "n m", "n.m": "n m", "-": "", "1": ""}
 _SAME |= {"°": "deg", "degrees": "deg", "seconds": "s"}
 # What programs and instruments write: a pattern at the beginning, # lines left out, and what to do with the file.
@@ -293,6 +297,15 @@ def parse_numbers(
             if name and (name not in blank or cell.lower() not in NO_VALUE):
                 values[i, k] = _number(faults, f"{sheet.file} row {row}, column {name}", cell)
     return values
+
+
+def write_columns(path: str | Path, lines: Sequence[str], columns: Mapping[str, NDArray[np.float64]]) -> None:
+    """Write a CSV file: `lines` above the names of the columns, and a row for each number; NaN is an empty cell."""
+    rows = (
+        ",".join("" if np.isnan(value) else f"{value:.8g}" for value in row)
+        for row in zip(*columns.values(), strict=True)
+    )
+    write_atomically(path, "\n".join([*lines, ",".join(columns), *rows]) + "\n")
 
 
 def split_cells(text: str, sign: str = ",") -> list[str]:

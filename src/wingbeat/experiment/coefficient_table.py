@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base import FaultList, __version__, write_atomically
+from wingbeat._base import FaultList, __version__
+from wingbeat._base.sheets import write_columns
 from wingbeat.aero.polar_sheet import QUANTITIES, read_polar, reynolds_groups
 
 # NaN says that the quantity is undefined or not known there: no centre of pressure without a force.
@@ -136,10 +137,7 @@ class CoefficientTable:
         columns = self.columns()
         lines = [f"# reduced by wingbeat {__version__}; angles in degrees, x_cp in chords from the leading edge"]
         lines += [f"# note: {note}" for note in self.notes]
-        lines.append(",".join(columns))
-        for row in zip(*columns.values(), strict=True):
-            lines.append(",".join("" if np.isnan(value) else f"{value:.8g}" for value in row))
-        write_atomically(path, "\n".join(lines) + "\n")
+        write_columns(path, lines, columns)
 
 
 def load_measurements(path: str | Path) -> CoefficientTable:

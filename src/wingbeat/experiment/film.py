@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base import Fault, FaultList, InvalidInputError, write_atomically
+from wingbeat._base import Fault, FaultList, InvalidInputError
+from wingbeat._base.sheets import write_columns
 from wingbeat.animal.kinematics import (
     Wingbeat,
     chord_ratio,
@@ -257,10 +258,7 @@ class Film:
             lines += [f"# frequency [Hz] = {self.frequency!r}", f"# frequency_se [Hz] = {self.frequency_se!r}"]
         if self.wrist is not None:
             lines.append(f"# wrist = {self.wrist!r}")
-        lines.append(",".join(["phase", *self.columns]))
-        for row in zip(self.phase, *self.columns.values(), strict=True):
-            lines.append(",".join("" if math.isnan(value) else f"{value:.8g}" for value in row))
-        write_atomically(path, "\n".join(lines) + "\n")
+        write_columns(path, lines, {"phase": self.phase, **self.columns})
 
 
 def check_flap(faults: FaultList, where: str, clock: Array, flap: Array) -> None:

@@ -12,13 +12,21 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat._base import Fault, FaultList, InvalidInputError, written
-from wingbeat._base.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
+from wingbeat._base.sheets import (
+    SIDE_WORDS,
+    SIDES,
+    Sheet,
+    check_unit,
+    parse_numbers,
+    read_sheet,
+    same_name,
+    split_unit,
+)
 from wingbeat.experiment.film import BODY, COLUMNS, FILMED, WRAPPED, Film, check_flap, even_only
 from wingbeat.experiment.periodic import MIN_BEATS, SURE, Array, Clip, clip_rate
 
 # 100 s at 1000 frames a second: no animal repeats one wingbeat for longer. The fit of so many takes a second.
 MAX_FRAMES = 100_000
-SIDES = ("both", "left", "right")
 _CLOCKS = {"phase": "", "time": "s", "frame": ""}
 _CONSTANTS = {"frequency": "Hz", "frequency_se": "Hz", "frame_rate": "Hz", "wrist": ""}
 _SPELLINGS = {
@@ -26,7 +34,6 @@ _SPELLINGS = {
     **dict.fromkeys(("frames", "framenumber", "frameno", "frameindex", "fnum"), "frame"),
     **dict.fromkeys(("fps", "framespersecond", "samplerate", "samplingrate"), "frame_rate"),
 }
-_SIDE_WORDS = {"left": "left", "l": "left", "right": "right", "r": "right"}
 # A header's frequency that differs by less than this share from the clip's own may be the mean of more beats: the
 # periods of one animal scatter by about 3 %. More than the second share is wrong even if the header has few digits.
 _ROUNDED, _COARSE = 0.03, 0.05
@@ -124,8 +131,8 @@ def _columns(faults: FaultList, sheet: Sheet) -> list[tuple[str, str]]:
         where = f"{sheet.file} row {sheet.header_row}, column {k + 1}"
         name, unit = split_unit(cell)
         words = re.split(r"[\s_]+", name)
-        side = next((_SIDE_WORDS[word.lower()] for word in words if word.lower() in _SIDE_WORDS), "")
-        plain = same_name("".join(word for word in words if word.lower() not in _SIDE_WORDS))
+        side = next((SIDE_WORDS[word.lower()] for word in words if word.lower() in SIDE_WORDS), "")
+        plain = same_name("".join(word for word in words if word.lower() not in SIDE_WORDS))
         if unit in ("deg", "degrees", "°") and plain + "deg" in _SPELLINGS:
             plain += "deg"  # "flap [deg]"
         known = _SPELLINGS.get(plain, "")

@@ -35,8 +35,6 @@ _SWAPPED, _SWAPPED_SHARE = 9.0, 0.25
 _ONCE = 0.4
 # A filmed fold that differs from its law by this and by so many errors does not follow it [deg].
 _LEAST_FOLD, _SURE_FOLD = 2.0, 4.0
-# Noise alone exceeds this chi squared of four numbers in one film of a hundred.
-_CHANCE = 13.28
 
 
 def _drawn_in(law: str, mean: float, waves: list[float]) -> dict[str, Any]:
@@ -177,8 +175,7 @@ class FilmedBeat:
     def notes(self) -> tuple[str, ...]:
         """What the reader of the fit must know, warnings included."""
         notes, law = [*self.film.notes], self.laws.get("stroke_plane_deg")
-        waves = np.zeros(4) if law is None else law.coefficients[1:5]
-        if law is not None and waves @ np.linalg.solve(law.covariance[1:5, 1:5], waves) > _CHANCE:
+        if law is not None and law.varies:
             notes.append(
                 f"{self.film.name}, column stroke_plane_deg: the angle varies by {2 * _amplitude(law):.2g} degrees "
                 "over the beat, more than the noise; a wingbeat has a fixed stroke plane, so the mean angle is used"
@@ -188,17 +185,17 @@ class FilmedBeat:
             if self.film.wrist is not None:
                 where = f"the wrist is at {self.film.wrist:.3g} of the span, as the film says"
             notes.append(f"{self.film.name}, column fold_deg: {where}")
-        return (*notes, *self._misfits, *self._misfold)
+        return (*notes, *self.misfits.values(), *self._misfold)
 
     @property
     def warnings(self) -> tuple[str, ...]:
         """Those notes that may change every number computed from the film."""
-        return (*self.film.warnings, *self._misfits, *self._misfold)
+        return (*self.film.warnings, *self.misfits.values(), *self._misfold)
 
     @functools.cached_property
-    def _misfits(self) -> tuple[str, ...]:
-        """Say which columns are far from their curve, and in which frames only."""
-        found = []
+    def misfits(self) -> dict[tuple[str, str], str]:
+        """Sentences by column and fault: "far", a few frames are far from the curve, or "scattered", all are."""
+        found = {}
         for name, law in self.laws.items():
             where, (phase, values) = f"{self.film.name}, column {name}", self.film.seen(name)
             unit = "degrees" if FILMED[name] == "deg" else f"of the {WHOLE[name]}"
@@ -209,18 +206,18 @@ class FilmedBeat:
             if 0 < len(far) <= max(0.1 * len(off), 1):
                 worst = int(far[np.argmax(off[far])])
                 time = f" ({phase[worst] / self.film.frequency:.4g} s)" if self.film.frequency else ""
-                found.append(
+                found[name, "far"] = (
                     f"{where}: {len(far)} of {len(off)} frames are far from the fitted curve, by up to "
                     f"{off[worst]:.2g} {unit} at phase {phase[worst]:.3f}{time}; did the tracker follow another "
                     "point? Leave such cells empty"
                 )
             if law.residual_sd > max(_LARGE * size, least):
-                found.append(
+                found[name, "scattered"] = (
                     f"{where}: the frames lie {law.residual_sd:.2g} {unit} from the fitted wingbeat, whose "
                     f"amplitude is {size:.2g} {unit}: the beats are not alike, or the clock is wrong; do not trust "
                     "numbers computed from this film"
                 )
-        return tuple(found)
+        return found
 
     @functools.cached_property
     def _misfold(self) -> tuple[str, ...]:

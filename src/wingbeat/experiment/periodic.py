@@ -26,6 +26,9 @@ _ORDERS = 3
 # A column of an animal's flap has its first harmonic; in a span or a sweep the second may be larger. The slower of
 # two rates counts if its share of the larger one's power is above this.
 _SLOWER = 0.15
+# ... and if a fit at the larger rate leaves a share of the variance that is above this one, and so many times the
+# share that a fit at the slower one leaves. A series with 0.15 of its power at the slower rate leaves some 0.13.
+_LEAST_WORSE, _WORSE = 0.01, 2.0
 # Share of the variance that a beat explains in a film; noise of 3 degrees leaves 0.94 of a flap of 18 degrees.
 _CLEAR = 0.8
 # A change of the rate below this share of it is left alone: it moves the phase of a clip of four beats by at most
@@ -124,7 +127,10 @@ def _peak(seen: list[tuple[Array, Array]], span: float, frames: int) -> float:
     best = int(np.argmax(np.where(allowed, power, -1.0)))
     near = np.abs(rates - 0.5 * rates[best]) < 0.3 / span
     if rates[best] * span >= 3.0 and near.any() and power[near].max() > _SLOWER * power[best]:
-        best = int(np.flatnonzero(near)[np.argmax(power[near])])
+        slow = int(np.flatnonzero(near)[np.argmax(power[near])])
+        # Straight lines across gaps have power at half the rate too. The frames themselves then fit both rates.
+        fits = [_refined(seen, span, np.array([rates[k], 0.0]), steady=True)[2] for k in (best, slow)]
+        best = slow if fits[0] > max(_WORSE * fits[1], _LEAST_WORSE) else best
     return float(rates[best])
 
 
@@ -176,6 +182,8 @@ def _refined(seen: list[tuple[Array, Array]], span: float, turn: Array, steady: 
 
 # Range in which the weight of the penalty is searched, times the number of frames.
 _WEIGHTS = (1e-12, 1e8)
+# Noise alone exceeds this chi squared of four numbers in one film of a hundred.
+_CHANCE = 13.28
 
 
 def fourier_columns(phase: Any) -> Array:
@@ -207,6 +215,13 @@ class FilmedLaw(NamedTuple):
         """Return the series at phases of the film, and its standard error, shape (n,) each."""
         columns = fourier_columns(phase)
         return columns @ self.coefficients, np.sqrt(np.einsum("ni,ij,nj->n", columns, self.covariance, columns))
+
+    @property
+    def varies(self) -> bool:
+        """Whether the first two orders exceed what noise alone shows in 99 films of a hundred."""
+        waves, covariance = self.coefficients[1:5], self.covariance[1:5, 1:5]
+        # Points without noise have no covariance.
+        return bool(waves @ np.linalg.solve(covariance + 1e-18 * np.eye(4), waves) > _CHANCE)
 
 
 def fit_law(phase: Array, values: Array, *before: Array) -> FilmedLaw:

@@ -225,3 +225,38 @@ def test_a_table_that_counts_frames_needs_no_flag_for_gaps_in_the_count():
     found = angles_from_points(TrackedPoints("clip", "made", at, None, frames, 240.0))
     assert found.record()["frequency"] == pytest.approx(8.2, abs=0.01)
     assert "1 times frames are missing between two rows" in found.warnings[0]
+
+
+def test_a_rate_with_a_decimal_comma_or_none_is_read_as_it_is_meant(tmp_path):
+    """Such rates passed the check of a number, and then `float` raised a ValueError; nan gave angles of NaN."""
+    path = tmp_path / "clip.tsv"
+    for text in (
+        qualisys().replace("FREQUENCY\t240", "FREQUENCY\t240,0"),
+        vicon().replace("\n240\n", '\n"240,0"\n'),
+    ):
+        path.write_text(text)
+        assert read_points(path).rate == 240.0
+    path.write_text((CASES / "opensim.trc").read_text().replace("240", "240,0", 1))
+    assert read_points(path).rate == 240.0
+    path.write_text(qualisys().replace("FREQUENCY\t240", "FREQUENCY\tnan"))
+    assert read_points(path).rate is None
+    path.write_text(vicon().replace("\n240\n", "\nnan\n"))
+    refused(path, "is not followed by a rate")
+
+
+def test_points_of_one_name_are_refused_and_two_animals_keep_their_names(tmp_path):
+    """The later of two points replaced the earlier one: a wing with the tip of another bird."""
+    path = tmp_path / "clip.csv"
+    path.write_text((CASES / "anipose.csv").read_text().replace("wrist_", "tip_"))
+    refused(path, "tip", "names more than one point", "give each point its own name")
+    path.write_text(vicon().replace("Bird:shoulder", "Bird1:tip").replace("Bird:tip", "Bird2:tip"))
+    assert list(read_points(path).positions) == ["Bird1:tip", "Bird:wrist", "Bird2:tip", "Bird:trailing"]
+    path.write_text(vicon().replace("Bird:shoulder", "Bird:tip"))
+    refused(path, "= 'tip': names more than one point")
+    c3d_of(
+        tmp_path / "clip.c3d", {"Bird1:tip": AT["tip"], "Bird2:tip": AT["wrist"], "Bird1:shoulder": AT["shoulder"]}
+    )
+    assert list(read_points(tmp_path / "clip.c3d").positions) == ["Bird1:tip", "Bird2:tip", "Bird1:shoulder"]
+    with xr.open_dataset(CASES / "movement.nc", engine="h5netcdf") as data:
+        names = ["tip", "tip", *data["keypoints"].values[2:]]
+        refused(data.load().assign_coords(keypoints=names), "names more than one point")

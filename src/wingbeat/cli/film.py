@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import functools
+import os
 import sys
+from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from wingbeat._base import FaultList, written
 from wingbeat.cli.arguments import check_files, check_outputs, figure, flag, option, written_to
 from wingbeat.cli.terminal import answer
-from wingbeat.experiment.point_angles import PointAngles, angles_from_points
+from wingbeat.experiment.point_angles import angles_from_points
 from wingbeat.plots import points_page
 
 
@@ -52,8 +55,9 @@ def film(
     faults = FaultList()
     if output is not None and output.suffix.lower() != ".csv":
         faults.add("--output", str(output), "is not a film", "end it in .csv")
-    if output is not None and output == file:
-        faults.add("--output", str(output), "is the file of the points", "choose another name")
+    with suppress(ValueError):  # a NUL in a path; it is refused later, when the file is opened
+        if output is not None and os.path.realpath(output) == os.path.realpath(file):
+            faults.add("--output", str(output), "is the file of the points", "choose another name")
     check_files(faults, output, plot=plot)
     faults.raise_if_any()
     check_outputs(output, plot)
@@ -68,7 +72,8 @@ def film(
         semi_span=semi_span,
     )
     with answer() as given:
-        given.tell(found.record(), functools.partial(print, "\n".join(_lines(found))), json)
+        told = found.record()
+        given.tell(told, functools.partial(print, "\n".join(_lines(told))), json)
         for note in found.notes:
             kind = "warning" if note in found.warnings else "note"
             print(f"{kind}: {note}", file=sys.stderr)
@@ -76,9 +81,8 @@ def film(
         given.draw(plot, lambda: points_page(found), named=True)
 
 
-def _lines(found: PointAngles) -> list[str]:
+def _lines(told: Mapping[str, Any]) -> list[str]:
     """Return lines with the means and amplitudes of a wing's angles, and what was guessed."""
-    told = found.record()
     lines = [f"frequency: {written(told['frequency'], told['frequency_se'], 'Hz')}"]
     for name in ("flap", "pitch", "sweep", "fold", "tip_pitch"):
         for what in ("mean", "amplitude"):

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -11,21 +10,26 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base import Fault, FaultList, InvalidInputError, write_atomically
+from wingbeat._base import Fault, FaultList, InvalidInputError
+from wingbeat._base.sheets import SIDES, write_columns
 from wingbeat.experiment.film import FILMED, Film
 from wingbeat.experiment.film_file import joined
 from wingbeat.experiment.film_fit import FilmedBeat, fit_film
 from wingbeat.experiment.periodic import MIN_BEATS, Clip, FilmedLaw, clip_rate, fit_law, fourier_columns
 from wingbeat.experiment.point_axes import Axes, axis_vector, find_axes
-from wingbeat.experiment.point_names import SIDES, NamedPoints, name_points
+from wingbeat.experiment.point_names import NamedPoints, name_points
 from wingbeat.experiment.point_tables import METRES, Array
 from wingbeat.experiment.tracked_points import TrackedPoints, read_points
 from wingbeat.experiment.wing_points import column_errors, marker_noise, stroke_plane, wing_columns
 
-# Semi-spans of flying animals and robots [m], from a fruit bat's largest to a hawk moth's, and their speeds [m/s].
-_SEMI_SPANS, _MOST_SPEED = (0.015, 1.7), 40.0
+# Semi-spans of flying animals and robots [m], from a small insect's to an albatross's, and their speeds [m/s].
+_SEMI_SPANS, _MOST_SPEED = (0.002, 1.7), 40.0
+# Their semi-span times frequency [m/s]: 0.2 of small butterflies, 0.5 of a fruit fly, 5 of an albatross.
+_BEATEN = (0.1, 10.0)
 # Length of the chord's baseline over its noise below which pitch is left out.
 _CHORD_NOISE = 3.0
+# Standard error of the pitch's mean or amplitude above which one in eighty is off by two degrees [deg].
+_UNSURE_PITCH = 0.8
 # A hand that drops by less than this, or by less than so many errors, is not called a fold [deg].
 _LEAST_FOLD, _SURE_FOLD = 3.0, 4.0
 # A step of the shoulder that differs by more than this share of the usual one, and so many errors, is doubtful.
@@ -34,8 +38,6 @@ _JUMP, _SURE_JUMP = 0.6, 3.5
 _FEW_FRAMES = 8
 # A scatter of frames below so many times that of the points' noise is explained by it.
 _EXPLAINED = 1.5
-# Noise alone exceeds this chi squared of four numbers in one film of a hundred.
-_CHANCE = 13.28
 
 
 @dataclass(frozen=True)
@@ -52,6 +54,7 @@ class PointAngles:
     tracked, named, axes : the points, which of them is what, and the directions found.
     wings : points of each wing by side and role, as forward, outward and up from the shoulder, shape (n, 3).
     noise : standard deviation of each point in one coordinate, in the file's unit, by role.
+    body_pitch_deg : mean angle of the body axis above the horizontal [deg].
     stroke_plane_deg, stroke_plane_se : angle of the stroke plane from the body axis, and its standard error [deg].
     semi_span : shoulder to tip, largest of the beat [m]; in the file's unit if that is not known.
     unit : "m", "cm", "mm", or None if not known.
@@ -69,6 +72,7 @@ class PointAngles:
     axes: Axes
     wings: dict[str, dict[str, Array]]
     noise: dict[str, float]
+    body_pitch_deg: float
     stroke_plane_deg: float
     stroke_plane_se: float
     semi_span: float
@@ -140,10 +144,7 @@ class PointAngles:
         lines = [f"# note: {note}" for note in self.notes]
         lines += [f"# frequency [Hz] = {film.frequency!r}", f"# frequency_se [Hz] = {film.frequency_se!r}"]
         lines += [] if film.wrist is None else [f"# wrist = {film.wrist:.4f}"]
-        lines.append(",".join(["time [s]", *film.columns]))
-        for row in zip(self.time, *film.columns.values(), strict=True):
-            lines.append(",".join("" if math.isnan(value) else f"{value:.8g}" for value in row))
-        write_atomically(path, "\n".join(lines) + "\n")
+        write_columns(path, lines, {"time [s]": self.time, **film.columns})
 
 
 def first_harmonic(law: FilmedLaw) -> tuple[float, float]:
@@ -185,7 +186,7 @@ def angles_from_points(
 
     Parameters
     ----------
-    source : path of the file, or a data set of movement, see `read_points`.
+    source : path of the file, a data set of movement, see `read_points`, or a `TrackedPoints`.
     points : which point is what, see `name_points`; None for usual names such as left_wrist.
     frame_rate : frames per second, if the file does not state it [Hz].
     side : "left", "right" or "both" wings; None for all that are named.
@@ -213,8 +214,7 @@ def angles_from_points(
     faults = FaultList()
     if side is not None:
         faults.choice("--side", side, SIDES)
-    axis_vector(faults, "--up", up)
-    axis_vector(faults, "--forward", forward)
+    given_up, given_forward = axis_vector(faults, "--up", up), axis_vector(faults, "--forward", forward)
     if units is not None:
         faults.choice("--units", units, tuple(METRES))
     if frame_rate is not None:
@@ -228,7 +228,7 @@ def angles_from_points(
     notes += named.notes
     time, told = _clock(tracked, frame_rate)
     warnings += told
-    axes = find_axes(tracked, named, time, {"side": side, "up": up, "forward": forward})
+    axes = find_axes(tracked, named, time, side, given_up, given_forward)
     notes += axes.notes
     warnings += axes.warnings
 
@@ -304,12 +304,11 @@ def angles_from_points(
                 f"{where}: the chord's points are only {share:.2g} of the wing apart, {size / doubt:.2g} times "
                 "their noise: pitch is left out; track a point at the trailing edge"
             )
-            for columns in (*every.values(), *spread.values()):
-                for name in ("pitch_deg", "tip_pitch_deg"):
-                    columns.pop(name, None)
+            for name in ("pitch_deg", "tip_pitch_deg"):
+                found.pop(name, None)
     wingspan = float(np.mean([_largest(found["span"], clip.rate * time) for found in every.values()]))
-    unit, said = _unit(tracked, units, wingspan, axes)
-    (warnings if unit is None else notes).append(said)
+    unit, said, sure = _unit(tracked, units, wingspan, axes.speed, clip.rate)
+    (notes if sure else warnings).append(said)
     metres = METRES.get(unit or "", math.nan)
     if semi_span is not None and unit is None:
         raise InvalidInputError([Fault("--semi-span", semi_span, "needs the unit of the points", "give --units")])
@@ -321,6 +320,9 @@ def angles_from_points(
         notes.append(f"{file}: the full span is the beat's largest, {shown}; --semi-span replaces it")
     names = [name for name in FILMED if all(name in found for found in every.values())]
     names = [name for name in names if fold or name != "fold_deg"]
+    for one, found in every.items():
+        if lost := [name for name in FILMED if name in found and name not in names and name != "fold_deg"]:
+            notes.append(f"{file}, {one} wing: {', '.join(lost)} is left out, because the other wing has none")
     sided = {(one, name): found[name] for one, found in every.items() for name in names}
     columns, more, doubts = joined(faults, file, sided, "both")
     faults.raise_if_any()
@@ -354,34 +356,38 @@ def angles_from_points(
     # Scatter that the noise of the points explains is no sign of beats that differ.
     sizes = {name: float(np.sqrt(np.nanmean(errors[name] ** 2))) for name in names}
     plain = [name for name in names if beat.laws[name].residual_sd < _EXPLAINED * sizes[name]]
-    heads = tuple(f"{file}, column {name}: the frames lie" for name in plain)
-    calm = [one for one in beat.notes if not one.startswith(heads)]
-    if len(calm) < len(beat.notes):
+    explained = {beat.misfits[name, "scattered"] for name in plain if (name, "scattered") in beat.misfits}
+    calm = [one for one in beat.notes if one not in explained]
+    if explained:
         calm.append(f"{file}: the scatter of {', '.join(plain)} is that of the points' noise")
-    doubtful = tuple(one for one in beat.warnings if not one.startswith(heads))
+    doubtful = [one for one in beat.warnings if one not in explained]
+    if (pitched := beat.laws.get("pitch_deg")) is not None:
+        doubt = max(math.sqrt(pitched.covariance[0, 0]), first_harmonic(pitched)[1])
+        if doubt > _UNSURE_PITCH:
+            fix = "a longer clip" if "trailing" in wings[first] else "a point at the trailing edge"
+            calm.append(f"{file}: pitch is uncertain by {doubt:.2g} deg; track {fix}")
+            doubtful.append(calm[-1])
     return PointAngles(
-        film, beat, errors, time, clip, tracked, named, axes, wings, noise, plane, plane_se,
-        full * (metres if unit else 1.0), unit, tuple(calm), doubtful,
+        film, beat, errors, time, clip, tracked, named, axes, wings, noise, float(np.degrees(pitch).mean()),
+        plane, plane_se, full * (metres if unit else 1.0), unit, tuple(calm), tuple(doubtful),
     )  # fmt: skip
 
 
 def _clock(tracked: TrackedPoints, given: float | None) -> tuple[Array, list[str]]:
     """Return the times of the frames [s], from 0, and warnings; refuse a clip without a clock."""
-    file, steps = tracked.name, np.diff(tracked.frames)
-    if len(tracked.frames) < 2:
-        raise InvalidInputError([Fault(file, len(tracked.frames), "holds too few frames", "is it cut off?")])
+    file, frames = tracked.name, tracked.frames
+    if len(frames) < 2:
+        raise InvalidInputError([Fault(file, len(frames), "holds too few frames", "is it cut off?")])
     if tracked.times is not None:
         step = float(np.median(np.diff(tracked.times)))
-        known = tracked.rate or given
-        counted = np.array_equal(tracked.times, np.round(tracked.times))
-        if known is not None and abs(step * known - 1) > 0.02 and not counted:
-            where = "frame rate" if tracked.rate else "--frame-rate"
-            rule = f"does not fit the times, which step by {step:.4g} s: {1 / step:.4g} frames a second"
-            raise InvalidInputError([Fault(f"{file}, {where}", known, rule, "correct it, or the times")])
-        if not counted:
+        if not np.array_equal(tracked.times, np.round(tracked.times)):
+            for where, known in (("frame rate", tracked.rate), ("--frame-rate", given)):
+                if known is not None and abs(step * known - 1) > 0.02:
+                    rule = f"does not fit the times, which step by {step:.4g} s: {1 / step:.4g} frames a second"
+                    raise InvalidInputError([Fault(f"{file}, {where}", known, rule, "correct it, or the times")])
             return tracked.times - tracked.times[0], []
-        tracked = dataclasses.replace(tracked, frames=tracked.times)
-    rate, told = given or tracked.rate, []
+        frames = tracked.times  # they are counted, not measured
+    steps, rate, told = np.diff(frames), given or tracked.rate, []
     if rate is None:
         rule = "is missing: the file holds no times, and angles need a clock"
         fix = "give --frame-rate with the frames per second of your film, such as --frame-rate 500"
@@ -390,7 +396,7 @@ def _clock(tracked: TrackedPoints, given: float | None) -> tuple[Array, list[str
         told.append(f"{file}: --frame-rate {given:g} replaces the file's own {tracked.rate:g} frames a second")
     if (steps != steps[0]).any():
         told.append(f"{file}: {int((steps > steps.min()).sum())} times frames are missing between two rows")
-    return (tracked.frames - tracked.frames[0]) / rate, told
+    return (frames - frames[0]) / rate, told
 
 
 def _folds(file: str, every: Mapping[str, Mapping[str, Array]], phase: Array, notes: list[str]) -> bool:
@@ -420,29 +426,28 @@ def _largest(span: Array, phase: Array) -> float:
     """Return the largest span of the fitted law, or the mean of a span that varies by no more than its noise."""
     seen = np.isfinite(span)
     law = fit_law(phase[seen], span[seen])
-    waves = law.coefficients[1:5]
-    if waves @ np.linalg.solve(law.covariance[1:5, 1:5] + 1e-18 * np.eye(4), waves) < _CHANCE:
-        return float(law.coefficients[0])
-    return float(law.curve(np.arange(180) / 180)[0].max())
+    return float(law.curve(np.arange(180) / 180)[0].max() if law.varies else law.coefficients[0])
 
 
-def _unit(tracked: TrackedPoints, given: str | None, span: float, axes: Axes) -> tuple[str | None, str]:
-    """Return the unit of length, None if it is not known, and a sentence on where it comes from."""
+def _unit(
+    tracked: TrackedPoints, given: str | None, span: float, speed: float, rate: float
+) -> tuple[str | None, str, bool]:
+    """Return the unit of length, None if it is not known, a sentence on where it comes from, and if it suits."""
     file, stated = tracked.name, tracked.unit
     if given is not None and stated is not None and given != stated:
         raise InvalidInputError([Fault("--units", given, f"the file says {stated}", "leave the option out")])
     if given or stated:
         unit = given or stated or ""
-        if not _SEMI_SPANS[0] / 3 <= span * METRES[unit] <= 3 * _SEMI_SPANS[1]:
-            rule = f"makes the wing {span * METRES[unit]:.3g} m long, as that of no animal or robot"
-            raise InvalidInputError([Fault(f"{file}, unit", unit, rule, "give the unit of the numbers by --units")])
-        return unit, f"{file}: lengths are in {unit}, {'as given' if given else 'as the file says'}"
-    low, high = _SEMI_SPANS
-    likely = [name for name, m in METRES.items() if low <= span * m <= high and axes.speed * m < _MOST_SPEED]
+        said = f"{file}: lengths are in {unit}, {'as given' if given else 'as the file says'}"
+        if _SEMI_SPANS[0] / 3 <= span * METRES[unit] <= 3 * _SEMI_SPANS[1]:
+            return unit, said, True
+        return unit, f"{said}: the wing is then {span * METRES[unit]:.3g} m long, as that of no animal", False
+    (low, high), (slow, fast) = _SEMI_SPANS, _BEATEN
+    likely = [name for name, m in METRES.items() if low <= span * m <= high and speed * m < _MOST_SPEED]
+    likely = [name for name in likely if slow <= span * METRES[name] * rate <= fast]
     if len(likely) == 1:
-        return likely[0], (
-            f"{file}: lengths seem to be in {likely[0]}: the wing is then {span * METRES[likely[0]]:.3g} m long"
-        )
+        long = f"{span * METRES[likely[0]]:.3g} m long"
+        return likely[0], f"{file}: lengths seem to be in {likely[0]}: the wing is then {long}", True
     shown = " or ".join(f"{name} ({span * METRES[name]:.2g} m)" for name in likely) or "none of m, cm, mm"
     said = f"{file}: the unit of lengths may be {shown}: the film has angles but no path; give --units"
-    return None, said
+    return None, said, False

@@ -79,7 +79,9 @@ def find_axes(
     tracked: TrackedPoints,
     named: NamedPoints,
     time: Array,
-    flags: Mapping[str, str | None],
+    side: str | None,
+    up: Array | None,
+    forward: Array | None,
 ) -> Axes:
     """Return forward, up and outward directions.
 
@@ -92,17 +94,14 @@ def find_axes(
     ----------
     tracked, named : the points.
     time : of the frames [s].
-    flags : "side", "up" and "forward", as given by the user.
+    side : "left", "right" or "both", as given by the user.
+    up, forward : unit vectors of the flags, from `axis_vector`.
 
     Raises
     ------
     InvalidInputError : directions that cannot be found, a side that contradicts the sign of up.
     """
-    faults, notes, warnings = FaultList(), [], []
-    file, side = tracked.name, flags.get("side")
-    up = axis_vector(faults, "--up", flags.get("up"))
-    forward = axis_vector(faults, "--forward", flags.get("forward"))
-    faults.raise_if_any()
+    file, notes, warnings = tracked.name, [], []
     spans = {one: wing["tip"] - wing["shoulder"] for one, wing in named.wings.items()}
     lengths = {one: float(np.nanmedian(np.linalg.norm(span, axis=1))) for one, span in spans.items()}
     length = float(np.mean(list(lengths.values())))
@@ -123,7 +122,9 @@ def find_axes(
         how = "--forward"
         if way is not None and forward @ way < 0.5:
             warnings.append(f"{file}: --forward {axis_name(forward)} is not where the animal flies or points")
-        way = velocity / speed if travels and forward @ velocity > 0.5 * speed else forward
+        way = forward
+        if travels and forward @ velocity > 0.5 * speed:
+            how, way = "the path, with the sign of --forward", velocity / speed
     elif travels:
         how = "the path, which is longer than a wing"
     elif axis is not None:
@@ -138,13 +139,10 @@ def find_axes(
     if up is not None:
         said = "--up"
     elif tracked.up is not None:
-        up, said, found = axis_vector(faults, file, tracked.up), "the file's own vertical", True
+        up, said, found = axis_vector(FaultList(), file, tracked.up), "the file's own vertical", True
     elif set(named.wings) == {"left", "right"} and way is not None:
         left = _without(np.nanmean(named.wings["left"]["shoulder"] - named.wings["right"]["shoulder"], axis=0), way)
-        up, said = (
-            np.sign(np.cross(way, left)) * (np.abs(np.cross(way, left)) == np.abs(np.cross(way, left)).max()),
-            "",
-        )
+        up = axis_vector(FaultList(), file, axis_name(np.cross(way, left)))
         said = "the axis of the file nearest to forward x left"
     else:
         up, said = _swung(file, spans, way), "the axis along which the tip swings most"

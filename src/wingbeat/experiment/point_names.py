@@ -10,12 +10,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wingbeat._base import FaultList, read_text, suggest, toml_tables
-from wingbeat.experiment.point_tables import Array
+from wingbeat._base.sheets import SIDE_WORDS
+from wingbeat.experiment.point_tables import FEWEST_SEEN, Array
 from wingbeat.experiment.tracked_points import TrackedPoints
 
 WING_POINTS = ("shoulder", "wrist", "tip", "trailing", "leading", "tip_trailing")
 BODY_POINTS = ("front", "rear")
-SIDES = ("left", "right", "both")
 # Usual names, in lower case and without signs.
 _ROLES = {
     **dict.fromkeys(("shoulder", "wingbase", "wingroot", "winghinge"), "shoulder"),
@@ -27,7 +27,6 @@ _ROLES = {
     **dict.fromkeys(("front", "nose", "beak", "bill", "head", "snout"), "front"),
     **dict.fromkeys(("rear", "tail", "tailbase", "rump"), "rear"),
 }
-_SIDE_WORDS = {"left": "left", "l": "left", "right": "right", "r": "right"}
 
 
 class NamedPoints(NamedTuple):
@@ -53,8 +52,8 @@ def _role(word: str) -> tuple[str, str] | None:
     (('left', 'tip'), ('right', 'wrist'), None)
     """
     parts = [part.lower() for part in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])|\d+", word)]
-    sides = {_SIDE_WORDS[part] for part in parts if part in _SIDE_WORDS}
-    role = _ROLES.get("".join(part for part in parts if part not in _SIDE_WORDS))
+    sides = {SIDE_WORDS[part] for part in parts if part in SIDE_WORDS}
+    role = _ROLES.get("".join(part for part in parts if part not in SIDE_WORDS))
     return None if role is None or len(sides) > 1 else (next(iter(sides), ""), role)
 
 
@@ -72,7 +71,8 @@ def name_points(
 
     Raises
     ------
-    InvalidInputError : unknown roles or points, no shoulder or no tip.
+    FileError : a TOML file that cannot be read.
+    InvalidInputError : unknown roles or points, no shoulder or no tip, a point that was seen in too few frames.
     """
     faults, notes = FaultList(), []
     known, file = list(tracked.positions), tracked.name
@@ -89,6 +89,11 @@ def name_points(
         if not isinstance(given, Mapping):
             table, where = toml_tables(read_text(Path(given)), str(given)), str(given)
             table = table.get("points", table)
+        if not isinstance(table, Mapping):
+            faults.add(
+                f"{where}, points", str(table), "is no table of pairs", 'write [points], and below it tip = "pt3"'
+            )
+            faults.raise_if_any()
         pairs = [(str(role), str(name)) for role, name in table.items()]
     elif "=" in str(given):
         for word in filter(None, str(given).split(",")):
@@ -125,14 +130,15 @@ def name_points(
             found[role] = name
     faults.raise_if_any()
     sided = {one for one, role in found if one and role in WING_POINTS}
-    wings: dict[str, dict[str, Array]] = {}
+    chosen: dict[str, dict[str, str]] = {}
     for (one, role), name in found.items():
-        if role in BODY_POINTS:
-            continue
         mine = one or (side if side in ("left", "right") and not sided else "")
-        if side not in ("left", "right") or mine == side:
-            wings.setdefault(mine, {})[role] = tracked.positions[name]
-    wings = {one: wing for one, wing in wings.items() if {"shoulder", "tip"} <= set(wing)}
+        if role in WING_POINTS and (side not in ("left", "right") or mine == side):
+            chosen.setdefault(mine, {})[role] = name
+    chosen = {one: wing for one, wing in chosen.items() if {"shoulder", "tip"} <= set(wing)}
+    if len(chosen) > 1:
+        chosen.pop("", None)
+    wings = {one: {role: tracked.positions[name] for role, name in wing.items()} for one, wing in chosen.items()}
     if side == "both" and set(wings) != {"left", "right"}:
         fix = "name left_shoulder, left_tip, right_shoulder and right_tip, such as --points left_tip=pt1,..."
         faults.add("--side", side, f"needs both wings; the points of {file} are {listed}", fix)
@@ -145,14 +151,26 @@ def name_points(
         what = f"the {side} wing's points" if side in ("left", "right") and sided else "points"
         faults.add(f"{file}, {what}", len(known), rule, fix + pair)
     faults.raise_if_any()
-    if len(wings) > 1:
-        wings.pop("", None)
     for one, wing in wings.items():
-        for role, at in wing.items():
-            if (count := int(np.isfinite(at).all(axis=1).sum())) < 8:
+        seen = {role: np.isfinite(at).all(axis=1) for role, at in wing.items()}
+        rule = f"must be seen in at least {FEWEST_SEEN} frames"
+        if min(there.sum() for there in seen.values()) >= FEWEST_SEEN:
+            seen = {", ".join(seen): np.logical_and.reduce(list(seen.values()))}
+            rule = rule.replace("seen", "seen together")
+        for role, there in seen.items():
+            if there.sum() < FEWEST_SEEN:
                 where = f"{file}, {' '.join(filter(None, (one, role)))}"
-                faults.add(where, f"{count} frames", "must be seen in at least 8 frames", "track more frames")
+                faults.add(where, f"{there.sum()} frames", rule, "track more frames")
     faults.raise_if_any()
     body = {role: tracked.positions[name] for (_, role), name in found.items() if role in BODY_POINTS}
-    names = {"_".join(filter(None, role)): name for role, name in found.items()}
+    both = np.logical_and.reduce([np.isfinite(at).all(axis=1) for at in body.values()]) if body else np.empty(0)
+    if body and (set(body) != set(BODY_POINTS) or both.sum() < FEWEST_SEEN):
+        body = {}
+        rule = f"the body axis needs the points front and rear, seen together in at least {FEWEST_SEEN} frames"
+        notes.append(f"{file}: {rule}")
+    used = {name for wing in chosen.values() for name in wing.values()}
+    used |= {name for (_, role), name in found.items() if role in body}
+    if rest := [f"{' '.join(filter(None, role))} = {name}" for role, name in found.items() if name not in used]:
+        notes.append(f"{file}: not used: {', '.join(rest)}")
+    names = {"_".join(filter(None, role)): name for role, name in found.items() if name in used}
     return NamedPoints(wings, body, names, tuple(notes))

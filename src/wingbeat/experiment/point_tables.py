@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from typing import Any, NamedTuple, NoReturn
@@ -19,6 +20,8 @@ UNIT_WORDS = {**{name: name for name in METRES}, "meters": "m", "metres": "m", "
 UNIT_WORDS |= {"millimeters": "mm", "millimetres": "mm", "centimeters": "cm", "centimetres": "cm"}
 # Below this likelihood DeepLabCut and movement themselves drop a point (pcutoff 0.6, filter_by_confidence 0.6).
 LEAST_SCORE = 0.6
+# A point that was seen in fewer frames has no noise that could be told from its motion.
+FEWEST_SEEN = 12
 SCORES = ("score", "likelihood", "confidence")
 _FRAMES = ("frame", "frames", "fnum", "framenumber", "frameindex", "frameidx", "frameno", "field")
 _TIMES = ("time", "times", "timeseconds", "timesec", "t")
@@ -43,6 +46,19 @@ class Table(NamedTuple):
 def refuse(where: str, value: Any, rule: str, fix: str = "") -> NoReturn:
     """Raise the one fault of a file."""
     raise InvalidInputError([Fault(where, value, rule, fix)])
+
+
+def refuse_repeated(file: str, names: Sequence[str]) -> None:
+    """Refuse names that two points share: one of them would be lost."""
+    if repeated := sorted({name for name in names if names.count(name) > 1}):
+        rule = "names more than one point of the file"
+        refuse(f"{file}, points", ", ".join(repeated[:5]), rule, "give each point its own name")
+
+
+def without_subject(names: Sequence[str]) -> list[str]:
+    """Return names such as Bird:tip without what stands before the colon, if they then still differ."""
+    short = [name.rpartition(":")[2] for name in names]
+    return short if len(set(short)) == len(set(names)) else list(names)
 
 
 def split_table(file: str, text: str) -> Table:
@@ -106,17 +122,18 @@ def _filled(cells: Sequence[str]) -> list[str]:
     return found
 
 
-def _is_number(cell: str) -> bool:
+def _number(cell: str) -> float | None:
+    """Return the finite number of a cell, with a decimal point or comma; None if it holds none."""
     try:
-        float(cell.replace(",", "."))
+        value = float(cell.replace(",", ".", 1))
     except ValueError:
-        return False
-    return True
+        return None
+    return value if math.isfinite(value) else None
 
 
 def _mostly_numbers(cells: Sequence[str]) -> bool:
     given = [cell for cell in cells if cell.strip().lower() not in NO_VALUE]
-    return sum(map(_is_number, given)) > 0.5 * len(given) and bool(given)
+    return sum(_number(cell) is not None for cell in given) > 0.5 * len(given) and bool(given)
 
 
 def _label(cell: str, units: set[str]) -> tuple[str, str]:
@@ -168,7 +185,6 @@ def _trc(file: str, rows: list[tuple[int, list[str]]]) -> Table:
     if len(rows) < 6 or "DataRate" not in rows[1][1]:
         refuse(file, rows[-1][1][0], "is cut off: a .trc has five rows of heads and a row for each frame")
     head = dict(zip(rows[1][1], rows[2][1], strict=False))
-    rate = float(head["DataRate"]) if _is_number(head.get("DataRate", "")) else None
     names = _filled(rows[3][1])
     width = len([cell for cell in rows[4][1] if cell])
     labels = [("", "frame"), ("", "time")]
@@ -177,9 +193,10 @@ def _trc(file: str, rows: list[tuple[int, list[str]]]) -> Table:
     labels = labels[: 2 + width]
     stated = head.get("NumFrames", "")
     found = sum(bool(cells[0]) for _, cells in rows[5:])
-    if _is_number(stated) and int(float(stated)) != found:
+    if (count := _number(stated)) is not None and int(count) != found:
         refuse(f"{file} row {rows[2][0]}, NumFrames", stated, f"but the file has {found} frames", "is it cut off?")
-    return Table("OpenSim .trc", labels, rows[5:], rate, UNIT_WORDS.get(head.get("Units", "").lower()))
+    unit = UNIT_WORDS.get(head.get("Units", "").lower())
+    return Table("OpenSim .trc", labels, rows[5:], _number(head.get("DataRate", "")), unit)
 
 
 def _qualisys(file: str, rows: list[tuple[int, list[str]]]) -> Table:
@@ -194,29 +211,27 @@ def _qualisys(file: str, rows: list[tuple[int, list[str]]]) -> Table:
         start += 1
     width = max((len(cells) for _, cells in rows[start:]), default=0)
     labels = [("", "frame"), ("", "time")][: max(width - len(labels), 0)] + labels
-    if width - 3 * len(names) == 1:
-        labels[0] = ("", "frame")
     text = next(iter(keys.get("FREQUENCY", (0, [""]))[1]), "")
     stated = next(iter(keys.get("NO_OF_FRAMES", (0, [""]))[1]), "")
-    if _is_number(stated) and int(float(stated)) != len(rows) - start:
+    if (count := _number(stated)) is not None and int(count) != len(rows) - start:
         rule = f"but the file has {len(rows) - start} frames"
         refuse(f"{file}, NO_OF_FRAMES", stated, rule, "is it cut off?")
-    return Table("Qualisys .tsv", labels, rows[start:], float(text) if _is_number(text) else None, "mm")
+    return Table("Qualisys .tsv", labels, rows[start:], _number(text), "mm")
 
 
 def _vicon(file: str, rows: list[tuple[int, list[str]]]) -> Table:
     """Return the trajectories of a .csv of Vicon Nexus: rate, names (Subject:NAME), axes, units, frames."""
     at = next(i for i, (_, cells) in enumerate(rows) if cells[0] == "Trajectories")
-    if len(rows) < at + 6 or not _is_number(rows[at + 1][1][0]):
+    if len(rows) < at + 6 or (rate := _number(rows[at + 1][1][0])) is None:
         refuse(file, "Trajectories", "is not followed by a rate, three rows of heads and the frames")
-    names = _filled(rows[at + 2][1])
+    names = without_subject(_filled(rows[at + 2][1]))
     axes, units = rows[at + 3][1], {cell for cell in rows[at + 4][1] if cell in METRES}
     labels: list[tuple[str, str]] = []
     for k, cell in enumerate(axes):
-        name = names[min(k, len(names) - 1)].rpartition(":")[2]
+        name = names[min(k, len(names) - 1)]
         labels.append((name, cell.lower()) if cell.lower() in ("x", "y", "z") else _label(cell, set()))
-    end = next((i for i, (_, cells) in enumerate(rows) if i > at + 5 and not _is_number(cells[0])), len(rows))
-    return Table("Vicon Nexus", labels, rows[at + 5 : end], float(rows[at + 1][1][0]), next(iter(units), None))
+    end = next((i for i, (_, cells) in enumerate(rows) if i > at + 5 and _number(cells[0]) is None), len(rows))
+    return Table("Vicon Nexus", labels, rows[at + 5 : end], rate, next(iter(units), None))
 
 
 def table_numbers(file: str, table: Table) -> Array:
@@ -241,10 +256,7 @@ def table_numbers(file: str, table: Table) -> Array:
             cell = cells[k] if k < len(cells) else ""
             if cell.lower() in NO_VALUE:
                 continue
-            try:
-                found[i, k] = float(cell.replace(",", ".", 1))
-            except ValueError:
-                found[i, k] = np.inf
+            found[i, k] = np.inf if (value := _number(cell)) is None else value
             if not abs(found[i, k]) < _LARGEST:
                 where = f"{file} row {row}, column {'_'.join(filter(None, table.labels[k]))}"
                 faults.add(where, cell, "is not a coordinate", "write one number, or leave the cell empty")

@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, FileError, InvalidInputError, install_extra, read_text
+from wingbeat._base import Fault, FaultList, FileError, InvalidInputError, install_extra, read_text
 from wingbeat._base.sheets import MAX_BYTES
 from wingbeat.experiment.point_tables import (
     LEAST_SCORE,
+    METRES,
     SCORES,
     UNIT_WORDS,
     Array,
     refuse,
+    refuse_repeated,
     split_table,
     table_numbers,
+    without_subject,
 )
 
 _FLAT = (
@@ -29,6 +32,7 @@ _FLAT = (
 _FASTEST = 1e6
 # Frames from which a clock is checked against the stated rate.
 _FEW = 10
+_AXES = tuple(sign + axis for sign in ("+", "-", "") for axis in "xyz")
 
 
 @dataclass(frozen=True)
@@ -39,13 +43,19 @@ class TrackedPoints:
     ----------
     name : for messages, such as the name of the file.
     kind : what wrote the file, in words.
-    positions : of each point by its name, in the file's axes and unit, shape (n, 3); NaN where it was not seen.
+    positions : of each point by its name, in the file's axes and unit, shape (n, 3); NaN where it was not seen. In
+        a copy, frames in which a point was seen in part, or lies at exactly (0, 0, 0), become such gaps.
     times : of the frames [s], from the file; None if it has none.
     frames : numbers of the frames, shape (n,).
     rate : frames per second that the file states, None if it states none [Hz].
     unit : "m", "cm" or "mm" if the file states it.
     up : the file's vertical axis, such as "+z", if it states it.
     notes, warnings : what the reader did, such as points of low likelihood that were left out.
+
+    Raises
+    ------
+    InvalidInputError : shapes that differ, a clock that does not rise, an unknown unit or axis, a frame rate that
+        no camera has.
     """
 
     name: str
@@ -58,6 +68,51 @@ class TrackedPoints:
     up: str | None = None
     notes: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        faults, notes, file = FaultList(), list(self.notes), self.name
+        frames = np.array(self.frames, dtype=float)
+        times = None if self.times is None else np.array(self.times, dtype=float)
+        positions = {name: np.array(at, dtype=float) for name, at in self.positions.items()}
+        shapes = {f"point {name}": (at.shape, (*frames.shape, 3)) for name, at in positions.items()}
+        shapes |= {} if times is None else {"times": (times.shape, frames.shape)}
+        for what, (shape, right) in {"frames": (frames.shape, frames.shape[:1]), **shapes}.items():
+            if shape != right or len(right) == 0:
+                rule = "does not have a row for each frame, and a point has three columns"
+                faults.add(f"{file}, {what}", f"shape {shape}", rule, f"give {right}")
+        if self.unit is not None:
+            faults.choice(f"{file}, unit", self.unit, tuple(METRES))
+        if self.up is not None:
+            faults.choice(f"{file}, up", self.up, _AXES)
+        if self.rate is not None:
+            faults.number(f"{file}, frame rate", self.rate, above=0, at_most=_FASTEST, unit="Hz")
+        clocks = {"time": times, "frame": frames}
+        for word, series in clocks.items():
+            if series is not None:
+                faults.first(f"{file}, {word}", series, ~np.isfinite(series), "must be finite")
+        faults.raise_if_any()
+        for word, series in clocks.items():
+            if series is not None and (k := _first_fall(series)):
+                fault = Fault(f"{file}, {word}[{k}]", float(series[k]), *_falls(word, series[k - 1]))
+                raise InvalidInputError([fault])
+        for name, at in positions.items():
+            empty = (at == 0).all(axis=1)
+            if empty.any() and not empty.all():
+                notes.append(f"{file}, {name}: {empty.sum()} frames at exactly (0, 0, 0) are taken for gaps")
+            at[empty | ~np.isfinite(at).all(axis=1)] = np.nan
+        found = {"frames": frames, "times": times, "positions": positions, "notes": tuple(notes)}
+        for name, value in found.items():
+            object.__setattr__(self, name, value)
+
+
+def _first_fall(series: Array) -> int:
+    """Return the place of the first number that is not above the one before it; 0 if there is none."""
+    rises = np.diff(series) > 0
+    return 0 if rises.all() else int(np.argmin(rises)) + 1
+
+
+def _falls(word: str, before: float) -> tuple[str, str]:
+    return f"must be above the {word} before it, {before:g}", "sort the rows; drop repeated ones"
 
 
 def read_points(source: Any) -> TrackedPoints:
@@ -88,6 +143,8 @@ def read_points(source: Any) -> TrackedPoints:
     table = split_table(path.name, read_text(path, limit=MAX_BYTES))
     numbers = table_numbers(path.name, table)
     triples: dict[str, list[int]] = {}
+    for axis in "xyz":
+        refuse_repeated(path.name, [name for name, part in table.labels if part == axis])
     for k, (name, part) in enumerate(table.labels):
         if part in ("x", "y", "z"):
             triples.setdefault(name, [-1, -1, -1])["xyz".index(part)] = k
@@ -119,11 +176,9 @@ def read_points(source: Any) -> TrackedPoints:
     times = clock.get("time", clock["milliseconds"] / 1000 if "milliseconds" in clock else None)
     frames = clock.get("frame", np.arange(len(numbers), dtype=float))
     for word, series in (("time", times), ("frame", frames)):
-        if series is not None and len(series) > 1 and not (np.diff(series) > 0).all():
-            k = int(np.argmin(np.diff(series) > 0)) + 1
-            rule = f"must be above the {word} before it, {series[k - 1]:g}"
-            fix = "sort the rows; drop repeated ones"
-            refuse(f"{path.name} row {table.rows[k][0]}, {word}", float(series[k]), rule, fix)
+        if series is not None and (k := _first_fall(series)):
+            where = f"{path.name} row {table.rows[k][0]}, {word}"
+            refuse(where, float(series[k]), *_falls(word, series[k - 1]))
     rate = table.rate
     if times is not None and len(times) >= _FEW:
         times, rate = _even(path.name, times, frames, rate, notes, warnings)
@@ -132,10 +187,8 @@ def read_points(source: Any) -> TrackedPoints:
         if same:
             rows = ", ".join(str(table.rows[k][0]) for k in same[:5])
             warnings.append(f"{path.name}: row {rows} repeats the row before it; a doubled row shifts the clock")
-    return _checked(
-        TrackedPoints(
-            path.name, table.kind, positions, times, frames, rate, table.unit, None, (*notes,), (*warnings,)
-        )
+    return TrackedPoints(
+        path.name, table.kind, positions, times, frames, rate, table.unit, None, (*notes,), (*warnings,)
     )
 
 
@@ -162,20 +215,6 @@ def _even(
     return even, rate
 
 
-def _checked(points: TrackedPoints) -> TrackedPoints:
-    """Return the points with partly seen ones and those at exactly (0, 0, 0) as gaps; refuse impossible rates."""
-    faults, notes = FaultList(), list(points.notes)
-    for name, at in points.positions.items():
-        empty = (at == 0).all(axis=1)
-        if empty.any() and not empty.all():
-            notes.append(f"{points.name}, {name}: {empty.sum()} frames at exactly (0, 0, 0) are taken for gaps")
-        at[empty | ~np.isfinite(at).all(axis=1)] = np.nan
-    if points.rate is not None:
-        faults.number(f"{points.name}, frame rate", points.rate, above=0, at_most=_FASTEST, unit="Hz")
-    faults.raise_if_any()
-    return replace(points, notes=tuple(notes))
-
-
 def _of_dataset(data: Any, file: str, kind: str) -> TrackedPoints:
     """Return the points of a data set of movement: position by time, space, keypoints and individuals."""
     position = getattr(data, "data_vars", {}).get("position")
@@ -194,9 +233,12 @@ def _of_dataset(data: Any, file: str, kind: str) -> TrackedPoints:
     scored = None
     if scores is not None and {"time", *others} <= set(scores.dims):
         scored = scores.stack(point=others) if len(others) > 1 else scores.rename({others[0]: "point"})
-    for k, label in enumerate(stacked["point"].values.tolist()):
+    labels = []
+    for label in stacked["point"].values.tolist():
         words = dict(zip(others, label if isinstance(label, tuple) else (label,), strict=True))
-        name = " ".join(str(word) for dim, word in words.items() if "individual" not in dim or sizes[dim] > 1)
+        labels.append(" ".join(str(one) for dim, one in words.items() if "individual" not in dim or sizes[dim] > 1))
+    refuse_repeated(file, labels)
+    for k, name in enumerate(labels):
         found[name] = np.array(stacked.isel(point=k).transpose("time", "space").values, dtype=float)
         if scored is not None:
             values = np.asarray(scored.isel(point=k).values, dtype=float)
@@ -211,7 +253,7 @@ def _of_dataset(data: Any, file: str, kind: str) -> TrackedPoints:
         times = clock.astype(float)
     frames = np.arange(len(clock), dtype=float) if times is not None else clock.astype(float)
     rate = float(rate) if isinstance(rate, int | float | np.number) and np.isfinite(float(rate)) else None
-    return _checked(TrackedPoints(file, kind, found, times, frames, rate, None, None, tuple(notes)))
+    return TrackedPoints(file, kind, found, times, frames, rate, None, None, tuple(notes))
 
 
 def _read_hdf5(path: Path) -> TrackedPoints:
@@ -230,6 +272,7 @@ def _read_hdf5(path: Path) -> TrackedPoints:
                 refuse(path.name, "SLEAP", "has points with two coordinates only, as seen by one camera", _FLAT)
             if tracks.ndim == 4 and tracks.shape[-1] == 3:
                 names = names or [f"node{k}" for k in range(tracks.shape[2])]
+                refuse_repeated(path.name, names)
                 found = {
                     f"track{i} {name}" if tracks.shape[1] > 1 else name: tracks[:, i, k].astype(float)
                     for i in range(tracks.shape[1])
@@ -243,7 +286,7 @@ def _read_hdf5(path: Path) -> TrackedPoints:
                     ]
                     if "frames" in file:
                         frames += float(np.asarray(file["frames"]).ravel()[0])
-                return _checked(TrackedPoints(path.name, "SLEAP in 3-D", found, None, frames, warnings=tuple(told)))
+                return TrackedPoints(path.name, "SLEAP in 3-D", found, None, frames, warnings=tuple(told))
             if "position" not in file:
                 rule = "is HDF5 without points that wingbeat knows"
                 fix = "give NetCDF of movement, HDF5 of sleap-anipose, or a table with tip_x, tip_y, tip_z"
@@ -275,10 +318,12 @@ def _read_c3d(path: Path) -> TrackedPoints:
         first = float(file["header"]["points"]["first_frame"])
     except (OSError, ValueError, KeyError, IndexError, RuntimeError, TypeError) as error:
         raise FileError(f"cannot read {path.name!r} as C3D: {str(error)[:120]}; is it whole?") from None
-    labels = [name.rpartition(":")[2] for name in labels]
-    found = {name: data[:, k].T.copy() for k, name in enumerate(labels[: data.shape[1]])}
+    labels = without_subject(labels[: data.shape[1]])
+    refuse_repeated(path.name, [name for name in labels if name])
+    found = {name: data[:, k].T for k, name in enumerate(labels) if name}
+    bare = data.shape[1] - len(found)
+    notes = (f"{path.name}: {bare} of {data.shape[1]} points have no name and are left out",) if bare else ()
     frames = first + np.arange(data.shape[2], dtype=float)
     stated = up.strip().lower() if re.fullmatch(r"[+-][xyz]", up.strip().lower()) else None
-    return _checked(
-        TrackedPoints(path.name, "C3D", found, None, frames, rate or None, UNIT_WORDS.get(unit.lower()), stated)
-    )
+    length = UNIT_WORDS.get(unit.lower())
+    return TrackedPoints(path.name, "C3D", found, None, frames, rate or None, length, stated, notes)

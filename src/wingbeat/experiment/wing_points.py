@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from wingbeat.experiment.point_tables import Array
+from wingbeat.experiment.point_tables import FEWEST_SEEN, Array
 
 # Frames of a marker that give its noise; more add nothing.
 _NOISE_FRAMES = 1500
@@ -117,7 +117,7 @@ def marker_noise(time: Array, at: Array) -> float:
     from scipy.interpolate import make_smoothing_spline
 
     seen = np.flatnonzero(np.isfinite(at).all(axis=1))[:_NOISE_FRAMES]
-    if len(seen) < 12:
+    if len(seen) < FEWEST_SEEN:
         return math.nan
     clock = (time[seen] - time[seen[0]]) / float(np.median(np.diff(time[seen])))
     signs = np.random.default_rng(0).choice([-1.0, 1.0], size=(len(seen), 3))

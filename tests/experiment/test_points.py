@@ -1,5 +1,6 @@
 """Angles from tracked points: files of programs, directions and units, and wings that are known exactly."""
 
+import io
 import json
 import math
 import re
@@ -9,10 +10,13 @@ import pytest
 
 import wingbeat as wb
 from tests.experiment.points_truth import TURNS, a_beat, csv_of, points_of, tracked
+from tests.helpers.figures import check_legends
 from tests.helpers.places import ROOT
+from wingbeat._base.style import BLUE, VERMILION
 from wingbeat.cli.app import main
 from wingbeat.experiment import TrackedPoints, angles_from_points, fit_film, read_film, read_points
 from wingbeat.experiment.point_names import _role
+from wingbeat.plots import points_page
 
 CASES = ROOT / "tests/cases/points"
 TIME = np.arange(120) / 240
@@ -368,3 +372,24 @@ def test_a_gap_in_the_middle_does_not_halve_the_frequency():
     side, axes = random.choice(["left", "right"]), random.choice(list(TURNS))
     at = tracked(points_of(beat, time, side), axes, 0.003, random.choice([0, 0.1, 0.2]), 6106)
     assert angles_from_points(made(at)).record()["frequency"] == pytest.approx(beat["frequency"], rel=0.01)
+
+
+def test_the_page_of_points_shows_the_fitted_wing_where_the_points_are():
+    """A folded hand and a body axis that is tilted in still air left the fitted line beside the tips."""
+    beat, tilt = BEAT | {"fold": 40.0, "retraction": 0.0, "speed": 0.0}, 0.3
+    turn = np.array([[math.cos(tilt), 0, -math.sin(tilt)], [0, 1, 0], [math.sin(tilt), 0, math.cos(tilt)]])
+    at = {role: one @ turn.T for role, one in points_of(beat, TIME).items()}
+    nose = 0.1 * np.array([math.cos(tilt), 0, math.sin(tilt)])
+    at |= {"beak": at["shoulder"] + nose, "tail_base": at["shoulder"] - nose}
+    found = angles_from_points(made(tracked(at, noise=0.0005), name="a_bat_$1$.csv"), up="z")
+    figure = points_page(found)
+    for axes in figure.axes[:2]:
+        tips = next(line.get_xydata() for line in axes.lines if line.get_color() == BLUE)
+        ends = [line.get_xydata()[-1] for line in axes.lines if line.get_color() == VERMILION]
+        assert len(ends) == 8
+        for end in ends:
+            assert np.nanmin(np.hypot(*(tips - end).T)) < 0.05
+    entries = [entry for part in figure.subfigs for entry in check_legends(part)]
+    assert {"tip", "fitted span", "periodic spline", "frames, ±1 s.e."} <= set(entries)
+    assert figure.get_suptitle() == "A bat $1$.csv"
+    figure.savefig(io.BytesIO())

@@ -344,13 +344,10 @@ def angles_from_points(
         notes.append(f"{file}: the body's path is that of the point {what}, not of the centre of mass")
     elif not axes.travels:
         notes.append(f"{file}: the animal travels less than a wing's length, so the film has no path of the body")
-    read_notes, read_warnings = tuple(notes), tuple(warnings)
-    wrist = None
-    if all("wrist" in found for found in every.values()):
-        wrist = float(np.nanmean([found["wrist"] for found in every.values()]))
+    wrists = [found["wrist"] for found in every.values() if "wrist" in found]
     film = Film(
-        file, clip.rate * time, columns, clip.rate, clip.rate_se, False, True, None, read_notes, read_warnings,
-        wrist,
+        file, clip.rate * time, columns, clip.rate, clip.rate_se, False, True, None, tuple(notes), tuple(warnings),
+        float(np.nanmean(wrists)) if len(wrists) == len(every) else None,
     )  # fmt: skip
     beat = fit_film(film)
     # Scatter that the noise of the points explains is no sign of beats that differ.
@@ -436,8 +433,7 @@ def _unit(
     file, stated = tracked.name, tracked.unit
     if given is not None and stated is not None and given != stated:
         raise InvalidInputError([Fault("--units", given, f"the file says {stated}", "leave the option out")])
-    if given or stated:
-        unit = given or stated or ""
+    if unit := given or stated:
         said = f"{file}: lengths are in {unit}, {'as given' if given else 'as the file says'}"
         if _SEMI_SPANS[0] / 3 <= span * METRES[unit] <= 3 * _SEMI_SPANS[1]:
             return unit, said, True

@@ -181,7 +181,7 @@ def test_several_polars_in_one_file_become_one_table_with_re(tmp_path):
     table = load_measurements(OWN / "xfoil_naca4412_two_re.pol")
     assert (len(table.alpha_deg), sorted(set(table.columns()["reynolds"]))) == (23, [1e5, 2e5])
     assert table.mean["C_L"][table.alpha_deg == 10].tolist() == [1.3736, 1.3726]
-    with pytest.raises(wb.InvalidInputError, match=r"several Reynolds numbers \(100000, 200000\)"):
+    with pytest.raises(wb.InvalidInputError, match=r"\(2 polars do not\); complete each polar by Viterna's rule"):
         load_coefficients(str(OWN / "xfoil_naca4412_two_re.pol"))
 
 

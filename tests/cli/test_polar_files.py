@@ -159,7 +159,7 @@ def test_several_reynolds_numbers_are_told_and_one_can_be_chosen(capsys):
     path = str(CASES / "three_reynolds.csv")
     assert main(["polar", path]) == 2
     told = capsys.readouterr().err
-    assert "several Reynolds numbers (20000, 60000, 100000); a model needs one curve" in told
+    assert "(3 polars do not); complete each polar by Viterna's rule: --extension viterna" in told
     assert "--form cambered --reynolds-range 20000 20000 -o three_reynolds.toml" in told
     assert main(["fit", path, "--form", "cambered", "--json"]) == 0
     record = json.loads(capsys.readouterr().out)

@@ -29,6 +29,8 @@ _BINARY = {
     b"SQLite format 3": "a database, such as the store of a study",
     b"PAR1": "a Parquet file",
 }
+# What a polar may be called; a name with one of these endings is a path.
+POLAR_SUFFIXES = (".csv", ".txt", ".dat", ".pol", ".plr", ".polar", ".tsv", ".drg", ".lft")
 # What to do about a control character, which would change what a terminal shows.
 _PLAIN = "write plain text"
 # Characters of a path in a message.

@@ -10,6 +10,7 @@ from wingbeat.aero.blade_element import AIRSPEEDS, FORCE_POINTS, BladeElement, c
 from wingbeat.aero.closed_forms import INFLOWS, UNSTEADY
 from wingbeat.aero.coefficient_model import CoefficientModel
 from wingbeat.aero.extension import EXTENSIONS
+from wingbeat.aero.family import FamilyCoefficients
 from wingbeat.aero.formula_models import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.formula_terms import CamberedTerms, CentreTerms, FormulaTerms
 from wingbeat.aero.function import FunctionCoefficients
@@ -32,7 +33,8 @@ from wingbeat.aero.library import (
     thin_aerofoil_moment,
 )
 from wingbeat.aero.model_file import load_model
-from wingbeat.aero.table import TableCoefficients, load_table
+from wingbeat.aero.polar_models import load_table
+from wingbeat.aero.table import TableCoefficients
 
 __all__ = [
     "AIRSPEEDS",
@@ -50,6 +52,7 @@ __all__ = [
     "CoefficientModel",
     "Dickinson",
     "Estimate",
+    "FamilyCoefficients",
     "Feathered",
     "FeatheredFlapping",
     "FeatheredRevolving",

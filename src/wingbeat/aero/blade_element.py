@@ -11,6 +11,7 @@ from __future__ import annotations
 import contextlib
 import functools
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from os import PathLike
 from pathlib import Path
@@ -23,12 +24,13 @@ from wingbeat._jax.arrays import atan2, elementwise_jvp, jnp
 from wingbeat.aero.closed_forms import INFLOWS, UNSTEADY, damping_couple, rotation_force
 from wingbeat.aero.coefficient_model import CoefficientModel, check_curve
 from wingbeat.aero.derived_kernels import ArmHandKernel, UpstrokeKernel, count_arm_strips, sectional_kernel
+from wingbeat.aero.family import at_reynolds, depends_on_reynolds
 from wingbeat.aero.formula_models import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.function import FunctionCoefficients
 from wingbeat.aero.library import LIBRARY
 from wingbeat.aero.model_file import load_model
 from wingbeat.aero.polar_formats import POLAR_SUFFIXES
-from wingbeat.aero.table import load_table
+from wingbeat.aero.polar_models import load_table
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import Angles, PerStrip, PerStripBroadcast, Phases, Scalar
@@ -40,8 +42,9 @@ def coefficients_of(given: Any) -> CoefficientModel:
 
     Parameters
     ----------
-    given : a coefficient model; a name in `LIBRARY`; the path of a table (.csv) or of a fitted model (.toml); or a
-        JAX function of the angle of attack [rad] that returns (C_L, C_D), see `FunctionCoefficients`.
+    given : a coefficient model; a name in `LIBRARY`; the path of a table (.csv) or of a fitted model (.toml), or a
+        list of paths of polars at several Reynolds numbers; or a JAX function of the angle of attack [rad] that
+        returns (C_L, C_D), see `FunctionCoefficients`.
 
     Raises
     ------
@@ -52,7 +55,7 @@ def coefficients_of(given: Any) -> CoefficientModel:
     >>> coefficients_of("dickinson").name, coefficients_of(LIBRARY["su-fan"]()).name
     ('dickinson', 'su-fan')
     """
-    if isinstance(given, str | PathLike):
+    if isinstance(given, str | PathLike | list | tuple):
         return load_coefficients(Path(given) if isinstance(given, PathLike) else given)
     if isinstance(given, type) or any(given is maker for maker in LIBRARY.values()):
         name, rule = getattr(given, "__name__", "?"), "is a class of coefficient models, not a model"
@@ -66,7 +69,7 @@ def coefficients_of(given: Any) -> CoefficientModel:
 
 
 def load_coefficients(
-    name_or_path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0
+    name_or_path: str | Path | Sequence[str | Path], extension: str = "mirrored", blend_width_deg: float = 1.0
 ) -> CoefficientModel:
     """Return a coefficient model by its name in `LIBRARY`, or from a file: a table (.csv) or a fit (.toml).
 
@@ -85,7 +88,16 @@ def load_coefficients(
     >>> load_coefficients("su-fan").name
     'su-fan'
     """
-    name = str(name_or_path)
+    if isinstance(name_or_path, list | tuple) and len(name_or_path) != 1:
+        faults = FaultList()
+        for one in name_or_path:
+            if str(one) in LIBRARY or str(one).lower().endswith(".toml"):
+                faults.add("coefficients", str(one), "is not a polar", "several files must be polars of one wing")
+        if not name_or_path:
+            faults.add("coefficients", "", "names no file", "give the paths of polars")
+        faults.raise_if_any()
+        return load_table(list(name_or_path), extension, blend_width_deg)
+    name = str(name_or_path if isinstance(name_or_path, str | Path) else name_or_path[0])
     if name.lower().endswith(".toml"):
         return _possible(load_model(name, extension, blend_width_deg))
     if name.lower().endswith(POLAR_SUFFIXES) or (name not in LIBRARY and name and Path(name).is_file()):
@@ -285,17 +297,20 @@ def strip_forces(
     normal_speed: PerStrip,
     pitch: PerStrip,
     span_speed: PerStrip | None = None,
+    chord_over_viscosity: PerStrip | None = None,
 ) -> StripForces:
     """Return the air loads of strips of given areas [m2] moving at given speeds along two axes [m/s].
 
     The chord is pitched by `pitch` from the first axis towards the second, so ``alpha = pitch - gamma`` where
     ``gamma = atan2(v_n, v_c)`` is the direction of the motion. If a speed along the span is given, V is the
     magnitude of all three components. A strip that moves only along its span has no angle of attack and no load.
+    `chord_over_viscosity` [s/m] is used by coefficients that depend on the Reynolds number, ``V c / viscosity``.
 
     Theory: equations ``angle-of-attack``, ``lift-drag`` and ``strip-force``.
     """
     along_span = () if span_speed is None else (span_speed,)
-    unit = _unit_forces(kernel, chord_speed, normal_speed, pitch, *along_span)
+    which = (kernel, chord_over_viscosity) if depends_on_reynolds(kernel) else (kernel,)
+    unit = _unit_forces(which, chord_speed, normal_speed, pitch, *along_span)
     pressure_area = 0.5 * density * area
     forces = {name: pressure_area * getattr(unit, name) for name in ("chordwise", "normal", "lift", "drag")}
     return unit._replace(**forces)
@@ -320,13 +335,13 @@ def with_turning(
 
 
 @elementwise_jvp
-def _coefficients(kernel: Kernel, alpha: Angles) -> tuple[Angles, Angles]:
-    return kernel.lift_drag(alpha)
+def _coefficients(kernel: Kernel, alpha: Angles, *reynolds: Angles) -> tuple[Angles, Angles]:
+    return (at_reynolds(kernel, *reynolds) if reynolds else kernel).lift_drag(alpha)
 
 
 @elementwise_jvp
 def _unit_forces(
-    kernel: Kernel, chord_speed: PerStrip, normal_speed: PerStrip, pitch: PerStrip, *span_speed: PerStrip
+    which: tuple[Any, ...], chord_speed: PerStrip, normal_speed: PerStrip, pitch: PerStrip, *span_speed: PerStrip
 ) -> StripForces:
     """Return the loads of strips for which ``density * area / 2`` is one."""
     squared = chord_speed * chord_speed + normal_speed * normal_speed
@@ -335,12 +350,13 @@ def _unit_forces(
     speed = jnp.where(moving, jnp.sqrt(jnp.where(moving, squared, 1.0)), 0.0)
     angle = pitch - atan2(normal_speed, chord_speed)
     alpha = angle - 2 * math.pi * jnp.round(angle * (0.5 / math.pi))  # whole turns bring it into [-pi, pi]
-    c_l, c_d = _coefficients(kernel, alpha)
     planar, share = speed, speed  # V^2 over the planar speed; times a velocity in the plane, it is a force
     if span_speed:
         whole = squared + span_speed[0] * span_speed[0]
         share = jnp.where(moving, whole / jnp.where(moving, planar, 1.0), 0.0)
         speed = jnp.where(moving, jnp.sqrt(jnp.where(moving, whole, 1.0)), 0.0)
+    kernel, *chord_over_viscosity = which
+    c_l, c_d = _coefficients(kernel, alpha, *(speed * one for one in chord_over_viscosity))
     lift, drag = share * c_l, share * c_d
     return StripForces(
         chordwise=-lift * normal_speed - drag * chord_speed,

@@ -114,6 +114,11 @@ def check_curve(faults: FaultList, where: str, name: str, degrees: Angles, lift:
             )
 
 
+def is_whole_turn(angles: Sequence[float]) -> bool:
+    """Return whether a table runs from -180 to 180 degrees."""
+    return angles[0] == -180 and angles[-1] == 180
+
+
 def wrapped(alpha: ArrayLike) -> NDArray[np.float64]:
     """Return angles [rad] brought to [-pi, pi], as an exactly odd function of `alpha`; infinite angles become NaN.
 

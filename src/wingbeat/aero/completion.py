@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from itertools import pairwise
 
 import numpy as np
 
 from wingbeat._base import FaultList
+from wingbeat.aero.coefficient_model import is_whole_turn
 from wingbeat.aero.polar_sheet import zero_lift
 
 VITERNA = "viterna"
@@ -16,11 +17,6 @@ VITERNA = "viterna"
 _STEP_DEG = 2.5
 # Lift that rises by more than this per degree at the end of a table has not stalled.
 _STILL_RISING = 0.03
-
-
-def is_whole_turn(angles: Sequence[float]) -> bool:
-    """Return whether a table runs from -180 to 180 degrees."""
-    return angles[0] == -180 and angles[-1] == 180
 
 
 def closed_turn(columns: dict[str, list[float]]) -> tuple[str, ...]:

@@ -63,6 +63,8 @@ def sectional_kernel(model: CoefficientModel) -> Kernel:
         raise InvalidInputError([Fault("aero.inflow", "momentum", rule, fix)])
     if math.isinf(model.aspect_ratio):
         return model.kernel()
+    if (of_members := getattr(model, "kernel_of", None)) is not None:
+        return of_members(sectional_kernel)
     knots = np.linspace(-math.pi, math.pi, _CELLS + 1)
     alpha = _wing_angles(model, model.aspect_ratio, knots)
     lift, drag = model.lift(alpha), model.drag(alpha)

@@ -15,10 +15,9 @@ from typing import NamedTuple
 import numpy as np
 
 from wingbeat._base import FaultList
+from wingbeat._base.files import POLAR_SUFFIXES as POLAR_SUFFIXES
 from wingbeat._base.sheets import Sheet, same_name
 
-# What a table may be called; a name with one of these endings is a path.
-POLAR_SUFFIXES = (".csv", ".txt", ".dat", ".pol", ".plr", ".polar", ".tsv", ".drg", ".lft")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?$")
 # Programs whose polars have lines of text above the names of the columns.
 _PROGRAMS = {

@@ -62,6 +62,11 @@ class PolarSheet(NamedTuple):
     notes: tuple[str, ...]  # what a reader should know: columns that are not read
     of_program: bool = False  # whether another program wrote it, with a moment about the quarter chord
 
+    def only(self, rows: NDArray[np.intp]) -> PolarSheet:
+        """Return the table of these rows alone."""
+        sheet = self.sheet._replace(rows=[self.sheet.rows[row] for row in rows])
+        return self._replace(sheet=sheet, columns={name: column[rows] for name, column in self.columns.items()})
+
     def where(self, row: int, name: str) -> str:
         """Return the place of a cell in the file, in the file's own words."""
         at = self.sheet.rows[row][0] if row < len(self.sheet.rows) else self.sheet.header_row

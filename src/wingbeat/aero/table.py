@@ -12,25 +12,20 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from wingbeat._base import FaultList
-from wingbeat._base.sheets import Sheet, same_name
 from wingbeat._jax.arrays import horner, jax, jnp
-from wingbeat.aero.coefficient_model import CoefficientModel, Kernel, check_aspect_ratio, check_possible
-from wingbeat.aero.completion import VITERNA, closed_turn, is_whole_turn, viterna
-from wingbeat.aero.extension import Jet, check_drag_of_joins, check_extension, extend
-from wingbeat.aero.polar_sheet import (
-    REQUIRED,
-    PolarSheet,
-    doubtful_drag,
-    fitting,
-    read_polar,
-    refuse_several,
+from wingbeat.aero.coefficient_model import (
+    CoefficientModel,
+    Kernel,
+    check_aspect_ratio,
+    check_possible,
+    is_whole_turn,
 )
+from wingbeat.aero.extension import Jet, check_drag_of_joins, check_extension, extend
 
 if TYPE_CHECKING:
     from scipy.interpolate import PPoly
@@ -340,111 +335,3 @@ class TableCoefficients(CoefficientModel):
         """Return the curve through a column; that of a whole turn is periodic."""
         knots, periodic = np.deg2rad(self.alpha_deg), is_whole_turn(self.alpha_deg)
         return monotone_curve(knots, np.array(column), periodic=periodic)
-
-
-def _stated_aspect_ratio(faults: FaultList, sheet: Sheet) -> float | None:
-    """Return the aspect ratio that a comment of the file states, such as ``# aspect_ratio = 6``."""
-    for key, (row, text) in sheet.constants.items():
-        if same_name(key) == "aspectratio":
-            where = f"{sheet.file} row {row}, aspect_ratio"
-            stated = math.inf if text == "inf" else numbers(faults, [text], lambda _, where=where: where)[0]
-            if not math.isnan(stated):
-                check_aspect_ratio(faults, where, stated)
-            return stated
-    return None
-
-
-_COMPLETED = "a fit completes it: {}; or complete it by Viterna's rule: --extension viterna"
-# The centre of pressure comes from the moment where the normal force coefficient is at least this.
-_LEAST_NORMAL = 0.1
-
-
-def _whole_centre(polar: PolarSheet) -> tuple[list[float] | None, tuple[str, ...]]:
-    """Return x_cp in every row, and notes; empty cells, where there is no force, are filled from neighbours."""
-    given = polar.columns.get("x_cp")
-    if given is None and polar.of_program and "C_M" in polar.columns:
-        turn = np.radians(polar.columns["alpha_deg"])
-        normal = polar.columns["C_L"] * np.cos(turn) + polar.columns["C_D"] * np.sin(turn)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            given = 0.5 - polar.columns["C_M"] / normal
-        given = np.where((np.abs(normal) >= _LEAST_NORMAL) & (np.abs(given - 0.5) <= 1.5), given, np.nan)
-    if given is None:
-        return None, ()
-    known, alpha = np.isfinite(given), polar.columns["alpha_deg"]
-    if known.sum() < 2:
-        return None, ("x_cp: no two rows have a value, so the model has no centre of pressure",)
-    if known.all():
-        return given.tolist(), ()
-    period = 360.0 if alpha[-1] - alpha[0] == 360 else None
-    filled = np.interp(alpha, alpha[known], given[known], period=period)
-    angles = ", ".join(f"{angle:g}" for angle in alpha[~known][:8]) + ", ..." * bool((~known).sum() > 8)
-    return filled.tolist(), (f"x_cp is empty at {angles} degrees and is filled from the neighbouring rows",)
-
-
-def load_table(path: str | Path, extension: str = "mirrored", blend_width_deg: float = 1.0) -> TableCoefficients:
-    """Read a coefficient table: CSV with the columns alpha_deg, C_L, C_D and, if known, x_cp, reynolds; or a polar.
-
-    Polars of XFOIL, XFLR5, AeroDyn, QBlade and others are read as they are (`wingbeat.aero.polar_formats`).
-    Columns may have any order and spelling (alpha, c_l, CL, Cd, Re), with or without a unit in brackets. Others are
-    ignored; the model's `notes` name them. Blank rows and rows that begin with # are skipped. One such row may
-    state the wing's aspect ratio, for example ``# aspect_ratio = 6``, or ``inf`` for a section; the model of
-    induced flow needs it.
-
-    Parameters
-    ----------
-    path : the file; angles in degrees.
-    extension, blend_width_deg : as in `TableCoefficients`; or "viterna", which completes a table that ends at the
-        stall to the whole circle (`wingbeat.aero.completion.viterna`).
-
-    Raises
-    ------
-    FileError : the file is missing or cannot be read.
-    InvalidInputError : inputs that `TableCoefficients` refuses, each fault with its row and column; a table that is
-        not one curve from 0 to at least 90 degrees, with the command that makes a curve of it.
-    """
-    faults = FaultList()
-    completed = extension == VITERNA
-    check_extension(faults, "signed" if completed else extension, blend_width_deg)
-    polar = read_polar(path, faults)
-    aspect_ratio = _stated_aspect_ratio(faults, polar.sheet)
-    columns = {name.lower(): polar.columns[name].tolist() for name in REQUIRED}
-    if not faults.faults:
-        refuse_several(faults, path, polar)
-        faults.raise_if_any()
-    centre, notes = _whole_centre(polar)
-    if centre is not None:
-        columns["x_cp"] = centre
-
-    def where(row: int, name: str) -> str:
-        return polar.where(row, {"c_l": "C_L", "c_d": "C_D"}.get(name, name))
-
-    shape = FaultList()
-    check_columns(shape, columns, where)
-    if not (faults.faults or shape.faults):
-        notes = (*notes, *closed_turn(columns))
-        if completed:
-            notes = (*notes, *viterna(faults, where, columns, aspect_ratio))
-        elif columns["alpha_deg"][-1] < 90:
-            at, rule = where(len(polar.sheet.rows) - 1, "alpha_deg"), "the table must reach at least 90 degrees"
-            faults.add(at, columns["alpha_deg"][-1], rule, _COMPLETED.format(fitting(path, polar)))
-        else:
-            check_coverage(shape, columns, extension, where)
-    noted = {fault.where for fault in faults.faults}
-    turned = any(where.endswith(f"column {polar.headings['alpha_deg']}") for where in noted)
-    faults.faults += [
-        one for one in shape.faults if one.where not in noted and not (turned and "alpha" in one.where)
-    ]
-    faults.raise_if_any()
-    stream = polar.columns.get("reynolds", np.empty(0))
-    stream = stream[np.isfinite(stream)]
-    return TableCoefficients(
-        Path(path).stem,
-        *(tuple(columns[name]) for name in COLUMNS),
-        x_cp=tuple(columns["x_cp"]) if "x_cp" in columns else None,
-        citation=polar.sheet.file,
-        reynolds_range=(float(stream.min()), float(stream.max())) if len(stream) else None,
-        extension="signed" if completed else extension,
-        blend_width_deg=blend_width_deg,
-        aspect_ratio=aspect_ratio,
-        notes=(*polar.notes, *notes, *doubtful_drag(polar.columns["C_D"], polar.columns.get("reynolds"))),
-    )

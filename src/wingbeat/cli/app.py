@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from cyclopts import App, CycloptsError, UnknownCommandError
 
 from wingbeat._base import WingbeatError, __version__, suggest
+from wingbeat._base.files import POLAR_SUFFIXES
 from wingbeat.cli.process import (
     EXIT_BAD_INPUT,
     EXIT_BROKEN_PIPE,
@@ -122,7 +123,7 @@ def _outcome(argv: list[str], app: App | None) -> int:
     if argv and argv[0] in COMMANDS and (shortage := memory_shortage(argv[0])) is not None:
         return _complain([shortage], EXIT_SYSTEM)
     try:
-        return _run(argv, app)
+        return _run(_with_families(argv), app)
     except MemoryError:
         fix = "close other programs or choose a smaller problem"
         return _complain([f"there is not enough memory; {fix}"], EXIT_SYSTEM)
@@ -132,6 +133,18 @@ def _outcome(argv: list[str], app: App | None) -> int:
         return _complain(str(error).splitlines() or [type(error).__name__], EXIT_BAD_INPUT)
     except SystemExit as error:
         return error.code if isinstance(error.code, int) else EXIT_GOOD if error.code is None else 1
+
+
+def _with_families(argv: list[str]) -> list[str]:
+    """Return the words with ``--aero a.pol b.pol`` written as ``--aero a.pol --aero b.pol``.
+
+    A shell turns ``--aero *.pol`` into such words, and an option that took all words would take the species, too.
+    """
+    words: list[str] = []
+    for i, word in enumerate(argv):
+        follows = i > 1 and argv[i - 1].lower().endswith(POLAR_SUFFIXES) and word.lower().endswith(POLAR_SUFFIXES)
+        words += ["--aero", word] if follows and words[-2] == "--aero" else [word]
+    return words
 
 
 def _run(argv: list[str], app: App | None) -> int:

@@ -14,19 +14,36 @@ from numpy.typing import NDArray
 
 from wingbeat._base import FaultList, InvalidInputError
 from wingbeat._base.style import BLUE, ORANGE, PAGE, drawing, legend_below, new_figure
-from wingbeat.aero import CoefficientModel, load_coefficients, thin_aerofoil_lift, thin_aerofoil_moment
-from wingbeat.cli.arguments import check_outputs, flag, option, parse_range, written_to
+from wingbeat.aero import (
+    CoefficientModel,
+    FamilyCoefficients,
+    load_coefficients,
+    thin_aerofoil_lift,
+    thin_aerofoil_moment,
+)
+from wingbeat.aero.family import AtOneReynolds
+from wingbeat.cli.arguments import check_outputs, flag, option, parse_range, several, written_to
 from wingbeat.cli.problem_options import say_notes
 from wingbeat.cli.terminal import answer
 from wingbeat.plots import check_figure_name
 
-Columns = dict[str, list[float] | list[None]]
+Columns = dict[str, list[Any]]
 
 
 def polar(
-    model: Annotated[str, option("Name of a model, or path of a table (.csv) or of a fit (.toml).")],
+    model: Annotated[
+        list[str],
+        option(
+            "Name of a model, or path of a table (.csv) or of a fit (.toml); several polars at different Reynolds "
+            "numbers are one model that depends on Re."
+        ),
+    ],
     *,
     alpha: Annotated[str, option("Angles of attack [deg], start:stop:step, or one angle.")] = "-30:110:2",
+    re: Annotated[
+        list[float] | None,
+        several("Chord Reynolds numbers at which to show a model that depends on Re; default those of its polars."),
+    ] = None,
     about: Annotated[float, option("Axis of C_M, in chords from the leading edge.")] = 0.5,
     extension: Annotated[
         str,
@@ -60,20 +77,38 @@ def polar(
         check_figure_name(faults, "--output", output)
     faults.number("--about", about, fix="0 is the leading edge, 1 the trailing edge")
     angles = _collected(faults, lambda: parse_range(alpha, "--alpha"))
-    coefficients = _collected(faults, lambda: load_coefficients(model, extension, blend_width_deg))
+    coefficients: Any = _collected(faults, lambda: load_coefficients(model, extension, blend_width_deg))
+    for value in re or ():
+        faults.number("--re", value, at_least=1, fix="give chord times speed over viscosity, such as 5e4")
+    if re and coefficients is not None and not isinstance(coefficients, FamilyCoefficients):
+        faults.add("--re", re[0], f"has no effect: {coefficients.name} does not depend on Re", "leave --re out")
     faults.raise_if_any()
 
     check_outputs(output)
     say_notes(model, coefficients)
-    columns = polar_columns(coefficients, angles, about)
+    shown: list[Any] = [coefficients]
+    if isinstance(coefficients, FamilyCoefficients):
+        low, high = coefficients.reynolds_range
+        for value in re or ():
+            if not low <= value <= high:
+                told = f"Re {value:g} is outside {low:.0f} to {high:.0f}: the nearest polar holds"
+                print(f"warning: {coefficients.name}: {told}", file=sys.stderr)
+        shown = [coefficients.at(value) for value in re or coefficients.reynolds]
+    columns = [polar_columns(one, angles, about) for one in shown]
     with answer() as given:
         if json:
-            given.show(lambda: print(json_format.dumps(columns)))
+            given.show(lambda: print(json_format.dumps(_joined(columns))))
         elif csv:
-            given.show(lambda: _print_csv(columns))
+            given.show(lambda: _print_csv(_joined(columns)))
         elif output is None:
-            given.show(lambda: _print_table(coefficients, columns, about))
-        given.draw(output, lambda: _figure(coefficients, angles, about), named=True)
+            tables = list(zip(shown, columns, strict=True))
+            given.show(lambda: [_print_table(one, its, about) for one, its in tables])
+        given.draw(output, lambda: _figure(shown, angles, about), named=True)
+
+
+def _joined(columns: list[Columns]) -> Columns:
+    """Return the columns of several polars, one below the other."""
+    return {name: [value for one in columns for value in one[name]] for name in columns[0]}
 
 
 def _print_csv(columns: Columns) -> None:
@@ -93,6 +128,8 @@ def polar_columns(model: CoefficientModel, alpha_deg: NDArray[np.float64], about
     """Return the polar as named lists of equal length; c_m and x_cp hold None where the model has no x_cp."""
     alpha = np.deg2rad(alpha_deg)
     columns: Columns = {"alpha_deg": alpha_deg.tolist(), "c_l": model.lift(alpha).tolist()}
+    if isinstance(model, AtOneReynolds):
+        columns = {"reynolds": [model.reynolds] * len(alpha), **columns}
     columns |= {"c_d": model.drag(alpha).tolist(), "c_n": model.normal(alpha).tolist()}
     if not model.has_centre_of_pressure:
         return columns | dict.fromkeys(("c_m", "x_cp"), [None] * len(alpha))
@@ -114,19 +151,21 @@ def _print_table(model: CoefficientModel, columns: Columns, about: float) -> Non
     table = Table(title=Text(_title(model)), caption=Text(caption), min_width=min(len(caption), 78))
     for heading in ("alpha [deg]", "C_L", "C_D", "C_N", "C_M", "x_cp [chords]"):
         table.add_column(Text(heading), justify="right")
-    for angle, *values in zip(*columns.values(), strict=True):
+    shown = [column for name, column in columns.items() if name != "reynolds"]
+    for angle, *values in zip(*shown, strict=True):
         table.add_row(f"{angle:g}", *("-" if value is None else f"{value:z.4f}" for value in values))
     Console().print(table)
 
 
 @drawing()
-def _figure(model: CoefficientModel, angles_deg: NDArray[np.float64], about: float) -> Any:
-    """Return a matplotlib figure with one panel for each coefficient the model has."""
+def _figure(models: list[Any], angles_deg: NDArray[np.float64], about: float) -> Any:
+    """Return a matplotlib figure with one panel for each coefficient the model has, and a line for each Re."""
+    from matplotlib import colormaps
     from matplotlib.ticker import MaxNLocator
 
     # Drawn finer than asked: a step of 2 degrees would show the blends as kinks.
     fine = np.linspace(angles_deg[0], angles_deg[-1], 2001) if len(angles_deg) > 1 else angles_deg
-    columns = polar_columns(model, fine, about)
+    model = models[0]
     labels = {"c_l": "lift coefficient $C_L$ [-]", "c_d": "drag coefficient $C_D$ [-]"}
     if model.has_centre_of_pressure:
         labels["c_m"] = f"moment coefficient $C_M$ about {about:g} c [-]"
@@ -138,9 +177,13 @@ def _figure(model: CoefficientModel, angles_deg: NDArray[np.float64], about: flo
     low, high = model.alpha_range_deg
     rows = len(labels) // 2
     page = new_figure(PAGE, 20.0 + 65.0 * rows)
-    page.suptitle(_title(model), fontsize=8)
+    page.suptitle(_title(model if len(models) == 1 else model.family), fontsize=8)
+    drawn = [polar_columns(one, fine, about) for one in models]
+    colours = [BLUE] if len(models) == 1 else colormaps["viridis"](np.linspace(0.0, 0.85, len(models)))
     for axes, (name, label) in zip(page.subplots(rows, 2, sharex=True).flat, labels.items(), strict=True):
-        axes.plot(fine, columns[name], color=BLUE, marker="o" if len(fine) == 1 else None, label=model.name)
+        for one, columns, colour in zip(models, drawn, colours, strict=True):
+            told = one.name if len(models) == 1 else f"Re {one.reynolds:.0f}"
+            axes.plot(fine, columns[name], color=colour, marker="o" if len(fine) == 1 else None, label=told)
         # Set the limits before the lines of theory are drawn, because these lines would leave the page.
         axes.set(ylabel=label, ylim=axes.get_ylim(), xlim=axes.get_xlim())
         if name in theory:

@@ -68,8 +68,11 @@ class ModelOptions:
         ),
     ] = "paper"
     aero: Annotated[
-        str | None,
-        option("Coefficients: su-fan (default), feathered, ... (see `polar`), a table (.csv) or a fit (.toml)."),
+        list[str] | None,
+        option(
+            "Coefficients: su-fan (default), feathered, ... (see `polar`), a table (.csv) or a fit (.toml). "
+            "Several polars, such as naca0012_re*.txt, are one model that depends on the Reynolds number."
+        ),
     ] = None
     extension: Annotated[
         str | None,
@@ -155,7 +158,8 @@ class ModelOptions:
 
     def fit(self) -> Fitted | None:
         """Return the fit with its covariance if ``--aero`` names a fitted model's file; else None."""
-        return read_model(self.aero) if self.aero is not None and self.aero.lower().endswith(".toml") else None
+        given = self.aero or [""]
+        return read_model(given[0]) if len(given) == 1 and given[0].lower().endswith(".toml") else None
 
     def _coefficients(self, own: BladeElement) -> dict[str, Any]:
         """Return the given coefficients of arm and hand; a given extension also applies to the model's own ones."""
@@ -170,11 +174,13 @@ class ModelOptions:
         return found
 
 
-def say_notes(given: str | None, coefficients: object) -> None:
-    """Print what a table's file or a fit says about itself on standard error."""
-    fit = read_model(given) if given is not None and given.lower().endswith(".toml") else coefficients
+def say_notes(given: str | list[str] | None, coefficients: object) -> None:
+    """Print what a table's file, several files or a fit say about themselves on standard error."""
+    name = given[0] if isinstance(given, list) and len(given) == 1 else given
+    fit = read_model(name) if isinstance(name, str) and name.lower().endswith(".toml") else coefficients
+    shown = name if isinstance(name, str) or name is None else f"{name[0]} and {len(name) - 1} more"
     for note in getattr(fit, "notes", ()):
-        print(f"note: {given}: {note}", file=sys.stderr)
+        print(f"note: {shown}: {note}", file=sys.stderr)
 
 
 DEFAULT_MODEL = ModelOptions()

@@ -28,6 +28,7 @@ from wingbeat._jax.arrays import (
 )
 from wingbeat.aero.blade_element import BladeElement, StripForces, blade_element_of, strip_forces
 from wingbeat.aero.closed_forms import body_drag, check_descent, disc_area, induced_flow, tail_force
+from wingbeat.aero.family import at_reynolds, depends_on_reynolds
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude, wing_motion
@@ -184,9 +185,7 @@ class BodyLoads(NamedTuple):
     moment: Phases  # about the body's centre of mass, nose-up positive [N m]
 
 
-def strip_loads(
-    kernel: Kernel, density: Scalar, motion: WingMotion, velocity: Pair, pitch_rate: Phases
-) -> StripForces:
+def strip_loads(model: FlightModel, motion: WingMotion, velocity: Pair, pitch_rate: Phases) -> StripForces:
     """Return the quasi-steady loads on the strips of one wing, along chord and normal of the unpitched strip.
 
     `velocity` is that of the body relative to the air at the wings, in stroke axes. The velocity of the quarter
@@ -202,18 +201,22 @@ def strip_loads(
     span_speed = None
     if motion.span is not None:
         span_speed = dot(motion.span, (forward_speed, up_speed)) + motion.spanwise_speed
-    return strip_forces(kernel, density, motion.area, chord_speed, normal_speed, motion.pitch, span_speed)
+    speeds, kernel = (chord_speed, normal_speed, motion.pitch, span_speed), model.kernel
+    if depends_on_reynolds(kernel):
+        scale = motion.area / motion.width / model.air.viscosity
+        return strip_forces(kernel, model.air.density, motion.area, *speeds, scale)
+    return strip_forces(kernel, model.air.density, motion.area, *speeds)
 
 
-def strip_moments(kernel: Kernel, motion: WingMotion, strips: StripForces) -> PerStrip:
+def strip_moments(model: FlightModel, motion: WingMotion, strips: StripForces) -> PerStrip:
     """Return the moments of loads at the centre of pressure about the quarter chords, leading edge up [N m]."""
     across = strips.normal * cos(motion.pitch) - strips.chordwise * sin(motion.pitch)
-    return pressure_offset(kernel, strips.alpha, motion.area / motion.width) * across
+    return pressure_offset(model, strips, motion.area / motion.width) * across
 
 
 def wing_loads(model: FlightModel, motion: WingMotion, velocity: Pair, pitch_rate: Phases) -> BodyLoads:
     """Return the air loads on both wings of a body that does not accelerate. Theory: equation ``wing-loads``."""
-    strips = strip_loads(model.kernel, model.air.density, motion, velocity, pitch_rate)
+    strips = strip_loads(model, motion, velocity, pitch_rate)
     forward, up = strips.chordwise, strips.normal * motion.flap_cosine
     across = motion.flap_cosine  # share of a moment about the span that pitches the body
     if motion.unpitched is not None:
@@ -221,7 +224,7 @@ def wing_loads(model: FlightModel, motion: WingMotion, velocity: Pair, pitch_rat
         across = across * motion.unpitched[0]
     moment = motion.ahead * up - motion.above * forward
     if model.at_centre_of_pressure:
-        moment = moment + strip_moments(model.kernel, motion, strips) * across
+        moment = moment + strip_moments(model, motion, strips) * across
     forward, up, moment = (2.0 * sum_over_strips(a) for a in (forward, up, moment))
     if motion.unsteady is not None:
         through_air = *velocity, pitch_rate
@@ -230,9 +233,12 @@ def wing_loads(model: FlightModel, motion: WingMotion, velocity: Pair, pitch_rat
     return BodyLoads((forward, up), moment)
 
 
-def pressure_offset(kernel: Kernel, alpha: PerStrip, chord: PerStrip) -> PerStrip:
+def pressure_offset(model: FlightModel, strips: StripForces, chord: PerStrip) -> PerStrip:
     """Return how far the centre of pressure is ahead of the quarter chord [m]. Theory: equation ``force-point``."""
-    return chord * (0.25 - kernel.centre_of_pressure(alpha))
+    kernel = model.kernel
+    if depends_on_reynolds(kernel):
+        kernel = at_reynolds(kernel, model.air.reynolds(strips.speed, chord))
+    return chord * (0.25 - kernel.centre_of_pressure(strips.alpha))
 
 
 def body_air(

@@ -185,8 +185,8 @@ def hinge_loads(
     ax, az, pitch_acceleration = body_acceleration
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
     velocity = velocity_at_wings(model, attitude, u, w)
-    strips = strip_loads(model.kernel, model.air.density, motion, velocity, pitch_rate)
-    moments = strip_moments(model.kernel, motion, strips) if model.at_centre_of_pressure else 0.0
+    strips = strip_loads(model, motion, velocity, pitch_rate)
+    moments = strip_moments(model, motion, strips) if model.at_centre_of_pressure else 0.0
     apparent = from_world(attitude, ax, az + model.air.gravity)
     accelerates = (*from_world(attitude, ax, az), pitch_acceleration) if is_unsteady(model) else None
 

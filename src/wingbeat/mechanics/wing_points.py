@@ -14,6 +14,7 @@ from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.aero.blade_element import StripForces, strip_forces, with_turning
 from wingbeat.aero.closed_forms import added_inertia, added_mass
+from wingbeat.aero.family import depends_on_reynolds
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.mechanics.flight_model import (
@@ -290,13 +291,13 @@ def air_forces_on(
     span_speed = None
     if model.full_airspeed:
         span_speed = jnp.sum(through_air * jnp.cross(points.normal, points.chordwise), axis=-1)
-    forces = strip_forces(
-        model.kernel, model.air.density, width * chord, chord_speed, normal_speed, jnp.zeros_like(chord), span_speed
-    )
+    speeds, kernel = (chord_speed, normal_speed, jnp.zeros_like(chord), span_speed), model.kernel
+    scale = (chord / model.air.viscosity,) if depends_on_reynolds(kernel) else ()
+    forces = strip_forces(kernel, model.air.density, width * chord, *speeds, *scale)
     force = forces.chordwise[:, None] * points.chordwise + forces.normal[:, None] * points.normal
     lever, drift = motion.partial.quarter_chord, motion.drift.quarter_chord
     if model.at_centre_of_pressure:
-        ahead = pressure_offset(model.kernel, forces.alpha, chord)[:, None]
+        ahead = pressure_offset(model, forces, chord)[:, None]
         lever = lever + ahead[..., None] * motion.partial.chordwise
         drift = drift + ahead * motion.drift.chordwise
     wings = 2.0 * jnp.einsum("na,nai->i", force, lever)

@@ -20,6 +20,7 @@ from wingbeat.aero import (
     CamberedTerms,
     CentreTerms,
     CoefficientModel,
+    FamilyCoefficients,
     FormulaCoefficients,
     FormulaTerms,
     FunctionCoefficients,
@@ -90,6 +91,8 @@ def _named(coefficients: CoefficientModel) -> dict[str, Any]:
     """Return name, extension and blend width of a coefficient model, and a digest if it is a function."""
     how = {name: getattr(coefficients, name) for name in ("extension", "blend_width_deg")}
     named = {"coefficients": coefficients.name, **how}
+    if isinstance(coefficients, FamilyCoefficients):
+        named["reynolds_of_polars"] = list(coefficients.reynolds)
     if isinstance(coefficients, FunctionCoefficients):
         named["function"] = f"{OWN}, {coefficients.program.digest[:16]}"
     return named
@@ -97,6 +100,8 @@ def _named(coefficients: CoefficientModel) -> dict[str, Any]:
 
 def _numbers(coefficients: CoefficientModel) -> dict[str, Any]:
     """Return the numbers from which a coefficient model can be set up; none if its name suffices."""
+    if isinstance(coefficients, FamilyCoefficients):
+        return {"family": [_numbers(member)["table"] for member in coefficients.members]}
     kind = next((kind for kind, (made, _) in _MODELS.items() if isinstance(coefficients, made)), "")
     of_library: Any = LIBRARY.get(coefficients.name)
     if not kind or (
@@ -118,6 +123,9 @@ def _coefficients(given: dict[str, Any]) -> Any:
     how = {"extension": given["extension"], "blend_width_deg": given["blend_width_deg"]}
     if "function" in given:
         raise NotInFileError(f"{OWN} function {given['coefficients']!r} {SET_ANEW}")
+    if "family" in given:
+        members = tuple(TableCoefficients(**_tuples(member), **how) for member in given["family"])
+        return FamilyCoefficients(given["coefficients"], tuple(given["reynolds_of_polars"]), members)
     if "table" in given:
         return TableCoefficients(**_tuples(given["table"]), **how)
     if "cambered" in given:

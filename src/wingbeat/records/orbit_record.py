@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from wingbeat._base import NOMENCLATURE, __version__
-from wingbeat.aero import CamberedCoefficients, CoefficientModel
+from wingbeat.aero import CamberedCoefficients, CoefficientModel, FamilyCoefficients
 from wingbeat.animal.kinematics import ANGLES, Wingbeat
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.mechanics.flight_model import State
@@ -203,6 +203,7 @@ def _outside_fit(coefficients: CoefficientModel, reynolds: np.ndarray, alpha: np
             notes.append(
                 f"Reynolds number outside the fitted {low:g} to {high:g} for {share:.0%} of strips and instants"
                 f"{where} (it runs from {reynolds.min():.0f} to {reynolds.max():.0f})"
+                + (": there the nearest polar holds" if isinstance(coefficients, FamilyCoefficients) else "")
             )
     low, high = coefficients.used_range_deg
     degrees, measured = np.degrees(alpha), coefficients.alpha_range_deg[1]

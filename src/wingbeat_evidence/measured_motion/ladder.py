@@ -7,7 +7,15 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from wingbeat._base import Fault, FaultList, InvalidInputError
-from wingbeat.aero import INFLOWS, LIBRARY, UNSTEADY, BladeElement, CoefficientModel, coefficients_of
+from wingbeat.aero import (
+    INFLOWS,
+    LIBRARY,
+    UNSTEADY,
+    BladeElement,
+    CoefficientModel,
+    FamilyCoefficients,
+    coefficients_of,
+)
 from wingbeat.aero.blade_element import load_coefficients
 
 THIN_AEROFOIL_WAKE = "thin-aerofoil-wake"
@@ -98,6 +106,9 @@ def _rung(model: CoefficientModel, step: str, flow: str, induced_factor: float) 
 
 
 def _model(given: Any, extension: str | None) -> CoefficientModel:
-    if extension is not None and isinstance(given, str | Path):
-        return load_coefficients(given, extension)
-    return coefficients_of(given)
+    named = extension is not None and isinstance(given, str | Path)
+    model = load_coefficients(given, extension) if named else coefficients_of(given)
+    if isinstance(model, FamilyCoefficients):
+        rule = "depends on the Reynolds number, and a measured motion states no viscosity"
+        raise InvalidInputError([Fault("aero", model.name, rule, "give the polar of one Reynolds number")])
+    return model

@@ -77,7 +77,7 @@ def _series(model: FlightModel, tables: _Tables, path: PitchState, mean_velocity
     loads = air_loads(model, motion, attitude, u, w, pitch_rate, body)
     force_x, force_z = to_world(attitude, *loads.force)
     velocity = velocity_at_wings(model, attitude, u, w)
-    strips = strip_loads(model.kernel, model.air.density, motion, velocity, pitch_rate)
+    strips = strip_loads(model, motion, velocity, pitch_rate)
     hinges = hinge_loads(model, motion, tables.hinges, path, body)
     chord = strips_of(model.vehicle.wing, model.strips).chord
     if tables.chord_ratio is not None:

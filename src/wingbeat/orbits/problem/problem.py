@@ -91,6 +91,8 @@ def loads_in_words(aero: Mapping[str, Any]) -> str:
     """Return the coefficients and the terms of the air loads, from their names in a record."""
     named = [str(aero[name]) for name in ("coefficients", "extension", "force_point") if name in aero]
     terms = [f"{aero[name]} {name}" for name in TERMS if name in aero]
+    if family := aero.get("reynolds_of_polars"):
+        named[0] += f" ({len(family)} polars, Re {family[0]:.0f} to {family[-1]:.0f})"
     return ", ".join([*named, *(["full airspeed"] if aero.get("airspeed") == "full" else []), *terms])
 
 
@@ -98,9 +100,6 @@ def model_rows(origin: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Return the name of the model that made the problem, and the choices that the user changed."""
     changed = [name.replace("_", "-") for name in origin["changed"]]
     return [("model", origin["name"] + (f"; changed: {', '.join(changed)}" if changed else ""))]
-
-
-# --- The problem. ---
 
 
 @dataclass(frozen=True)

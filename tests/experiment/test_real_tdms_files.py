@@ -20,6 +20,7 @@ def read(name, columns):
     recording, faults = open_recording(FOLDER / name), FaultList()
     numbers, clock = recording.numbers(faults, columns), recording.clock(faults, columns)
     faults.raise_if_any()
+    assert clock is not None
     return recording, numbers, clock
 
 

@@ -96,3 +96,16 @@ def test_pose2sim_turns_the_axes_and_counts_frames_of_the_video():
     assert points.times is not None
     assert points.times[0] == pytest.approx(100 / 240)
     assert "up is +y" in " ".join(angles_from_points(CASES / "pose2sim.trc").record()["notes"])
+
+
+def test_deeplabcut_s_axes_are_those_of_its_first_camera():
+    """DeepLabCut 3.0.2: y is down and z away from the camera, which looks 17 degrees down; amplitudes hold."""
+    path = CASES / "deeplabcut_3d.csv"
+    points = read_points(path)
+    assert "in the axes of its first camera, x right, y down, z away" in points.warnings[0]
+    assert np.isnan(points.positions["tip"][10:14]).all()
+    found = flap_and_pitch(path, frame_rate=240.0, up="-y")
+    assert found[1:] == pytest.approx(TRUE[1:], abs=0.1)
+    assert found[0] - TRUE[0] == pytest.approx(-12.9, abs=0.1)
+    movements = read_points(CASES / "movement_deeplabcut.csv")
+    assert movements.warnings == ()

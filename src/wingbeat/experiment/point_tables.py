@@ -95,7 +95,8 @@ def split_table(file: str, text: str) -> Table:
             if len(set(animals[1:])) > 1:
                 names = [f"{a} {b}" for a, b in zip(animals, names, strict=False)]
         labels = [("", "frame"), *zip(names[1:], heads[words.index("coords")][1:], strict=False)]
-        return Table("DeepLabCut", [(name, part.lower()) for name, part in labels], table)
+        kind = "DeepLabCut" if "movement" not in heads[0][1:2] else "movement, in DeepLabCut's form"
+        return Table(kind, [(name, part.lower()) for name, part in labels], table)
     last, units = heads[-1], set()
     if len(heads) > 1 and sum(cell.strip().lower() in ("x", "y", "z") for cell in last) >= 3:
         names = _filled(heads[-2])

@@ -162,6 +162,11 @@ def read_points(source: Any) -> TrackedPoints:
     notes, warnings = [], []
     if names:
         warnings.append(f"{path.name}: {', '.join(names[:5])} lacks one of x, y, z and is left out")
+    if table.kind == "DeepLabCut":
+        warnings.append(
+            f"{path.name}: DeepLabCut triangulates in the axes of its first camera, x right, y down, z away. "
+            "If nobody turned them, give --up -y; a camera that is not level tilts the stroke by its own angle"
+        )
     for name, at in positions.items():
         for k, (other, part) in enumerate(table.labels):
             if other == name and part in (*SCORES, "ncams"):

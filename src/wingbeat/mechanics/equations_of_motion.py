@@ -120,8 +120,12 @@ def accelerations_from_torques(
     tau = jnp.concatenate([jnp.zeros(3), jnp.asarray(torques)])
     inertia = terms.mass_matrix + air.added_mass if is_unsteady(model) else terms.mass_matrix
     applied = tau + air.generalised
-    resistance = terms.velocity_matrix @ q_dot + terms.time_force + terms.gravity_force
-    return jnp.linalg.solve(inertia, applied - resistance)
+    return jnp.linalg.solve(inertia, applied - resistance(terms, q_dot))
+
+
+def resistance(terms: EquationsOfMotion, q_dot: Coordinates) -> Coordinates:
+    """Return ``C q' + h + g``, shape (5,) [N, N m]."""
+    return terms.velocity_matrix @ q_dot + terms.time_force + terms.gravity_force
 
 
 def _air_forces(
@@ -146,9 +150,7 @@ def _torque(
 ) -> Coordinates:
     terms = _terms(model, wingbeat, q, q_dot, time)
     air = _air_forces(model, wingbeat, q, q_dot, time, q_acceleration).generalised
-    inertial = terms.mass_matrix @ q_acceleration
-    resistance = terms.velocity_matrix @ q_dot + terms.time_force + terms.gravity_force
-    return inertial + resistance - air
+    return terms.mass_matrix @ q_acceleration + resistance(terms, q_dot) - air
 
 
 @functools.partial(jit_soon, static_argnums=0)

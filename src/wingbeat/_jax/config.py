@@ -84,7 +84,7 @@ def own_settings() -> Iterator[None]:
     """Compute under the package's settings of JAX in a block, in this thread; then those of the host apply."""
     _start()
     if all(setting.value == own for setting, own in OWN) and not any(guard.value for guard in GUARDS):
-        yield  # 2 us; what follows takes 40 us
+        yield  # the host has changed nothing: 2 us, otherwise 40 us
         return
     with ExitStack() as stack:
         for setting, own in OWN:

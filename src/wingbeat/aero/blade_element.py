@@ -42,9 +42,9 @@ def coefficients_of(given: Any) -> CoefficientModel:
 
     Parameters
     ----------
-    given : a coefficient model; a name in `LIBRARY`; the path of a table (.csv) or of a fitted model (.toml), or a
-        list of paths of polars at several Reynolds numbers; or a JAX function of the angle of attack [rad] that
-        returns (C_L, C_D), see `FunctionCoefficients`.
+    given : a coefficient model; a name, a path, or a list of paths of polars at several Reynolds numbers, as for
+        `load_coefficients`; or a JAX function of the angle of attack [rad] that returns (C_L, C_D), see
+        `FunctionCoefficients`.
 
     Raises
     ------
@@ -71,12 +71,12 @@ def coefficients_of(given: Any) -> CoefficientModel:
 def load_coefficients(
     name_or_path: str | Path | Sequence[str | Path], extension: str = "mirrored", blend_width_deg: float = 1.0
 ) -> CoefficientModel:
-    """Return a coefficient model by its name in `LIBRARY`, or from a file: a table (.csv) or a fit (.toml).
+    """Return a coefficient model by its name in `LIBRARY`, or a table, polar or fit from a file.
 
     Parameters
     ----------
-    name_or_path : "su-fan", "dickinson", ... or the path of a table (.csv), of a polar that another program wrote,
-        or of a fitted model (.toml).
+    name_or_path : "su-fan", "dickinson", ... or the path of a table (.csv), of a polar that another program wrote
+        (.pol, .dat, ...), or of a fitted model (.toml).
     extension : how the coefficients are extended to all angles, one of `EXTENSIONS`; of a table also "viterna".
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
 
@@ -104,7 +104,8 @@ def load_coefficients(
         return load_table(name, extension, blend_width_deg)
     if name not in LIBRARY:
         rule, guess = "is not a known coefficient model", suggest(name.lower(), LIBRARY, most=2, otherwise="")
-        known = f"The models are {', '.join(LIBRARY)}; a table's path ends in .csv, a fitted model's in .toml"
+        ends = ", ".join(POLAR_SUFFIXES)
+        known = f"The models are {', '.join(LIBRARY)}; a table's path ends in {ends}, a fitted model's in .toml"
         raise InvalidInputError([Fault("coefficients", name, rule, f"{guess} {known}".lstrip())])
     return LIBRARY[name](extension, blend_width_deg)
 

@@ -70,8 +70,9 @@ class ModelOptions:
     aero: Annotated[
         list[str] | None,
         option(
-            "Coefficients: su-fan (default), feathered, ... (see `polar`), a table (.csv) or a fit (.toml). "
-            "Several polars, such as naca0012_re*.txt, are one model that depends on the Reynolds number."
+            "Coefficients: su-fan (default), feathered, ... (see `polar`), a table (.csv), a polar (.pol, .dat, "
+            "...) or a fit (.toml). Several polars, such as naca0012_re*.txt, are one model that depends on the "
+            "Reynolds number."
         ),
     ] = None
     extension: Annotated[

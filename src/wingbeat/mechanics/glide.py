@@ -56,7 +56,7 @@ class Glide(NamedTuple):
     wing_pitch: float  # [rad]
     flap: float  # [rad]
     tail_tilt: float  # added to the tail's incidence [rad]; 0 without a tail
-    tail_moment: float  # what a tail, or a further tail, would need to supply [N m]; 0 if the glide is trimmed
+    tail_moment: float  # that a tail, or a further one, would need to supply, nose-up positive [N m]; 0 if trimmed
     flap_torque: float  # that holds the wings [N m]
     pitch_torque: float
     trimmed: bool  # whether the pitching moment vanishes

@@ -251,7 +251,10 @@ def _speeds(axis: TripleOrNone, axis_rate: TripleOrNone, places: tuple[Triple, T
 
 
 class UnsteadyLoad(NamedTuple):
-    """The generalised load of the unsteady terms on one motion of both wings, divided by the density of the air."""
+    """The generalised load of the unsteady terms on one motion of both wings, divided by the density of the air.
+
+    The letters are those of the theory's equation ``unsteady-load``.
+    """
 
     by_acceleration: ByBodyMotion  # A
     by_velocity: ByBodyMotion  # B

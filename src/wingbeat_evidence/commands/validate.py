@@ -45,8 +45,8 @@ def validate(
         list[str] | None,
         Parameter(
             negative=(),
-            help="Coefficients: su-fan, dickinson, ..., a table (.csv) or a fit (.toml); repeat for several. "
-            "If left out: all models.",
+            help="Coefficients: su-fan, dickinson, ..., a table (.csv), a polar (.pol, .dat, ...) or a fit "
+            "(.toml); repeat for several. If left out: all models.",
         ),
     ] = None,
     extension: Annotated[

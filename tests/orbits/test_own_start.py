@@ -1,5 +1,6 @@
 """A start of one's own, the solver's steps, Lagrange multipliers, and derivatives of the optimum for JAX."""
 
+import dataclasses
 import json
 import re
 
@@ -10,10 +11,16 @@ from scipy.optimize import minimize
 
 import wingbeat as wb
 from wingbeat._base import InvalidInputError
+from wingbeat._base.nomenclature import label_of
+from wingbeat.animal.kinematics import flap_angle
 from wingbeat.cli import main
+from wingbeat.experiment import Film, fit_film
 from wingbeat.orbits.flight.period import CLOSURE_SCALE
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.options import DEFAULTS
+from wingbeat.orbits.problem.parameters import bound_of
+from wingbeat.orbits.solve import _where_limits_hold
+from wingbeat.orbits.uncertainty import OptimumSlopes
 from wingbeat.results.own_start import own_start
 
 
@@ -64,6 +71,31 @@ def test_each_search_ends_closed_and_the_best_is_certified(traced):
     assert "certificate" in traced.trace.summary()
 
 
+def test_the_certificate_belongs_to_the_search_that_led_to_it(problem):
+    """Two searches end in the same optimum; the number was that of the end nearest to it, not of the lowest."""
+    table = wb.solve_orbit(dataclasses.replace(problem, speed=8.0), starts=3, trace=True).trace.to_dataframe()
+    ends = table[table.stage == "search"].groupby("search").last().objective
+    assert ends[0] == pytest.approx(ends[2], rel=1e-6)
+    assert set(table[table.stage == "certificate"].search) == {int(ends.argmin())}
+
+
+@pytest.mark.slow
+def test_searches_from_where_a_limit_holds_keep_their_steps():
+    """They lead to an orbit where no start does; their steps were lost."""
+    limited = wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0, subject_to=["mean_positive_power<=46"])
+    programme = Transcription(limited)
+    programme.steps = []
+    found = next(_where_limits_hold(programme, 1, 0, 1))
+    assert found
+    assert all(candidate.programme.steps for candidate in found)
+
+
+def test_where_another_search_comes_first_it_is_not_said_where_the_start_led(problem, orbit, monkeypatch):
+    """The gust response is minimised from optima of another problem, so no search of it begins at the start."""
+    monkeypatch.setattr("wingbeat.orbits.solve.minimises_map", lambda problem: True)
+    assert wb.solve_orbit(problem, start=orbit).record()["start"]["led_here"] is None
+
+
 def test_a_search_from_an_optimum_ends_there_within_few_steps(problem, orbit):
     again = wb.solve_orbit(problem, start=orbit, trace=True)
     assert again.record()["start"] | {"values": {}} == {
@@ -101,6 +133,36 @@ def test_what_a_start_lacks_or_the_problem_holds_fixed_is_said(problem):
     )
 
 
+@pytest.mark.slow
+def test_a_state_given_with_a_film_is_kept(problem, orbit):
+    """Where the film shows the body, the state was dropped without a word."""
+    flight = wb.simulate(problem.model, orbit.wingbeat, orbit.initial_state, beats=2, samples=60)
+    phase = np.linspace(0.0, 2.0, len(flight.states))
+    x, z, pitch = flight.states[:, :3].T
+    body = {"body_x_m": x, "body_z_m": z, "body_pitch_deg": np.degrees(pitch)}
+    columns = {"flap_deg": np.degrees(flap_angle(orbit.wingbeat, phase)), **body}
+    beat = fit_film(Film("flown", phase, columns, orbit.wingbeat.frequency, 0.0))
+    assert own_start(problem, beat).values["u"] == pytest.approx(orbit.initial_state.u, abs=0.1)
+    start = own_start(problem, (beat, wb.State(u=8.0, body_pitch=0.3)))
+    assert (start.kind, start.values["u"], start.values["body_pitch"]) == ("film", 8.0, 0.3)
+    assert "the state is the one given with the film" in start.notes
+
+
+def test_multipliers_and_starts_are_by_the_orbits_own_options(problem, monkeypatch):
+    """They were by the default options, which the caller had replaced."""
+    families = (DEFAULTS.search.start_families[0]._replace(frequency=0.9),)
+    options = dataclasses.replace(DEFAULTS, search=dataclasses.replace(DEFAULTS.search, start_families=families))
+    found = wb.solve_orbit(problem, start={"flap_mean": 0.0}, options=options)
+    assert found.record()["start"]["values"]["frequency"] == pytest.approx(0.9 * 6.0)
+    used, slopes = [], OptimumSlopes(problem, found.unknowns)
+    monkeypatch.setattr("wingbeat.results.orbit.OptimumSlopes", lambda *given: used.append(given) or slopes)
+    assert found.multipliers.bounds
+    assert used[0][2] == options
+
+
+STOCK = wb.load_species("pigeon").wingbeat
+
+
 @pytest.mark.parametrize(
     ("start", "said"),
     [
@@ -109,6 +171,11 @@ def test_what_a_start_lacks_or_the_problem_holds_fixed_is_said(problem):
         ({"frequency": float("nan")}, "start.frequency = nan: must be finite"),
         ("orbit.nc", "start = 'str': is nothing that a search can start from; give an orbit, a wingbeat"),
         (np.zeros(9), "is nothing that a search can start from"),
+        ((STOCK, "abcdef"), "initial_state = 'abcdef': must be a State or six numbers"),
+        ((STOCK, [[1.0, 2.0], 3.0, 4.0, 5.0, 6.0, 7.0]), "must be a State or six numbers"),
+        ((STOCK, np.zeros(4)), "'shape (4,)': must be a State or six numbers"),
+        ((STOCK, [0.0, 0.0, 0.1, "fast", 0.0, 0.0]), "initial_state.u = 'fast': must be a number"),
+        ((STOCK, wb.State(u=float("nan"))), "initial_state.u = nan: must be finite"),
     ],
 )
 def test_what_is_no_start_is_refused(problem, start, said):
@@ -146,12 +213,61 @@ def test_multipliers_are_those_of_scipy_and_the_prices_of_sensitivities(problem,
 @pytest.mark.slow
 def test_the_multiplier_of_a_limit_is_what_relaxing_it_gains():
     pigeon = wb.load_species("pigeon")
-    orbit = wb.solve_orbit(wb.OrbitProblem(pigeon, speed=10.0, subject_to=["mean_positive_power<=46"]), starts=2)
+
+    def limited(power):
+        return wb.OrbitProblem(pigeon, speed=10.0, subject_to=[f"mean_positive_power<={power}"])
+
+    orbit = wb.solve_orbit(limited(46.0), starts=2)
     (price,) = [one for one in wb.sensitivities(orbit).prices if one.parameter.path.startswith("limit")]
     found = orbit.multipliers
     assert found.limits == {"mean_positive_power": pytest.approx(price.objective, rel=1e-6)}
     assert found.limits["mean_positive_power"] < 0
     assert found.units["limit.mean_positive_power"] == "Hz per W"
+    less, more = (wb.solve_orbit(limited(power), start=orbit).wingbeat.frequency for power in (45.9, 46.1))
+    assert found.limits["mean_positive_power"] == pytest.approx((more - less) / 0.2, rel=2e-3)
+
+
+@pytest.mark.slow
+def test_two_limits_of_one_quantity_have_a_name_and_a_slope_each():
+    """Both were named after the quantity alone, so one was lost, or had the other's value."""
+    sides = ["mean_positive_power<=46", "mean_positive_power>=10"]
+    orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0, subject_to=sides), starts=2)
+    names = ["limit.mean_positive_power.lower", "limit.mean_positive_power.upper"]
+    frequency = wb.differentiable_optimum(orbit, names)
+    assert frequency.at.tolist() == [10.0, 46.0]
+    (price,) = orbit.multipliers.limits.values()
+    assert orbit.multipliers.limits == {"mean_positive_power.upper": price}
+    assert orbit.multipliers.units[names[1]] == "Hz per W"
+    assert np.asarray(jax.grad(frequency)(frequency.at)) == pytest.approx([0.0, price], rel=1e-6, abs=1e-12)
+    assert label_of(names[1]).startswith("upper bound of the limit of the mean of the positive part")
+
+
+def test_a_bound_that_is_not_active_changes_nothing(orbit):
+    """Its derivative was that by the other side's bound, which is active."""
+    slopes = OptimumSlopes(orbit.problem, orbit.unknowns)
+    lower, upper = (slopes.by(bound_of(orbit.problem, "flap_amplitude", side)) for side in ("lower", "upper"))
+    assert upper.objective < -1.0
+    assert upper.wingbeat["flap_amplitude"] == pytest.approx(1.0)
+    assert lower.objective == pytest.approx(0.0, abs=1e-12)
+    assert [*lower.wingbeat.values(), *lower.initial_state.values()] == pytest.approx([0.0] * 9, abs=1e-12)
+
+
+def test_a_pitch_at_its_bound_twice_has_one_multiplier_and_bounds_of_the_search_have_none():
+    """Of two multipliers of one name one was lost; and bounds of u were listed, which no problem has."""
+    bounds = {"body_pitch": (0.186, 1.0)}
+    orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0, bounds=bounds), starts=1)
+    slopes = OptimumSlopes(orbit.problem, orbit.unknowns)
+    along_path = {one.name: one.value for one in slopes.multipliers()}["body_pitch.lower"]
+    assert along_path > 0.0
+    # As if the pitch were lowest at phase 0, where it is an unknown too, and u at the end of the searched range.
+    slopes._free[:2], slopes._at_lower[:2] = False, True
+    jacobian = slopes._here.active_conditions(slopes._at, slopes._active)[1]
+    slope = slopes._here.objective_gradient(slopes._at) - jacobian.T @ slopes._multipliers
+    at_start = slope[0] * orbit.problem.minimise.scale / slopes.scale[0]
+    found = {one.name: one.value for one in slopes.multipliers() if one.kind == "bounds"}
+    assert found.keys() == {"flap_amplitude.upper", "body_pitch.lower"}
+    assert found["body_pitch.lower"] == pytest.approx(along_path + at_start, rel=1e-9, abs=1e-12)
+    assert [one.path for one in slopes.active()] == ["bounds.body_pitch.lower", "bounds.flap_amplitude.upper"]
 
 
 def differences(function, at, i, share):
@@ -207,6 +323,10 @@ def test_numbers_that_jax_traces_are_refused_with_the_way_that_works(orbit):
     frequency = wb.differentiable_optimum(orbit, "body.mass")
     with pytest.raises(InvalidInputError, match=r"shape \(\).*must have the shape \(1,\): body.mass"):
         frequency(0.3)
+    with pytest.raises(InvalidInputError, match=r"body.mass = -1.0: must be > 0 kg"):
+        frequency(np.array([-1.0]))
+    with pytest.raises(jax.errors.JaxRuntimeError, match=r"body.mass = -1.0: must be > 0 kg"):
+        jax.jit(frequency)(np.array([-1.0]))
 
 
 @pytest.mark.slow

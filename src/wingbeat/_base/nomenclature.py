@@ -108,7 +108,7 @@ def find(path: str) -> Term | None:
         path = re.split("[<>=]", path.partition(".")[2])[0]
     # Without list indices, and without words for bounds and axes. The numbers in power_cost(0.5) may hold dots.
     parts = [part for part in re.sub(r"\(.*\)|\[.*\]", "", path).split(".") if not part.isdigit()]
-    if parts[0] == "bounds" and parts[-1] in ("lower", "upper"):
+    if parts[0] in ("bounds", "limit") and parts[-1] in ("lower", "upper"):
         parts = parts[1:-1]
     elif parts[-1] in _AXES and "shoulder" in parts:
         parts = parts[:-1]

@@ -17,14 +17,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import NOMENCLATURE, FaultList, FileError, Term, install_extra, writing
+from wingbeat._base import NOMENCLATURE, FileError, Term, install_extra, writing
 from wingbeat._jax.arrays import jnp
 from wingbeat._jax.exported import jit_soon
 from wingbeat.animal.kinematics import LAWS, Wingbeat
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.wing_motion import time_rates
 from wingbeat.mechanics.wing_points import surface_points
-from wingbeat.orbits.options import Status
 from wingbeat.results.flight import simulate
 
 if TYPE_CHECKING:
@@ -110,12 +109,6 @@ class Gait:
         if self.orbit.problem.vehicle.tail is not None:
             values["tail_tilt"] = beat.tail_tilt
         return {name: (float(value), NOMENCLATURE[name].unit) for name, value in values.items()}
-
-
-def check_certified(faults: FaultList, orbit: Orbit) -> None:
-    """Note a fault unless an orbit is certified."""
-    if orbit.status is not Status.CONVERGED:
-        faults.add("orbit", orbit.status.value, "is not certified", "export a certified orbit")
 
 
 def gait_of(orbit: Orbit, samples: int) -> Gait:

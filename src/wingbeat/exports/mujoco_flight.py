@@ -19,12 +19,13 @@ import numpy as np
 from wingbeat._base import Fault, FaultList, FileError, InvalidInputError, install_extra
 from wingbeat.animal.kinematics import LAWS, Wingbeat
 from wingbeat.animal.vehicle import Vehicle, Wing
-from wingbeat.exports.gait import Gait, Laws, check_certified, gait_of, laws_at
+from wingbeat.exports.gait import Gait, Laws, gait_of, laws_at
 from wingbeat.mechanics.equations_of_motion import air_forces
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import Controller, commanded
 from wingbeat.mechanics.wing_motion import strips_of
 from wingbeat.mechanics.wing_shape import twist_factors
+from wingbeat.orbits.options import check_certified
 from wingbeat.viewer.scene import body_axes, tail_corners
 
 if TYPE_CHECKING:
@@ -318,7 +319,7 @@ class MujocoFlight:
 
     def __init__(self, orbit: Orbit, steps: int = 256) -> None:
         faults = FaultList()
-        check_certified(faults, orbit)
+        check_certified(faults, orbit.status, "export a certified orbit")
         faults.whole("steps", steps, 16, 100_000, "time steps of a beat")
         faults.raise_if_any()
         engine = _mujoco()

@@ -7,8 +7,9 @@ from os import PathLike
 from typing import TYPE_CHECKING
 
 from wingbeat._base import FaultList, write_atomically
-from wingbeat.exports.gait import check_certified, gait_csv, gait_mat, gait_of, write_c3d
+from wingbeat.exports.gait import gait_csv, gait_mat, gait_of, write_c3d
 from wingbeat.exports.mujoco_flight import mujoco_xml
+from wingbeat.orbits.options import check_certified
 
 if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit
@@ -68,7 +69,7 @@ def export(orbit: Orbit, path: str | PathLike[str], samples: int = SAMPLES) -> N
     """
     faults = FaultList()
     check_export(faults, "path", path, samples)
-    check_certified(faults, orbit)
+    check_certified(faults, orbit.status, "export a certified orbit")
     faults.raise_if_any()
     suffix = os.path.splitext(path)[1].lower()
     if suffix == ".c3d":

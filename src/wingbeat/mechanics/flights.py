@@ -168,7 +168,8 @@ def state_of(given: Any) -> State:
         values = list(given)
     else:
         values = np.asarray(given).tolist() if hasattr(given, "__array__") else given
-        if not isinstance(values, list | tuple) or np.shape(values) != (len(State._fields),):
+        whole = isinstance(values, list | tuple) and len(values) == len(State._fields)
+        if not whole or any(isinstance(value, list | tuple) for value in values):
             told = f"shape {np.shape(given)}" if hasattr(given, "__array__") else given
             rule = "must be a State or six numbers: x, z [m], body_pitch [rad], u, w [m/s], pitch_rate [rad/s]"
             faults.add("initial_state", told, rule, "for example wb.State(u=10.0), or flight.states[-1]")

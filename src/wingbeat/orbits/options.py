@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
+from wingbeat._base import FaultList
 from wingbeat.orbits.search_options import CertificateOptions, LeastSquaresOptions, Options, SearchOptions
 
 
@@ -25,6 +26,13 @@ class Status(enum.Enum):
     CONVERGED = "converged"
     INFEASIBLE = "infeasible"
     NOT_CONVERGED = "not-converged"
+
+
+def check_certified(faults: FaultList, status: Status, fix: str, lacks: str = "") -> None:
+    """Note a fault unless an orbit is certified; `lacks` names what it therefore has not."""
+    if status is not Status.CONVERGED:
+        rule = f"is not certified, so it has no {lacks}" if lacks else "is not certified"
+        faults.add("orbit", status.value, rule, fix)
 
 
 @dataclass(frozen=True)

@@ -118,14 +118,17 @@ def find_orbit(
     if settings.start is not None:
         away = np.abs((first.programme.physical(first.scaled) - solution.unknowns) / problem.unknowns().scale).max()
         near = bool(first.is_optimum and away <= options.search.same_optimum)
-        # Without limits of stability, the search may end elsewhere and still lead here.
-        led = None if free and not near else near and ending is None
+        # Without limits of stability, the search may end elsewhere and still lead here. If a quantity of the stroke
+        # map is minimised, `first` is where another search ended.
+        led = None if minimises_map(problem) or (free and not near) else near and ending is None
         solution = dataclasses.replace(solution, start=settings.start._replace(led_here=led))
     if settings.trace:
-        ends = [np.abs(c.scaled - best.scaled).max() if c.is_optimum else np.inf for c in found]
-        steps = [(i, step) for i, candidate in enumerate(found) for step in candidate.programme.steps or ()]
-        if ending is None:
-            steps += [(int(np.argmin(ends)), step) for step in best.programme.steps or ()]
+        origin = best.origin
+        made = found if origin is None or any(c is origin for c in found) else [*found, origin]
+        steps = [(i, step) for i, candidate in enumerate(made) for step in candidate.programme.steps or ()]
+        number = next((i for i, candidate in enumerate(made) if candidate is origin), None)
+        if number is not None:
+            steps += [(number, step) for step in best.programme.steps or ()]
         solution = dataclasses.replace(solution, steps=tuple(steps))
     unlimited = first_certified(free[0].programme, free) if free and not minimises_map(problem) else None
     if unlimited is None:
@@ -148,7 +151,7 @@ def _where_limits_hold(programme: Transcription, starts: int, seed: int, threads
             least = dataclasses.replace(limit.quantity, parameter=None)
             easier = Transcription(dataclasses.replace(problem, subject_to=(), minimise=least), options)
             found = first_searches(easier, starts, seed, threads)
-            yield search_from_optima(Transcription(problem, options), found, threads)
+            yield search_from_optima(programme, found, threads)
 
 
 def first_searches(

@@ -107,7 +107,7 @@ class OptimumSlopes:
         found = [
             bound_of(problem, name, SIDES[int(not at_lower)])
             for name, free, at_lower in zip(names, self._free, self._at_lower, strict=False)
-            if not free and name in problem.free
+            if not free and name in problem.bounds
         ]
         path = self._here.path_limits
         met = dict.fromkeys(limit for limit, on in zip(path, self._active, strict=False) if on)
@@ -115,7 +115,7 @@ class OptimumSlopes:
         if self._here.outputs is not None:
             limits = self._here.outputs.with_active(self._active[len(path) :])
             found += [limit_of(problem, i) for i in limits]
-        return found
+        return list(dict.fromkeys(found))  # the body pitch may be at its bound at phase 0 and along the path
 
     @property
     def has_unique_multipliers(self) -> bool:
@@ -136,7 +136,7 @@ class OptimumSlopes:
             self._unknowns.names, self._free, self._at_lower, slope[: self.scale.size] / self.scale, strict=False
         )
         for name, free, at_lower, value in numbers:
-            if not free:
+            if not free and name in problem.bounds:  # the search's own bounds of u, w and pitch_rate are none
                 side = SIDES[int(not at_lower)]
                 found.append(
                     Multiplier("bounds", f"{name}.{side}", float(value), f"{least.unit} per {plain_unit(name)}")
@@ -158,10 +158,14 @@ class OptimumSlopes:
                 limit = problem.subject_to[i]
                 value = rows[here.outputs.values_of(i)].sum() / limit.quantity.scale
                 unit = f"{least.unit} per {limit.quantity.unit}"
-                found.append(
-                    Multiplier("limit", limit.quantity.name, float(-value if limit.at_most else value), unit)
-                )
-        return found
+                name = limit_of(problem, i).path.removeprefix("limit.")
+                found.append(Multiplier("limit", name, float(-value if limit.at_most else value), unit))
+        # The body pitch is bounded at phase 0, as an unknown, and along the path: one bound, the sum its price.
+        by_name: dict[tuple[str, str], Multiplier] = {}
+        for one in found:
+            before = by_name.get(one[:2])
+            by_name[one[:2]] = one if before is None else one._replace(value=before.value + one.value)
+        return list(by_name.values())
 
     def values(self, quantities: Sequence[Quantity]) -> np.ndarray:
         """Return quantities at the optimum; for a series, its largest value."""
@@ -172,9 +176,13 @@ class OptimumSlopes:
         size, scale = parameter.size, self._unknowns.scale
         moved = np.zeros(self._at.size)
         moves: Parameter | None = parameter
-        if parameter.place[0] == "bounds" and parameter.place[1] in self.problem.free:
-            index = self._unknowns.names.index(str(parameter.place[1]))
-            moved[index], moves = size / scale[index], None
+        if parameter.place[0] == "bounds" and parameter.place[1] in self._unknowns.names:
+            name, side = parameter.place[1:]
+            index = self._unknowns.names.index(str(name))
+            if not self._free[index] and side == int(not self._at_lower[index]):
+                moved[index] = size / scale[index]  # the other side's bound changes nothing
+            if name in self.problem.free:
+                moves = None
         residual = self._along(lambda programme, x: self._conditions(programme, x)[0], moved, moves)
         gained = self._along(lambda programme, x: np.array([programme.objective(x)]), moved, moves)[0]
         objective = (gained - self._multipliers @ residual) * self.problem.minimise.scale

@@ -11,7 +11,7 @@ from jax.core import Tracer
 
 from wingbeat._base import Fault, FaultList, InvalidInputError, suggest
 from wingbeat._jax.arrays import jax, jnp
-from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
+from wingbeat.orbits.options import DEFAULTS, SolverOptions, check_certified
 from wingbeat.orbits.problem.parameters import SIDES, Parameter, bound_of, limit_of, parameters_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import named_quantity
@@ -97,11 +97,17 @@ class DifferentiableOptimum:
         self._function = optimum
 
     def __call__(self, values: Any) -> Any:
-        """Return the quantities of the optimum at other values of the parameters.
+        """Return the quantities at other values of the parameters: a number, or of a list an array, shape (Q,).
 
         Parameters
         ----------
         values : of the parameters, SI and radians, shape (P,).
+
+        Raises
+        ------
+        InvalidInputError : another shape, values that the problem refuses, or no certified orbit with derivatives
+            next to the given one. Within `jax.jit` and other transformations, JAX raises the last two as its own
+            ``JaxRuntimeError`` with the same text.
         """
         if jnp.shape(values) != self.at.shape:
             rule = f"must have the shape {self.at.shape}: {', '.join(self.parameters)}"
@@ -149,8 +155,8 @@ def differentiable_optimum(
     ----------
     orbit : a certified orbit.
     parameters : names of the numbers, as in ``--set``: ``wing.mass``, ``speed``, ``air.density``,
-        ``bounds.flap_amplitude.upper``, ``limit.peak_power``; the function takes them in SI units and radians,
-        shape (P,).
+        ``bounds.flap_amplitude.upper``, ``limit.peak_power`` (``limit.peak_power.upper`` if it is limited on both
+        sides); the function takes them in SI units and radians, shape (P,).
     quantities : ``objective``, an unknown such as ``flap_amplitude`` or ``body_pitch``, or a quantity; for one
         name the function returns a number, for a list an array, shape (Q,).
     options : of the solvers.
@@ -170,8 +176,7 @@ def differentiable_optimum(
     paths = [parameters] if isinstance(parameters, str) else list(parameters)
     if not paths:
         faults.add("parameters", paths, "is empty", "name at least one, such as 'wing.mass'")
-    if orbit.status is not Status.CONVERGED:
-        faults.add("orbit", orbit.status.value, "is not certified, so it has no derivatives", orbit.message)
+    check_certified(faults, orbit.status, orbit.message, "derivatives")
     faults.raise_if_any()
     problem = orbit.problem
     known = {one.path: one for one in parameters_of(problem)}

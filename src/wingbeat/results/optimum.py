@@ -17,12 +17,14 @@ if TYPE_CHECKING:
 class Trace(Reported):
     """The steps of the searches that led to an orbit; `Orbit.trace` returns it.
 
-    Each row has ``search`` (number of the start, from 0), ``stage``, ``iteration``, ``objective`` (in the
-    objective's unit), ``residual`` and ``step``. The stages are ``restoration`` (a start is brought close to
-    closure), ``search`` (SLSQP), ``correction`` (SLSQP where Newton's method fails) and ``certificate`` (flights
-    of the certifier). The residual is the largest violation of closure and limits, and the step the largest change
-    of an unknown; both are in the optimiser's scale, in which 1 is 0.1 m or rad, 1 m/s or 10 rad/s of a residual.
-    Searches of easier problems, whose ends serve as starts, are left out.
+    Each row has ``search``, ``stage``, ``iteration``, ``objective`` (in the objective's unit), ``residual`` and
+    ``step``. Searches are numbered from 0 as they were made: from the starts, from the ends of searches of easier
+    problems (these are left out themselves), and from further starts if none led to an orbit. The stages are
+    ``restoration`` (a start is brought close to closure), ``search`` (SLSQP), ``correction`` (SLSQP where Newton's
+    method fails) and ``certificate`` (flights of the certifier), whose search is the one that led to the orbit. The
+    residual is the largest violation of closure and limits, at the certificate of closure alone; the step is the
+    largest change of an unknown. Both are in the optimiser's scale, in which 1 is 0.1 m or rad, 1 m/s or 10 rad/s
+    of a residual.
 
     Attributes
     ----------
@@ -99,7 +101,7 @@ class Multipliers(Reported):
     closure : by the state that misses: x, z, body_pitch, u, w, pitch_rate.
     bounds : by name, such as ``flap_amplitude.upper``; ``body_pitch`` and ``flap`` are bounded along the whole
         path.
-    limits : by the limited quantity.
+    limits : by the limited quantity, with ``.lower`` or ``.upper`` if it is limited on both sides.
     units : of each, by ``closure.x``, ``bounds.flap_amplitude.upper`` or ``limit.peak_power``.
     unique : whether no other multipliers belong to this optimum; if not, these are the smallest.
 

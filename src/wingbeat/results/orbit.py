@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base import Fault, InvalidInputError, Report, Reported
+from wingbeat._base import Fault, FaultList, InvalidInputError, Report, Reported
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.experiment.film_fit import FilmedBeat
 from wingbeat.mechanics.flight_model import State
@@ -20,7 +20,7 @@ from wingbeat.orbits.batch import find_orbits, find_series
 from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.flight.certificate import SAMPLES, certify, floquet_multipliers
 from wingbeat.orbits.flight.time_series import flown_beat
-from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
+from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status, check_certified
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, Settings, check_search, find_orbit
@@ -118,8 +118,7 @@ class Orbit(Saveable, Reported):
         record: dict[str, Any] | None = None,
         series: xr.Dataset | None = None,
     ) -> None:
-        # Record and series that are not given are computed on demand: the record from the solution, the series from
-        # it or from another flight.
+        # What is not given is computed on demand: the record from the solution, the series from it or a flight.
         self._summary = summary
         self._inputs = inputs
         self._problem = problem
@@ -236,14 +235,17 @@ class Orbit(Saveable, Reported):
     def multipliers(self) -> Multipliers:
         """Lagrange, not Floquet, multipliers of closure, active bounds and limits, as `Multipliers` says.
 
+        They are computed with the options that the orbit was solved with; of a loaded orbit, with the defaults.
+
         Raises
         ------
         InvalidInputError : an orbit that is not certified, or an optimum that is not isolated.
         """
-        if self.status is not Status.CONVERGED:
-            rule, fix = "is not certified, so it has no multipliers", self.message
-            raise InvalidInputError([Fault("orbit", self.status.value, rule, fix)])
-        slopes = OptimumSlopes(self.problem, self.unknowns)
+        faults = FaultList()
+        check_certified(faults, self.status, self.message, "multipliers")
+        faults.raise_if_any()
+        options = DEFAULTS if self._solution is None else self._solution.options
+        slopes = OptimumSlopes(self.problem, self.unknowns, options)
         return Multipliers(slopes.multipliers(), unique=slopes.has_unique_multipliers)
 
     @property
@@ -374,11 +376,8 @@ def solve_orbit(
     >>> orbit.status.value, max(abs(miss) for miss in orbit.record()["closure"].values()) < 1e-6
     ('converged', True)
     """
-    own = None
-    if isinstance(start, Orbit):
-        own = own_start(problem, (start.wingbeat, start.initial_state), "orbit")
-    elif start is not None:
-        own = own_start(problem, start)
+    given, kind = ((start.wingbeat, start.initial_state), "orbit") if isinstance(start, Orbit) else (start, "")
+    own = None if start is None else own_start(problem, given, kind, options)
     starts = 1 if starts is None and own is not None else start_count(problem, starts, options.search)
     check_search(starts, seed)
     with ThreadPoolExecutor(1) as pool:

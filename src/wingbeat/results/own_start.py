@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import Any
 
@@ -12,8 +11,9 @@ from wingbeat._base import NOMENCLATURE, FaultList, for_people, suggest
 from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, Wingbeat, in_use, parameter
 from wingbeat.experiment.body_path import fit_body_path
 from wingbeat.experiment.film_fit import FilmedBeat
-from wingbeat.mechanics.flight_model import State
+from wingbeat.mechanics.flights import state_of
 from wingbeat.orbits.flight.period import PITCH_STATE
+from wingbeat.orbits.options import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.filmed import filmed_species
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.starts import OwnStart, structured_starts
@@ -23,13 +23,13 @@ _ALIKE = 1e-3
 _START_FIX = "give an orbit, a wingbeat, (wingbeat, state), a film's fit, or numbers such as {'frequency': 8.0}"
 
 
-def own_start(problem: OrbitProblem, given: Any, kind: str = "") -> OwnStart:
+def own_start(problem: OrbitProblem, given: Any, kind: str = "", options: SolverOptions = DEFAULTS) -> OwnStart:
     """Return the unknowns of a problem in a wingbeat, a wingbeat and state, a film's fit, or a table of numbers.
 
     What `given` lacks is taken from the first usual start; what the problem holds fixed stays as it is. Each of
     these is a note. `InvalidInputError` if it is none of these, or holds names or numbers that cannot be used.
     """
-    unknowns, usual = problem.unknowns(), structured_starts(problem)[0]
+    unknowns, usual = problem.unknowns(), structured_starts(problem, options.search)[0]
     faults, stock, notes = FaultList(), problem.species.wingbeat, []
     values: dict[str, float] = {}
     wingbeat, state = given if isinstance(given, tuple | list) and len(given) == 2 else (given, None)
@@ -39,7 +39,9 @@ def own_start(problem: OrbitProblem, given: Any, kind: str = "") -> OwnStart:
         notes += beat.warnings
         if unseen := [name for name in problem.free if name not in beat.held]:
             notes.append(f"not filmed, so the species' own: {', '.join(unseen)}")
-        if beat.film.shows_body:
+        if state is not None:
+            notes.append("the state is the one given with the film")
+        elif beat.film.shows_body:
             usually = {"body_x_m": ("u", problem.speed), "body_z_m": ("w", problem.climb)}
             usually["body_pitch_deg"] = ("body_pitch", float(usual[0]))
             lacking = {name: own for column, (name, own) in usually.items() if column not in beat.film.columns}
@@ -60,10 +62,7 @@ def own_start(problem: OrbitProblem, given: Any, kind: str = "") -> OwnStart:
             more = f" and {len(pairs) - 4} more" if len(pairs) > 4 else ""
             notes.append(f"not free, so the problem's own value holds: {said}{more}")
         if state is not None:
-            if np.shape(state) != (6,):
-                faults.add("start", state, "is no state", f"give State({', '.join(State._fields)})")
-            else:
-                values |= dict(zip(PITCH_STATE, map(float, state[2:]), strict=True))
+            values |= dict(zip(PITCH_STATE, map(float, state_of(state)[2:]), strict=True))
     elif isinstance(given, Mapping):
         kind = kind or "numbers"
         for name, value in given.items():
@@ -76,11 +75,6 @@ def own_start(problem: OrbitProblem, given: Any, kind: str = "") -> OwnStart:
                 values[name] = float(value)
     else:
         faults.add("start", type(given).__name__, "is nothing that a search can start from", _START_FIX)
-    for name, value in values.items():
-        if not math.isfinite(value):
-            faults.add(
-                f"start.{name}", value, "must be finite", "the flight of this start ran off; give another one"
-            )
     faults.raise_if_any()
     if added := [name for name in unknowns.names if name not in values]:
         notes.append(f"not given, so taken from the first usual start: {', '.join(added)}")

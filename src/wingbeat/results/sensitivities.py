@@ -21,7 +21,7 @@ from wingbeat._base import (
     written,
 )
 from wingbeat.aero.model_file import Fitted
-from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
+from wingbeat.orbits.options import DEFAULTS, SolverOptions, check_certified
 from wingbeat.orbits.problem.parameters import CURVES, Parameter, parameters_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import named_quantity
@@ -228,9 +228,9 @@ def sensitivities(
     >>> [price.parameter.path for price in found.prices]
     ['bounds.flap_amplitude.upper']
     """
-    if orbit.status is not Status.CONVERGED:
-        rule, fix = "is not certified, so it has no sensitivities", orbit.message
-        raise InvalidInputError([Fault("orbit", orbit.status.value, rule, fix)])
+    faults = FaultList()
+    check_certified(faults, orbit.status, orbit.message, "sensitivities")
+    faults.raise_if_any()
     known = [named_quantity(q) if isinstance(q, str) else q for q in quantities]
     problem = orbit.problem
     optimum = OptimumSlopes(problem, orbit.unknowns, options)

@@ -12,9 +12,10 @@ import numpy as np
 from wingbeat._base import FaultList
 from wingbeat.aero.winds import CosineGust, Wind
 from wingbeat.orbits.flight.period import PITCH_STATE
+from wingbeat.orbits.options import check_certified
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.stability.beat_feedback import Feedback, feedback
-from wingbeat.stability.options import FEEDBACK, MANY, ManyOptions, check_certified
+from wingbeat.stability.options import FEEDBACK, MANY, ManyOptions
 from wingbeat.stability.reports import beats_of
 from wingbeat.viewer.scene import Push
 

@@ -21,11 +21,12 @@ from wingbeat.animal.kinematics import Wingbeat, flap_angle
 from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
 from wingbeat.orbits.flight.certificate import StrokeMap, stroke_map
 from wingbeat.orbits.flight.period import PITCH_STATE
+from wingbeat.orbits.options import check_certified
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.plots.draw_stability import stability_page
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.stability.inputs import Compensation, compensation, smooth_ones
-from wingbeat.stability.options import FLIGHT_STATE, LINEAR, LinearOptions, check_certified, check_inputs
+from wingbeat.stability.options import FLIGHT_STATE, LINEAR, LinearOptions, check_inputs
 from wingbeat.stability.reports import linear_report, mode_report
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from wingbeat._base import FaultList, Report, Reported, __version__
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat, parameter
 from wingbeat.mechanics.flight_model import State
-from wingbeat.orbits.options import Status
+from wingbeat.orbits.options import Status, check_certified
 from wingbeat.orbits.problem.problem import SPEED_LIMITS
 from wingbeat.plots.draw_stability import manoeuvre_page
 from wingbeat.records.tables import finite_or_none
@@ -31,7 +31,7 @@ from wingbeat.stability.manoeuvre_search import (
     steady_start,
     transition,
 )
-from wingbeat.stability.options import ALLOWED, MANOEUVRE, ManoeuvreOptions, check_certified, check_delay
+from wingbeat.stability.options import ALLOWED, MANOEUVRE, ManoeuvreOptions, check_delay
 from wingbeat.stability.reports import manoeuvre_report
 from wingbeat.stability.riccati import gains_along
 

@@ -20,10 +20,11 @@ from wingbeat.aero.winds import CosineGust, Wind
 from wingbeat.animal.kinematics import Wingbeat, unpack
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.mechanics.flights import air_at, check_wind, fly_beat_in_steps, fly_through
+from wingbeat.orbits.options import check_certified
 from wingbeat.plots.draw_stability import survey_page
 from wingbeat.stability.beat_feedback import Feedback, feedback
 from wingbeat.stability.inputs import Compensation, Smoother, parameters_of, smoother
-from wingbeat.stability.options import FLIGHT_STATE, MANY, MOST_DELAY, ManyOptions, check_certified, noise_of
+from wingbeat.stability.options import FLIGHT_STATE, MANY, MOST_DELAY, ManyOptions, noise_of
 from wingbeat.stability.reports import survey_report
 from wingbeat.stability.segment_feedback import SegmentFeedback, bump_parameters
 

@@ -13,7 +13,6 @@ from wingbeat._base import SHARES, FaultList, InvalidInputError, suggest
 from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.orbits.flight.period import PITCH_STATE
-from wingbeat.orbits.options import Status
 from wingbeat.orbits.search_options import Options
 
 FLIGHT_STATE = ("z", *PITCH_STATE)  # what a flight returns to after a beat, and feedback measures: all but x
@@ -231,12 +230,6 @@ def check_inputs(faults: FaultList, inputs: Any, vehicle: Vehicle | None = None)
     if vehicle is not None and vehicle.tail is None and "tail_tilt" in inputs:
         rule = "changes nothing, because there is no tail"
         faults.add("inputs", "tail_tilt", rule, "leave it out, or give a tail")
-
-
-def check_certified(faults: FaultList, status: Status, fix: str) -> None:
-    """Note an orbit that is not certified."""
-    if status is not Status.CONVERGED:
-        faults.add("orbit", status.value, "is not certified", fix)
 
 
 def check_delay(faults: FaultList, delay: int) -> None:

@@ -18,7 +18,8 @@ from wingbeat.animal.kinematics import Wingbeat, parameter, stroke_phase, with_p
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import air_at, air_phases, check_wind, fly_through
 from wingbeat.orbits.flight.period import flier
-from wingbeat.stability.options import FEEDBACK, FLIGHT_STATE, FeedbackOptions, check_certified
+from wingbeat.orbits.options import check_certified
+from wingbeat.stability.options import FEEDBACK, FLIGHT_STATE, FeedbackOptions
 from wingbeat.stability.riccati import multipliers_over, periodic_linear_quadratic
 
 if TYPE_CHECKING:

@@ -272,8 +272,8 @@ def _parameter(problem: OrbitProblem, path: str) -> Parameter | None:
         name, _, side = rest.rpartition(".")
         return bound_of(problem, name, side) if name in problem.bounds and side in ("lower", "upper") else None
     if kind == "limit":
-        places = [i for i, limit in enumerate(problem.subject_to) if limit.quantity.name == rest]
-        return limit_of(problem, places[0]) if places else None
+        limits = [limit_of(problem, i) for i in range(len(problem.subject_to))]
+        return next((limit for limit in limits if limit.path == path), None)
     return next((p for p in parameters_of(problem) if p.path == path), None)
 
 

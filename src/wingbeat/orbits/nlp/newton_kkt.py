@@ -175,7 +175,10 @@ class NullSpace:
 
 @dataclass(frozen=True)
 class Corrected:
-    """A candidate, corrected so that it closes in the certifier's flight if possible, and its certificate."""
+    """A candidate, corrected so that it closes in the certifier's flight if possible, and its certificate.
+
+    `origin` is where the search ended that led here, if `first_certified` returned it.
+    """
 
     scaled: np.ndarray
     wingbeat: Wingbeat
@@ -183,6 +186,7 @@ class Corrected:
     residual: np.ndarray
     programme: Transcription
     reduced_hessian: ReducedHessian | None = None
+    origin: Candidate | None = None
 
     @functools.cached_property
     def optimality(self) -> float:
@@ -260,7 +264,7 @@ def first_certified(programme: Transcription, found: list[Candidate]) -> Correct
         corrected = correct(candidate.programme, candidate.scaled)
         programme.certifying.extend(corrected.programme.certifying)
         if corrected.is_orbit():
-            return corrected
+            return dataclasses.replace(corrected, origin=candidate)
     return None
 
 

@@ -150,9 +150,14 @@ def bound_of(problem: OrbitProblem, name: str, side: str) -> Parameter:
 
 
 def limit_of(problem: OrbitProblem, index: int) -> Parameter:
-    """Return the limit of a constraint as a parameter, such as ``limit.peak_power``."""
+    """Return the limit of a constraint as a parameter, such as ``limit.peak_power``.
+
+    If the quantity is limited on both sides, the name ends in the side: ``limit.peak_power.upper``.
+    """
     constraint = problem.subject_to[index]
     quantity = constraint.quantity
+    both = sum(one.quantity.name == quantity.name for one in problem.subject_to) > 1
+    path = f"limit.{quantity.name}" + (f".{SIDES[int(constraint.at_most)]}" if both else "")
     size = abs(constraint.limit) or quantity.scale
     place = ("subject_to", index, "limit")
-    return Parameter(f"limit.{quantity.name}", quantity.unit, constraint.limit, size, place)
+    return Parameter(path, quantity.unit, constraint.limit, size, place)

@@ -148,12 +148,13 @@ def test_a_state_given_with_a_film_is_kept(problem, orbit):
     assert "the state is the one given with the film" in start.notes
 
 
-def test_multipliers_and_starts_are_by_the_orbits_own_options(problem, monkeypatch):
+def test_multipliers_and_starts_are_by_the_orbits_own_options(problem, orbit, monkeypatch):
     """They were by the default options, which the caller had replaced."""
     families = (DEFAULTS.search.start_families[0]._replace(frequency=0.9),)
     options = dataclasses.replace(DEFAULTS, search=dataclasses.replace(DEFAULTS.search, start_families=families))
-    found = wb.solve_orbit(problem, start={"flap_mean": 0.0}, options=options)
-    assert found.record()["start"]["values"]["frequency"] == pytest.approx(0.9 * 6.0)
+    begun = wb.solve_orbit(problem, start={"flap_mean": 0.0}, options=options).record()["start"]
+    assert begun["values"]["frequency"] == pytest.approx(0.9 * 6.0)
+    found = wb.solve_orbit(problem, start=orbit, options=options)
     used, slopes = [], OptimumSlopes(problem, found.unknowns)
     monkeypatch.setattr("wingbeat.results.orbit.OptimumSlopes", lambda *given: used.append(given) or slopes)
     assert found.multipliers.bounds

@@ -76,7 +76,7 @@ def load_coefficients(
     Parameters
     ----------
     name_or_path : "su-fan", "dickinson", ... or the path of a table (.csv), of a polar that another program wrote
-        (.pol, .dat, ...), or of a fitted model (.toml).
+        (.pol, .dat, ...), or of a fitted model (.toml); or a list of paths of polars at several Reynolds numbers.
     extension : how the coefficients are extended to all angles, one of `EXTENSIONS`; of a table also "viterna".
     blend_width_deg : half width of the blends where pieces meet [deg], in (0, 3].
 

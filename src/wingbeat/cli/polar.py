@@ -34,8 +34,8 @@ def polar(
     model: Annotated[
         list[str],
         option(
-            "Name of a model, or path of a table (.csv), a polar (.pol, .dat, ...) or a fit (.toml); several polars "
-            "at different Reynolds numbers are one model that depends on Re."
+            "Name of a model, or path of a table (.csv), a polar (.pol, .dat, ...) or a fit (.toml); several "
+            "polars at different Reynolds numbers are one model that depends on Re."
         ),
     ],
     *,

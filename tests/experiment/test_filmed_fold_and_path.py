@@ -1,12 +1,15 @@
 """What is flown of tracked points besides angles: the fold with its wrist, and a body that changes speed."""
 
 import math
+import re
+import subprocess
+import sys
 
 import numpy as np
 import pytest
 
 import wingbeat as wb
-from tests.experiment.points_truth import a_beat, points_of, tracked
+from tests.experiment.points_truth import a_beat, csv_of, points_of, tracked
 from wingbeat.animal.kinematics import recovery
 from wingbeat.experiment import Film, TrackedPoints, angles_from_points, fit_body_path, fit_film, read_film
 
@@ -71,3 +74,34 @@ def test_a_body_that_slows_down_is_said_and_its_deceleration_is_part_of_the_miss
     spread = np.std([one.velocity[0] for one in path.draws(40)])
     # The error of a slope through 240 places, about.
     assert spread == pytest.approx(1e-3 * math.sqrt(12 / 240) / 0.48, rel=0.6)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("model", ["paper", "animal"])
+def test_three_commands_say_whether_a_flight_is_trimmed_what_force_is_missing_and_what_power(model, tmp_path):
+    # DLTdv's file of a pigeon-sized bird at 500 frames a second, three beats, in the axes of a camera (y down).
+    beat = a_beat(3) | {"frequency": 6.5, "climb": 1.0, "flap_mean": 8.0, "flap_amplitude": 42.0, "speed": 40.0}
+    beat |= {"pitch_mean": 6.0, "pitch_amplitude": 16.0, "retraction": 0.3, "stroke_plane": 86.0}
+    at = points_of(beat, np.arange(240) / 500, semi_span=0.28)
+    camera = np.array([[0.8, 0.0, 0.6], [-0.6, 0.0, 0.8], [0.0, -1.0, 0.0]])
+    seen = tracked({role: one @ camera for role, one in at.items()}, noise=0.0015, gaps=0.06)
+    table = csv_of(seen, ["pt1", "pt2", "pt3", "pt4"]).replace("_x", "_X").replace("_y", "_Y").replace("_z", "_Z")
+    (tmp_path / "day_xyzpts.csv").write_text(table)
+
+    def said(*words):
+        run = [sys.executable, "-m", "wingbeat", *words]
+        done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, check=False)
+        assert done.returncode in (0, 3), done.stderr
+        return done.stdout
+
+    points = ["--points", "shoulder,wrist,tip,trailing", "--frame-rate", "500", "--side", "left", "--up=-y"]
+    first = said("film", "day_xyzpts.csv", *points, "-o", "film.csv")
+    assert "wingbeat simulate SPECIES --kinematics film.csv" in first
+    second = said("simulate", "pigeon", "--kinematics", "film.csv", "--model", model)
+    assert re.match(r"trimmed: (no, on average the model gives .* \+- .* of the weight too|yes)", second)
+    for name in ("missing force forward: mean", "missing force up: mean", "mean power of the hinges:"):
+        assert re.search(rf"{name} -?[\d.]+ \+- [\d.]+", second), name
+    assert "mean forward velocity: 11.2" in second
+    (last,) = re.findall(r"next, .*: wingbeat (orbit .*)", second)
+    third = said(*last.split())
+    assert re.search(r"hinges, mean: [\d.]+ \+- [\d.]+ W", third) or "nothing certified" in third

@@ -14,6 +14,7 @@ from wingbeat._base import FaultList, written
 from wingbeat.cli.arguments import check_files, check_outputs, figure, flag, option, written_to
 from wingbeat.cli.terminal import answer
 from wingbeat.experiment.point_angles import angles_from_points
+from wingbeat.experiment.point_strips import save_strips
 from wingbeat.plots import points_page
 
 
@@ -39,6 +40,10 @@ def film(
     semi_span: Annotated[
         float | None, option("Shoulder to tip of the spread wing [m]; default: the beat's largest.")
     ] = None,
+    strips: Annotated[
+        Path | None, option("Write a case (.toml) for validate: strips of the mean beat. Needs --mass.")
+    ] = None,
+    mass: Annotated[float | None, option("With --strips: mass of the animal [kg].")] = None,
     plot: Annotated[Path | None, figure("Draw points, wing and angles")] = None,
     json: Annotated[bool, flag("Print one JSON object and nothing else.")] = False,
 ) -> None:
@@ -58,9 +63,14 @@ def film(
     with suppress(ValueError):  # a NUL in a path; it is refused later, when the file is opened
         if output is not None and os.path.realpath(output) == os.path.realpath(file):
             faults.add("--output", str(output), "is the file of the points", "choose another name")
+    if strips is not None and strips.suffix.lower() != ".toml":
+        faults.add("--strips", str(strips), "is not a case", "end it in .toml")
+    if (strips is None) != (mass is None):
+        rule = "is missing: the wings hold up the weight" if mass is None else "has no effect without --strips"
+        faults.add("--mass", mass, rule, "give --strips and --mass together")
     check_files(faults, output, plot=plot)
     faults.raise_if_any()
-    check_outputs(output, plot)
+    check_outputs(output, plot, strips)
     found = angles_from_points(
         file,
         points,
@@ -71,6 +81,7 @@ def film(
         units=units,
         semi_span=semi_span,
     )
+    assumed: list[str] = []
     with answer() as given:
         told = found.record()
         given.tell(told, functools.partial(print, "\n".join(_lines(told))), json)
@@ -78,7 +89,15 @@ def film(
             kind = "warning" if note in found.warnings else "note"
             print(f"{kind}: {note}", file=sys.stderr)
         given.save(output, found.save, named=True)
+        if strips is not None and mass is not None:
+            case, weighs = strips, mass
+            given.save(case, lambda path: assumed.extend(save_strips(found, path, weighs)), named=True)
+            for one in assumed:
+                print(f"note: {case.name}: {one}", file=sys.stderr)
         given.draw(plot, lambda: points_page(found), named=True)
+        if output is not None and not json:
+            last = f"wingbeat simulate SPECIES --kinematics {output}"
+            given.show(lambda: print(f"next, is it trimmed, and which force is missing: {last} --model animal"))
 
 
 def _lines(told: Mapping[str, Any]) -> list[str]:

@@ -261,7 +261,7 @@ def table_numbers(file: str, table: Table) -> Array:
             if not abs(found[i, k]) < _LARGEST:
                 where = f"{file} row {row}, column {'_'.join(filter(None, table.labels[k]))}"
                 faults.add(where, cell, "is not a coordinate", "write one number, or leave the cell empty")
-    clock = [k for k, (name, _) in enumerate(table.labels) if not name]
+    clock = [k for k, (name, part) in enumerate(table.labels) if part and not name]  # not pandas' unnamed index
     for k in clock:
         if not faults.faults and not np.isfinite(found[:, k]).all():
             row = table.rows[int(np.argmin(np.isfinite(found[:, k])))][0]

@@ -68,7 +68,7 @@ def test_what_is_not_measured_is_refused(tmp_path):
     at.pop("trailing")
     with pytest.raises(wb.InvalidInputError, match="name a trailing point"):
         save_strips(found_in(at), tmp_path / "case.toml", 0.3)
-    still = {role: one - points()["shoulder"] for role, one in points().items()}
+    still = {role: one - points()["shoulder"] + 1.0 for role, one in points().items()}
     with pytest.raises(wb.InvalidInputError, match="need the path of the body"):
         save_strips(
             angles_from_points(

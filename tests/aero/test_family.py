@@ -258,7 +258,7 @@ def test_an_orbit_with_a_family_is_certified_and_flies_again_from_its_file(tmp_p
     assert record["status"] == "converged"
     assert max(abs(miss) for miss in record["closure"].values()) < 1e-7
     assert record["aero"]["reynolds_of_polars"] == [5e4, 1e5, 2e5]
-    assert "xfoil_naca4412 (3 polars, Re 50000 to 200000)" in orbit.summary()
+    assert "xfoil_naca4412 (3 polars, Re 50000 to 200000)" in " ".join(orbit.summary().split())
     (outside,) = [w for w in record["warnings"] if w.startswith("Reynolds number")]
     assert outside.endswith("there the nearest polar holds")
     orbit.save(tmp_path / "orbit.nc")

@@ -12,7 +12,7 @@ from typing import Annotated, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base import FaultList, InvalidInputError
+from wingbeat._base import FaultList, InvalidInputError, write_atomically
 from wingbeat._base.style import BLUE, ORANGE, PAGE, drawing, legend_below, new_figure
 from wingbeat.aero import (
     CoefficientModel,
@@ -22,27 +22,38 @@ from wingbeat.aero import (
     thin_aerofoil_moment,
 )
 from wingbeat.aero.family import AtOneReynolds
+from wingbeat.aero.neural_sections import GOOD_CONFIDENCE, LEAST_CONFIDENCE, section_polars, sections_csv
 from wingbeat.cli.arguments import check_outputs, flag, option, parse_range, several, written_to
 from wingbeat.cli.problem_options import say_notes
 from wingbeat.cli.terminal import answer
 from wingbeat.plots import check_figure_name
 
+# A polar of fewer rows is no curve.
+_LEAST_ROWS = 8
 Columns = dict[str, list[Any]]
 
 
 def polar(
     model: Annotated[
-        list[str],
+        list[str] | None,
         option(
             "Name of a model, or path of a table (.csv), a polar (.pol, .dat, ...) or a fit (.toml); several "
             "polars at different Reynolds numbers are one model that depends on Re."
         ),
-    ],
+    ] = None,
     *,
+    section: Annotated[
+        str | None,
+        option(
+            "Compute the polars of a section at the Reynolds numbers of --re by NeuralFoil: NACA digits "
+            "(naca0012), a file of coordinates (.dat), or plate0.04 for a plate 4 per cent thick. -o family.csv "
+            "saves them."
+        ),
+    ] = None,
     alpha: Annotated[str, option("Angles of attack [deg], start:stop:step, or one angle.")] = "-30:110:2",
     re: Annotated[
         list[float] | None,
-        several("Chord Reynolds numbers at which to show a model that depends on Re; default those of its polars."),
+        several("Chord Reynolds numbers of --section, or at which to show a model that depends on Re."),
     ] = None,
     about: Annotated[float, option("Axis of C_M, in chords from the leading edge.")] = 0.5,
     extension: Annotated[
@@ -68,11 +79,21 @@ def polar(
     feathered-revolving, feathered-flapping, membrane; --extension has no effect on these. A table has the columns
     alpha_deg, C_L, C_D and, if known, x_cp and reynolds, as `polar --csv` and `reduce` write them; usual other
     spellings are read too, and polars of XFOIL, XFLR5, AeroDyn, QBlade and others. A fitted model is what
-    `wingbeat fit` wrote.
+    `wingbeat fit` wrote. --section computes the polars of a section (extra neuralfoil).
+
+    Example: wingbeat polar --section naca0012 --re 2e4 5e4 1e5 -o family.csv; then
+    wingbeat orbit pigeon --speed 10 --aero family.csv --extension viterna
     """
     faults = FaultList()
     if csv and json:
         faults.add("--csv", "--json", "two formats at once", "choose --csv or --json")
+    if (section is None) == (not model):
+        rule = "is given twice: model and --section" if section else "is not named"
+        faults.add("MODEL", section or "", rule, "name a model such as su-fan, or --section naca0012 --re 5e4")
+        faults.raise_if_any()
+    if section is not None:
+        return _of_section(faults, section, re or [], csv, json, output)
+    assert model is not None
     if output is not None:
         check_figure_name(faults, "--output", output)
     faults.number("--about", about, fix="0 is the leading edge, 1 the trailing edge")
@@ -104,6 +125,60 @@ def polar(
             tables = list(zip(shown, columns, strict=True))
             given.show(lambda: [_print_table(one, its, about) for one, its in tables])
         given.draw(output, lambda: _figure(shown, angles, about), named=True)
+
+
+def _of_section(
+    faults: FaultList, section: str, reynolds: list[float], csv: bool, json: bool, output: Path | None
+) -> None:
+    """Compute a section's polars by NeuralFoil; print them with its confidence, and save those that can be used."""
+    if output is not None and output.suffix.lower() != ".csv":
+        fix = f"write {output.with_suffix('.csv').name}; then wingbeat polar draws it"
+        faults.add("--output", str(output), "is not the name of a table", fix)
+    title, polars = _collected(faults, lambda: section_polars(section, reynolds)) or ("", [])
+    faults.raise_if_any()
+    check_outputs(output)
+    for one in polars:
+        where, used = f"{title} at Re {one.reynolds:.0f}", one.confidence[one.kept]
+        if one.kept.sum() < _LEAST_ROWS:
+            worst = f"{int(one.kept.sum())} of {len(one.kept)} angles"
+            rule = f"has a confidence of {LEAST_CONFIDENCE:g} or more at {worst} only: NeuralFoil does not know it"
+            faults.add("--section", where, rule, "use XFOIL, measurements, or a section with a round nose")
+            continue
+        left = one.alpha_deg[~one.kept]
+        inside = left[(left > one.alpha_deg[one.kept].min()) & (left < one.alpha_deg[one.kept].max())]
+        told = f"left out below a confidence of {LEAST_CONFIDENCE:g}: beyond {one.alpha_deg[one.kept].min():g} to "
+        told += f"{one.alpha_deg[one.kept].max():g} degrees"
+        told += f", and at {', '.join(f'{angle:g}' for angle in inside)}" if len(inside) else ""
+        print(f"warning: {where}: {told}", file=sys.stderr)
+        if doubtful := int((used < GOOD_CONFIDENCE).sum()):
+            told = f"{doubtful} of {len(used)} rows have a confidence below {GOOD_CONFIDENCE:g}, the least "
+            told += f"{used.min():.2f}"
+            print(f"warning: {where}: {told}", file=sys.stderr)
+    faults.raise_if_any()
+    text = sections_csv(title, polars)
+    rows = list(csv_format.DictReader(text.splitlines()[2:]))
+    with answer() as given:
+        if json:
+            columns = {name: [float(row[name]) if row[name] else None for row in rows] for name in rows[0]}
+            given.show(lambda: print(json_format.dumps(columns)))
+        elif csv:
+            given.show(lambda: print(text, end=""))
+        elif output is None:
+            given.show(lambda: _print_rows(f"{title} by NeuralFoil; C_M about mid-chord, nose-up positive", rows))
+        given.save(output, lambda path: write_atomically(path, text), named=True)
+
+
+def _print_rows(title: str, rows: list[dict[str, str]]) -> None:
+    from rich.console import Console
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(title=Text(title), min_width=min(len(title), 78))
+    for heading in rows[0]:
+        table.add_column(Text(heading.removeprefix("analysis_")), justify="right")
+    for row in rows:
+        table.add_row(*row.values())
+    Console().print(table)
 
 
 def _joined(columns: list[Columns]) -> Columns:

@@ -2,7 +2,7 @@
 # One would guess: a file of coordinates as the airfoil sites offer it is read, or refused.
 # What happens: in Lednicer's order (a line with two counts, then both sides from the nose) the counts are taken for a
 # point. The drag coefficient of a NACA 4412 at 5 degrees becomes 1e104 without an error; the confidence is 0.
-# Where it bites: half of the files of those sites have that order; a loop over them is not looked at one by one.
+# Where it bites: airfoil sites hold files of both orders, and a loop over them is not looked at one by one.
 set -euo pipefail
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

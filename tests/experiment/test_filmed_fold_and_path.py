@@ -101,7 +101,10 @@ def test_three_commands_say_whether_a_flight_is_trimmed_what_force_is_missing_an
     assert re.match(r"trimmed: (no, on average the model gives .* \+- .* of the weight too|yes)", second)
     for name in ("missing force forward: mean", "missing force up: mean", "mean power of the hinges:"):
         assert re.search(rf"{name} -?[\d.]+ \+- [\d.]+", second), name
-    assert "mean forward velocity: 11.2" in second
+    (speed,) = re.findall(r"mean forward velocity: ([\d.]+) \+-", second)
+    assert float(speed) == pytest.approx(40 * 0.28 * math.cos(math.radians(1)), abs=0.01)
     (last,) = re.findall(r"next, .*: wingbeat (orbit .*)", second)
     third = said(*last.split())
-    assert re.search(r"hinges, mean: [\d.]+ \+- [\d.]+ W", third) or "nothing certified" in third
+    # With the paper's loads no trim holds this wingbeat in the air, and the answer says what is short.
+    power = r"hinges, mean: [\d.]+ \+- [\d.]+ W"
+    assert re.search({"animal": power, "paper": r"(?s)not certified.*short of drag by"}[model], third)

@@ -79,7 +79,7 @@ def save_strips(found: PointAngles, path: str | Path, mass: float) -> tuple[str,
         up = np.stack([-np.cos(tilt), zero, np.sin(tilt)], axis=1)
         sweep, pitch = angle("sweep_deg", phase), angle("pitch_deg", phase)
         twist = angle("tip_pitch_deg", phase) - pitch if "tip_pitch_deg" in laws else zero
-        length = found.semi_span * laws["span_fraction"].curve(phase + beat.shift)[0]
+        length: Array = found.semi_span * np.asarray(laws["span_fraction"].curve(phase + beat.shift)[0], np.float64)
 
         def line(flap: Array) -> tuple[Array, Array, Array]:
             e = np.cos(flap)[:, None] * left + np.sin(flap)[:, None] * up

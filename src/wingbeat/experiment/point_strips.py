@@ -86,7 +86,7 @@ def save_strips(found: PointAngles, path: str | Path, mass: float) -> tuple[str,
             e = np.cos(sweep)[:, None] * e + np.sin(sweep)[:, None] * ahead
             base = ahead - (ahead * e).sum(axis=1)[:, None] * e
             base = base / np.linalg.norm(base, axis=1)[:, None]
-            return e, base, np.cross(base, e)
+            return e, base, np.asarray(np.cross(base, e), dtype=np.float64)
 
         arm = line(angle("flap_deg", phase))
         hand = line(angle("flap_deg", phase) - angle("fold_deg", phase))

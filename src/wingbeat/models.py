@@ -17,16 +17,18 @@ import functools
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 from wingbeat._base import FaultList, in_words
 from wingbeat.aero import BladeElement, Feathered
 from wingbeat.animal.species.scaling import BODY_DRAG_AREA
-from wingbeat.animal.species.species import Species
-from wingbeat.orbits.problem.problem import Choice, OrbitProblem, Origin
+from wingbeat.animal.species.species import FREQUENCY, Species
+from wingbeat.orbits.problem.origin import Choice, Origin
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import named_objective
 
 MODELS = ("paper", "animal")
+Frequency = float | Literal["own", "free"]
 
 # Coefficients for each kind of wing, and what they are.
 _WINGS = {
@@ -53,6 +55,8 @@ class Model:
     name : ``"paper"`` or ``"animal"``.
     kind : kind of flyer that the model is for; empty if it is for any.
     aero : the air loads.
+    frequency : a frequency to fly at [Hz]; ``"own"`` for that of the animal (`Species.own_frequency`), ``"free"``
+        to search for it.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
@@ -63,6 +67,7 @@ class Model:
     name: str
     kind: str
     aero: BladeElement
+    frequency: Frequency = "free"
 
     def problem(self, species: Species, speed: float, climb: float = 0.0, **changes: Any) -> OrbitProblem:
         """Return the problem of a flight with this model.
@@ -82,7 +87,14 @@ class Model:
         asked = {"aero": self.aero, "minimise": self.objective(flown)} | changes
         if not isinstance(asked["aero"], BladeElement):
             asked["aero"] = dataclasses.replace(self.aero, coefficients=asked["aero"])
-        origin = Origin(self.name, tuple(self._choices(flown)), tuple(self._changed(flown, changes)))
+        own = self.frequency == "own" and not changes.get("free")
+        origin = Origin(self.name, tuple(self._choices(flown)), tuple(self._changed(flown, changes)), own)
+        if self.frequency not in ("own", "free") and "frequency" in flown.free:
+            flown = flown.with_values({FREQUENCY: self.frequency})
+            asked = {"free": tuple(name for name in flown.free if name != "frequency")} | asked
+        if own:
+            flown = flown.at_own_frequency(speed)
+            asked["free"] = tuple(name for name in flown.free if name != "frequency")
         return OrbitProblem(flown, speed, climb, origin=origin, **asked)
 
     @property
@@ -157,6 +169,8 @@ class Model:
             given = named_objective(value) if name == "minimise" and isinstance(value, str) else value
             if given and given != usual.get(name):
                 yield name
+        if self.frequency != _usual_frequency(self.name, self.kind) and not changes.get("free"):
+            yield "frequency"
 
     def _choices(self, flown: Species) -> list[Choice]:
         aero, objective = _air_loads(self.name, self.kind), in_words(self.objective(flown))
@@ -190,6 +204,9 @@ class Model:
                 if name == "tail_tilt":
                     limits = f"{math.degrees(low):.0f} to {math.degrees(high):.0f} degrees"
                 found.append(Choice(f"free: {name}", limits, reason))
+        if self.frequency == "own":
+            why = "measured, or by a law of its kind: no physics that was tried predicts it"
+            found.append(Choice("frequency", "the animal's own", why))
         return [*found, Choice("objective", objective, "what the beat costs")]
 
 
@@ -199,10 +216,10 @@ def paper() -> Model:
     >>> paper().aero.coefficients.name
     'su-fan'
     """
-    return Model("paper", "", _air_loads("paper", ""))
+    return _made("paper", "", None)
 
 
-def animal(species: Species) -> Model:
+def animal(species: Species, frequency: Frequency | None = None) -> Model:
     """Return the model that suits a live animal, or a robot, of the species' kind.
 
     The kind determines the coefficients of the wing. Air loads include rotation, added mass and induced flow. Body
@@ -213,26 +230,31 @@ def animal(species: Species) -> Model:
     Parameters
     ----------
     species : the animal or robot; only its kind matters.
+    frequency : a frequency to fly at [Hz]; ``"own"`` for that of the animal, which is the default of birds and
+        bats; ``"free"`` to search for it, the default of robots.
 
     Raises
     ------
-    InvalidInputError : a species whose kind is not known.
+    InvalidInputError : a species whose kind is not known; a frequency that is not positive.
 
     >>> import wingbeat as wb
+    >>> animal(wb.load_species("pigeon"), frequency="free").frequency
+    'free'
     >>> animal(wb.load_species("bat")).aero.coefficients.name
     'membrane'
     """
     _check_kind(species, species.kind)
-    return Model("animal", species.kind, _air_loads("animal", species.kind))
+    return _made("animal", species.kind, frequency)
 
 
-def model_of(name: str, species: Species) -> Model:
+def model_of(name: str, species: Species, frequency: Frequency | None = None) -> Model:
     """Return the model with a given name for a species.
 
     Parameters
     ----------
     name : one of `MODELS`.
     species : the animal or robot.
+    frequency : as in `animal`; ``paper`` searches for it by default.
 
     Raises
     ------
@@ -245,7 +267,24 @@ def model_of(name: str, species: Species) -> Model:
     faults = FaultList()
     faults.choice("model", name, MODELS)
     faults.raise_if_any()
-    return animal(species) if name == "animal" else paper()
+    if name == "animal":
+        return animal(species, frequency)
+    return _made("paper", "", frequency)
+
+
+def _made(name: str, kind: str, frequency: Frequency | None) -> Model:
+    """Return a model; without a frequency, birds and bats of the model `animal` fly at their own."""
+    usual = _usual_frequency(name, kind)
+    if frequency is not None and frequency not in ("own", "free"):
+        faults = FaultList()
+        faults.number("frequency", frequency, above=0, unit="Hz", fix="or 'own', or 'free' to search for it")
+        faults.raise_if_any()
+    return Model(name, kind, _air_loads(name, kind), usual if frequency is None else frequency)
+
+
+def _usual_frequency(name: str, kind: str) -> Frequency:
+    # No law of robots was found: their motors differ too much.
+    return "own" if name == "animal" and kind != "robot" else "free"
 
 
 @functools.cache  # the tables of its coefficients take 0.1 s

@@ -23,7 +23,7 @@ from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.reading import parse_setting
 from wingbeat.animal.species.species import Species
 from wingbeat.cli.arguments import Whole, flag, named_numbers, option, several
-from wingbeat.models import Model, model_of
+from wingbeat.models import Frequency, Model, model_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Constraint
 from wingbeat.orbits.problem.quantity import STABLE_RADIUS
@@ -67,6 +67,17 @@ class ModelOptions:
             "stated defaults are those of paper."
         ),
     ] = "paper"
+    frequency: Annotated[
+        float | None,
+        option(
+            "Frequency to fly at [Hz]. Default: paper searches for it; animal takes that of the bird or bat, "
+            "measured or by a law of its kind."
+        ),
+    ] = None
+    free: Annotated[
+        list[str] | None,
+        several("Parameters that are free in addition: frequency, twist_ratio, stroke_plane_tilt ..."),
+    ] = None
     aero: Annotated[
         list[str] | None,
         option(
@@ -139,15 +150,25 @@ class ModelOptions:
     def flown(self, name: str, settings: list[str] | None, payload: float = 0.0) -> tuple[Species, Model]:
         """Return (species, model), with the given air loads, the numbers of ``--set`` and a payload."""
         species = load_species(name)
-        model = model_of(self.model, species)
-        own = ("model", "altitude", "temperature")
+        model = model_of(self.model, species, self._frequency())
+        own = ("model", "altitude", "temperature", "frequency", "free")
         given = {name: value for name, value in vars(self).items() if name not in own and value is not None}
         if given:
             others = {name: value for name, value in given.items() if name not in _OF_COEFFICIENTS}
             loads = dataclasses.replace(model.aero, **self._coefficients(model.aero), **others)
             model = dataclasses.replace(model, aero=loads)
         above = (self.altitude, self.temperature)
-        return with_settings(model.species(species), settings, payload, *above), model
+        flown = with_settings(model.species(species), settings, payload, *above)
+        return flown.with_free([name for name in self.free or () if name != "frequency"]), model
+
+    def _frequency(self) -> Frequency | None:
+        """Return the frequency that ``--frequency`` and ``--free`` ask for, in the form of `model_of`."""
+        searched = "frequency" in (self.free or ())
+        if searched and self.frequency is not None:
+            faults = FaultList()
+            faults.add("--frequency", self.frequency, "is given, but --free frequency searches for it", "keep one")
+            faults.raise_if_any()
+        return "free" if searched else self.frequency
 
     def problem(
         self, name: str, speed: float, settings: list[str] | None, *, within_plausible: bool = False, **asked: Any

@@ -36,7 +36,7 @@ SPEED = Along(
     "speed",
     "m/s",
     lambda problem: problem.speed,
-    lambda problem, speed: dataclasses.replace(problem, speed=speed),
+    lambda problem, speed: problem.at_speed(speed),
     lambda options: (options.first_speed_step, options.least_speed_step),
 )
 # From 0 for none of the terms to 1 for all of each.

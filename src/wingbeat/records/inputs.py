@@ -29,12 +29,13 @@ from wingbeat.aero import (
 )
 from wingbeat.aero.blade_element import OF_ELEMENTS
 from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
-from wingbeat.animal.species.numbers import Range, number_from
+from wingbeat.animal.species.numbers import OwnFrequency, Range, number_from
 from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Air, Body, Motor, Muscle, Springs, Tail, Vehicle, Wing
 from wingbeat.orbits.options import DEFAULTS, SolverOptions
-from wingbeat.orbits.problem.problem import OrbitProblem, origin_from
+from wingbeat.orbits.problem.origin import origin_from
+from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Constraint, named_objective, named_quantity
 from wingbeat.orbits.problem.quantity import Quantity
 
@@ -208,6 +209,7 @@ def inputs_of(
             "warnings": species.warnings,
             "numbers": species.numbers,
             "plausible": species.plausible,
+            **({"frequencies": species.frequencies} if species.frequencies else {}),
             **shape,
         },
         "vehicle": vehicle_record(problem.vehicle),
@@ -295,7 +297,12 @@ def species_from(inputs: dict[str, Any]) -> Species:
         plausible=plausible,
         warnings=tuple(known["warnings"]),
         shape=shape,
+        frequencies=tuple(_own_frequency(*one) for one in known.get("frequencies", [])),
     )
+
+
+def _own_frequency(value: float, band: list[float], basis: str, source: str, speeds: list[float]) -> OwnFrequency:
+    return OwnFrequency(value, (band[0], band[1]), basis, source, (speeds[0], speeds[1]))
 
 
 def _pairs(bounds: dict[str, list[float]]) -> dict[str, tuple[float, float]]:

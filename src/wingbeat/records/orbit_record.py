@@ -45,6 +45,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "objective": problem.minimise.name,
         "objective_value": solution.objective,
         "constraints": {str(c): solution.value_of(c.quantity, beat) for c in problem.subject_to},
+        "frequency_basis": problem.frequency_basis,
         "wingbeat": wingbeat_record(wingbeat),
         "initial_state": dict(zip(State._fields, certificate.states[0].tolist(), strict=True)),
         "active_bounds": list(solution.active_bounds),

@@ -24,7 +24,7 @@ from wingbeat._base import (
     readable_limit,
 )
 from wingbeat.animal.vehicle import Air
-from wingbeat.orbits.problem.problem import loads_in_words, model_rows, place_in_words
+from wingbeat.orbits.problem.origin import loads_in_words, model_rows, place_in_words
 from wingbeat.orbits.problem.quantity import OF_MOTOR, OF_MUSCLE
 from wingbeat.records.judgements import SetBy, called, set_by_limit, statements
 
@@ -93,6 +93,19 @@ def limits_in_words(record: dict[str, Any]) -> str:
             follows.append(f"{called(name)} {_number(beat.get(name, record.get('objective_value')), unit, factor)}")
     then = f", and with {'it' if len(own) == 1 else 'them'} {' and '.join(follows)}" if follows else ""
     return f"{', '.join(own)}{then}"
+
+
+_BASIS = {"measured": "measured on the animal", "law": "by a law of its kind", "given": "as asked for"}
+
+
+def frequency_in_words(record: dict[str, Any]) -> str:
+    """Return the frequency of an orbit that did not search for it, with where it comes from and its band."""
+    basis = record.get("frequency_basis", "free")
+    if basis not in _BASIS:
+        return ""
+    own = [one for one in record.get("plausibility") or () if one["name"] == "frequency" and one["low"] is not None]
+    band = f", {_range(own[0]['low'], own[0]['high'], 'Hz', 1.0)}" if own and basis != "given" else ""
+    return f"frequency {_number(record['wingbeat']['frequency'], 'Hz', 1.0)}, {_BASIS[basis]}{band}"
 
 
 def flight_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
@@ -272,6 +285,8 @@ def orbit_report(record: dict[str, Any]) -> Report:
             status_line("certified", said.closes, "good" if said.good else "title"),
             status_line("plausible", said.plausible, "good" if said.good else "doubtful"),
         ]
+        if frequency := frequency_in_words(record):
+            lines.append(status_line("given, not predicted", frequency, "title"))
         if limits := limits_in_words(record):
             lines.append(status_line("set by limits, not predicted", limits, "doubtful"))
     else:

@@ -95,6 +95,18 @@ class RangeTable(BaseModel):
     )
 
 
+class FrequencyTable(BaseModel):
+    """A frequency at which the animal beats, with its band and the speeds at which it does."""
+
+    model_config = _STRICT
+    value: _Finite
+    range: _Pair
+    basis: Literal["measured", "law"] = Field(description="measured on the animal, or a law of its kind")
+    unit: str = ""
+    source: str = ""
+    speeds: _Pair | None = Field(default=None, description="lowest and highest flight speed [m/s]; default all")
+
+
 def _table(name: str, fields: dict[str, Any], required: list[str], **extra: Any) -> type[BaseModel]:
     """Return a model in which all fields are optional; only the JSON schema marks the required ones.
 
@@ -160,6 +172,10 @@ SpeciesFile = _table(
         "free": (_table("Free", _leaves(FREE, lambda _: _bare_or_table(_Pair, BoundTable)), []), None),
         "path": (_table("Path", _leaves(PATH, lambda _: _bare_or_table(_Pair, BoundTable)), []), None),
         "plausible": (_table("Plausible", _leaves(PLAUSIBLE, lambda _: RangeTable), []), None),
+        "frequencies": (
+            list[FrequencyTable],
+            Field(default=None, description="of its flights, measured or by a law; default wingbeat.frequency"),
+        ),
         "shape": _shape(),
         "alternatives": (dict[str, _Alternative], None),
     },

@@ -117,6 +117,7 @@ def species_of(content: SpeciesText, faults: FaultList) -> Species:
         numbers=numbers,
         alternatives=content.alternatives,
         plausible=content.plausible,
+        frequencies=tuple(content.frequencies),
         warnings=find_warnings(numbers, drawn, tuple(free), free, records["vehicle"], records["wingbeat"]),
         shape=shape,
         **records,

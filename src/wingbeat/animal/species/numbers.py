@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -189,6 +189,53 @@ class Range(NamedTuple):
     speeds: tuple[float, float] | None = None
 
 
+ALL_SPEEDS = (0.0, 100.0)  # m/s; no problem may be faster
+
+
+class OwnFrequency(NamedTuple):
+    """A frequency at which the animal beats [Hz], with its band, where it was found, and at which speeds [m/s].
+
+    The basis is ``measured`` on the animal, or ``law`` of other animals of its kind.
+    """
+
+    value: float
+    range: tuple[float, float]
+    basis: str
+    source: str = ""
+    speeds: tuple[float, float] = ALL_SPEEDS
+
+
+def frequency_between(known: Sequence[OwnFrequency], speed: float) -> OwnFrequency:
+    """Return the frequency at a flight speed [m/s]; between the speeds of two entries, on the straight line.
+
+    Below the slowest and above the fastest speed, the nearest entry holds, and its source says so.
+
+    >>> slow = OwnFrequency(8.0, (6.0, 10.0), "measured", "a film", (3.0, 5.0))
+    >>> fast = OwnFrequency(6.0, (5.0, 7.0), "law", "a law", (7.0, 20.0))
+    >>> frequency_between([fast, slow], 6.0)[:3]
+    (7.0, (5.5, 8.5), 'law')
+    """
+    known = sorted(known, key=lambda one: one.speeds)
+    inside = [one for one in known if one.speeds[0] <= speed <= one.speeds[1]]
+    if inside:
+        return inside[0]
+    slower = [one for one in known if one.speeds[1] < speed]
+    faster = [one for one in known if one.speeds[0] > speed]
+    if not slower or not faster:
+        near = (slower or faster[:1])[-1]
+        at = f"at {near.speeds[slower != []]:g} m/s"
+        return near._replace(source=f"as {at}: {near.source}")
+    below, above = slower[-1], faster[0]
+    share = (speed - below.speeds[1]) / (above.speeds[0] - below.speeds[1])
+    value, low, high = (
+        (1.0 - share) * start + share * end
+        for start, end in zip((below.value, *below.range), (above.value, *above.range), strict=True)
+    )
+    basis = "law" if "law" in (below.basis, above.basis) else "measured"
+    where = f"between those at {below.speeds[1]:g} and {above.speeds[0]:g} m/s"
+    return OwnFrequency(value, (low, high), basis, f"{where}: {below.source}; {above.source}", (speed, speed))
+
+
 class Numbers(dict[str, Number]):
     """Numbers by path, with the original text of each, so that a fault can quote it."""
 
@@ -242,6 +289,7 @@ class SpeciesText:
     free: dict[str, Bound] = field(default_factory=dict)
     path: dict[str, Bound] = field(default_factory=dict)
     plausible: dict[str, Range] = field(default_factory=dict)
+    frequencies: list[OwnFrequency] = field(default_factory=list)
     shape: ShapeText | None = None
     alternatives: dict[str, Alternative] = field(default_factory=dict)
     written: dict[str, tuple[str, Any]] = field(default_factory=dict)  # each bound's path and pair

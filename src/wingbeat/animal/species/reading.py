@@ -9,6 +9,7 @@ from typing import Any
 from wingbeat._base import FaultList, FileError, toml_tables
 from wingbeat.animal.species.file_schema import KINDS, check_shape, dotted, has_shape
 from wingbeat.animal.species.numbers import (
+    ALL_SPEEDS,
     FREE,
     KEYS,
     LOOKS,
@@ -22,6 +23,7 @@ from wingbeat.animal.species.numbers import (
     Key,
     Number,
     Numbers,
+    OwnFrequency,
     Range,
     ShapeText,
     SpeciesText,
@@ -81,6 +83,7 @@ def read_species_text(text: str, label: str, name: str, faults: FaultList) -> Sp
     result.free = _bounds(raw, FREE, result.written, faults)
     result.path = _bounds(raw, PATH, result.written, faults)
     result.plausible = _plausible(raw, faults)
+    result.frequencies = _frequencies(raw, faults)
     result.shape = _shape(raw, faults)
     alternatives = raw.get("alternatives")
     for other, content in (alternatives if isinstance(alternatives, dict) else {}).items():
@@ -195,6 +198,30 @@ def _plausible(raw: dict[str, Any], faults: FaultList) -> dict[str, Range]:
             _check_angles(path, [end for end in (low, high) if end is not None], key, path, faults)
             speeds = _range(f"{path}.speeds", table.get("speeds"), f"{path}.speeds", faults)
             found[key.name] = Range(low, high, key.unit, _line(table.get("source")), speeds)  # type: ignore[arg-type]
+    return found
+
+
+def _frequencies(raw: dict[str, Any], faults: FaultList) -> list[OwnFrequency]:
+    """Return the entries of ``[[frequencies]]``; their speeds may not overlap."""
+    given = raw.get("frequencies")
+    found: list[OwnFrequency] = []
+    for i, table in enumerate(given if isinstance(given, list) else []):
+        where, known = f"frequencies[{i}]", table if isinstance(table, dict) else {}
+        limits = _range(f"{where}.range", known.get("range"), "frequencies.range", faults)
+        speeds = _range(f"{where}.speeds", known.get("speeds"), "frequencies.speeds", faults) or ALL_SPEEDS
+        value, basis = known.get("value"), known.get("basis")
+        if known.get("unit") not in (None, "", "Hz"):
+            faults.add(f"{where}.unit", shown(known["unit"]), "must be 'Hz'", "give the value in this unit")
+        if limits is None or not has_shape("number", value) or basis not in ("measured", "law"):
+            continue  # the shape's own faults are noted
+        if not 0 < limits[0] <= value <= limits[1]:  # type: ignore[operator]
+            rule = f"must be above 0 and within its range, {limits[0]:g} to {limits[1]:g} Hz"
+            faults.add(f"{where}.value", value, rule)
+        for j, other in enumerate(found):
+            if speeds[0] < other.speeds[1] and other.speeds[0] < speeds[1]:
+                fix = "give each frequency speeds of its own"
+                faults.add(f"{where}.speeds", list(speeds), f"overlap with those of frequencies[{j}]", fix)
+        found.append(OwnFrequency(float(value), limits, basis, _line(known.get("source")), speeds))  # type: ignore[arg-type]
     return found
 
 

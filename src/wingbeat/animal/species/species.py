@@ -4,26 +4,20 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, cast
 
 from wingbeat._base import (
     TRACED,
-    Block,
     FaultList,
-    Line,
     Report,
     Reported,
-    Row,
-    Table,
-    cf,
-    for_people,
     is_traced,
     plain_unit,
     suggest,
 )
-from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat
 from wingbeat.animal.species.building import (
     BODY,
     BY_HAND,
@@ -44,13 +38,14 @@ from wingbeat.animal.species.numbers import (
     Alternative,
     Number,
     Numbers,
+    OwnFrequency,
     Range,
-    bound_cells,
-    display,
+    frequency_between,
     in_order,
     to_si,
     words,
 )
+from wingbeat.animal.species.report import species_report
 from wingbeat.animal.species.scaling import muscle_numbers, tail_numbers
 from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.vehicle import Air, Vehicle
@@ -58,6 +53,9 @@ from wingbeat.animal.vehicle import Air, Vehicle
 # No number of an animal: the share of the muscle's fibres that a wingbeat uses.
 ACTIVATION = Range(None, 1.0, "1", "by definition: above 1, the wingbeat needs more fibres than the muscle has")
 UNKNOWN = "nothing is known: the species file gives no range"
+FREQUENCY = "wingbeat.frequency"
+# How the source of a number begins that was neither measured nor derived by a law.
+_NOT_MEASURED = ("given", "guess", "first guess")
 
 
 _SET_BY_HAND = f"{BY_HAND} in place of"
@@ -83,6 +81,7 @@ class Species(Reported):
         `plausible_range`.
     warnings : what looks wrong, such as a number outside its plausible range.
     shape : how it looks, for drawings alone; None if the file does not say it.
+    frequencies : at which the animal beats, measured or by a law of its kind, by flight speed; see `own_frequency`.
 
     >>> from wingbeat import load_species
     >>> pigeon = load_species("pigeon")
@@ -110,6 +109,47 @@ class Species(Reported):
     plausible: dict[str, Range]
     warnings: tuple[str, ...]
     shape: Shape | None = None
+    frequencies: tuple[OwnFrequency, ...] = ()
+
+    def own_frequency(self, speed: float) -> OwnFrequency:
+        """Return the frequency at which the animal beats at a flight speed, with its band, basis and source.
+
+        Without `frequencies`, it is that of the stock wingbeat: a ``law`` if a law derived it, ``given`` if the
+        user set it, or if it has no source or is a guess, else ``measured``.
+
+        Parameters
+        ----------
+        speed : of the flight [m/s].
+
+        >>> from wingbeat import load_species
+        >>> load_species("common-murre").own_frequency(18.0).basis
+        'measured'
+        """
+        if self.frequencies and not self.is_set_by_hand(FREQUENCY):
+            return frequency_between(self.frequencies, speed)
+        stock, value = self.numbers[FREQUENCY], self.wingbeat.frequency
+        basis = "law" if stock.source.startswith("derived") else "measured"
+        if self.is_set_by_hand(FREQUENCY) or stock.source.startswith(_NOT_MEASURED) or not stock.source:
+            basis = "given"
+        band = (value, value) if basis == "given" or stock.range is None else stock.range
+        return OwnFrequency(value, band, basis, stock.source)
+
+    def at_own_frequency(self, speed: float) -> Species:
+        """Return this species beating at its own frequency at a flight speed; its band is that frequency's range.
+
+        Parameters
+        ----------
+        speed : of the flight [m/s].
+
+        >>> from wingbeat import load_species
+        >>> "frequency" in load_species("common-murre").at_own_frequency(18.0).free
+        False
+        """
+        own = self.own_frequency(speed)
+        if own.basis == "given":
+            return self
+        beating = self.with_derived({FREQUENCY: Number(own.value, "Hz", own.source, own.range)})
+        return dataclasses.replace(beating, free=tuple(name for name in self.free if name != "frequency"))
 
     def plausible_range(self, name: str, speed: float) -> Range:
         """Return the plausible range of a number at a flight speed; both ends are None if nothing is known.
@@ -198,6 +238,39 @@ class Species(Reported):
         if changed.vehicle.tail is None and not changed.wingbeat.tail_tilt:
             numbers.pop("wingbeat.tail_tilt", None)
         return dataclasses.replace(changed, numbers=in_order(numbers))
+
+    def with_free(self, names: Sequence[str]) -> Species:
+        """Return this species with more free parameters, within their plausible ranges.
+
+        Parameters
+        ----------
+        names : of wingbeat parameters; one that is free already stays as it is.
+
+        Raises
+        ------
+        InvalidInputError : a name that is no parameter of the wingbeat, or one without a plausible range.
+
+        >>> from wingbeat import load_species
+        >>> load_species("pigeon").with_free(["twist_ratio"]).bounds["twist_ratio"]
+        (1.0, 2.0)
+        """
+        faults, bounds = FaultList(), dict(self.bounds)
+        for name in names:
+            known = self.plausible_range(name, 0.0) if name in FREE_NAMES else None
+            if known is None:
+                faults.add("free", name, "is no parameter that can be free", suggest(name, FREE_NAMES))
+            elif name not in bounds and (known.low is None or known.high is None):
+                fix = f"give it a range in the species file, or bounds={{{name!r}: (low, high)}} in Python"
+                faults.add("free", name, "has no plausible range", fix)
+            elif name not in bounds:
+                bounds[name] = (known.low, known.high)
+        faults.raise_if_any()
+        added = tuple(name for name in dict.fromkeys(names) if name not in self.free)
+        reasons = {name: "the plausible range of the species file" for name in added}
+        guessed = self.guessed_bounds | set(added)
+        return dataclasses.replace(
+            self, free=(*self.free, *added), bounds=bounds, guessed_bounds=guessed, reasons=self.reasons | reasons
+        )
 
     def is_set_by_hand(self, path: str) -> bool:
         """Return whether a number was set, by `with_values` or ``--set``, after the species was made.
@@ -389,56 +462,3 @@ def range_of(number: Number) -> Range:
     """Return the plausible range given with a number of a species file."""
     low, high = number.range or (None, None)
     return Range(low, high, number.unit, number.source if number.range else UNKNOWN)
-
-
-def species_report(animal: Species) -> Report:
-    """Return every number of a species with its source, the bounds of free parameters, and the plausible ranges."""
-    names = ", ".join(name for name in (animal.common_name, animal.scientific_name, animal.kind) if name)
-    sources: dict[str, int] = {}
-    blocks: list[Block] = [Line(f"{animal.name}{': ' if names else ''}{names}")]
-    blocks += [*_titled("numbers"), _numbers(animal.numbers, sources)]
-    rows = []
-    bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()}
-    for path, limits in (bounds | animal.path_bounds).items():
-        short = path.removeprefix("wingbeat.")
-        guess = "guess: " if short in animal.guessed_bounds else ""
-        rows.append(Row((*bound_cells(path, limits), guess + animal.reasons[short].removeprefix("guess: "))))
-    blocks += _titled("free parameters, and limits that hold throughout the wingbeat")
-    blocks.append(Table(tuple(rows), ("quantity", "bounds", "unit", "reason"), "nrll"))
-    rows = []
-    for name, known in animal.plausible.items():  # those of parameters are in the table above
-        factor, unit = for_people(cf(known.unit))
-        low, high = ("" if end is None else f"{factor * end:g}" for end in known[:2])
-        speeds = "{:g} to {:g}".format(*known.speeds) if known.speeds else ""
-        rows.append(Row((name, low, high, unit, speeds, _mark(known.source, sources))))
-    if rows:
-        head = ("quantity", "minimum", "maximum", "unit", "at [m/s]", "source")
-        blocks += [*_titled("plausible ranges"), Table(tuple(rows), head, "nrrlrr")]
-    for name, other in animal.alternatives.items():
-        blocks += [*_titled(f"alternative {name}: {other.reason}"), _numbers(other.numbers, sources)]
-    if animal.shape:
-        blocks += [*_titled("shape, which only drawings use"), _numbers(animal.shape.numbers, sources)]
-    blocks += [*_titled("sources"), *(Line(f"[{number}] {source}") for source, number in sources.items())]
-    return [*blocks, *(Line(f"warning: {warning}", tone="warning") for warning in animal.warnings)]
-
-
-def _titled(title: str) -> tuple[Line, Line]:
-    return Line(""), Line(title, tone="title")
-
-
-def _mark(source: str, sources: dict[str, int]) -> str:
-    """Return the number of a source: sources are long and shared, so they are numbered and listed below."""
-    return f"[{sources.setdefault(source, len(sources) + 1)}]" if source else ""
-
-
-def _numbers(numbers: Mapping[str, Number], sources: dict[str, int]) -> Table:
-    rows = []
-    for path, number in numbers.items():
-        name, shown = display(path, number)
-        limits = f"{shown.range[0]:g} to {shown.range[1]:g}" if shown.range else ""
-        value = shown.value if isinstance(shown.value, tuple) else (shown.value,)
-        unit = "" if shown.unit == "1" else shown.unit
-        name = name if path == "vehicle.mass" else name.removeprefix("vehicle.")  # as --set takes them
-        told = ", ".join(f"{each:g}" for each in value) if len(value) < 6 else f"{len(value)} stations"
-        rows.append(Row((name, told, unit, limits, _mark(shown.source, sources))))
-    return Table(tuple(rows), ("number", "value", "unit", "plausible", "source"), "nrlrr")

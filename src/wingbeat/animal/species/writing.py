@@ -9,7 +9,7 @@ import textwrap
 from collections.abc import Iterator, Mapping
 
 from wingbeat.animal.species.building import BODY, WHOLE
-from wingbeat.animal.species.numbers import COLOURS, Number, Range, display
+from wingbeat.animal.species.numbers import ALL_SPEEDS, COLOURS, Number, Range, display
 from wingbeat.animal.species.species import Species
 
 _HEAD = "# SI units; _deg means degrees. A source that begins with derived or guess was not measured."
@@ -37,6 +37,12 @@ def species_text(species: Species) -> str:
         lines += ["", "# Plausible ranges, with which every orbit is compared."]
     for name, known in species.plausible.items():
         lines += _plausible(name, known)
+    for own in species.frequencies:
+        lines += ["", "[[frequencies]]", f"value = {_digits(own.value)}", 'unit = "Hz"']
+        lines += [f"range = [{_digits(own.range[0])}, {_digits(own.range[1])}]", f"basis = {_quoted(own.basis)}"]
+        if own.speeds != ALL_SPEEDS:
+            lines.append(f"speeds = [{_digits(own.speeds[0])}, {_digits(own.speeds[1])}]")
+        lines += [f"source = {_text(own.source)}"] if own.source else []
     if species.shape is not None:
         cover, colours = species.shape.cover, species.shape.colours
         lines += ["", "# How it looks. Only drawings use it.", "[shape]", f"cover = {_quoted(cover)}"]

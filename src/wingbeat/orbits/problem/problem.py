@@ -6,12 +6,11 @@ import dataclasses
 import functools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from wingbeat._base import (
-    NOMENCLATURE,
     FaultList,
     InvalidInputError,
     Report,
@@ -25,10 +24,11 @@ from wingbeat.aero import SuFan
 from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.animal.species.numbers import bound_cells
-from wingbeat.animal.species.species import Species
+from wingbeat.animal.species.species import FREQUENCY, Species
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.flight.period import PATH_NAMES, PITCH_STATE
+from wingbeat.orbits.problem.origin import TERMS, Origin, loads_in_words, model_rows, place_in_words
 from wingbeat.orbits.problem.outputs import check_quantities, value_count
 from wingbeat.orbits.problem.quantities import (
     FASTEST,
@@ -42,64 +42,6 @@ from wingbeat.orbits.problem.quantities import (
     plausible_limits,
     read_limits,
 )
-
-# --- What a problem says of itself: the model that made it with its choices, and its parts in words. ---
-
-
-class Choice(NamedTuple):
-    """One choice of a model: what is chosen, the choice in words or as a number with its unit, and why."""
-
-    what: str
-    value: str
-    reason: str
-
-
-class Origin(NamedTuple):
-    """The model with which a problem was made."""
-
-    name: str  # ``"paper"`` or ``"animal"``
-    choices: tuple[Choice, ...]
-    # Air loads and parameters of `OrbitProblem` that the user chose differently. Changed numbers of the species are
-    # no part of it: their sources name the change.
-    changed: tuple[str, ...] = ()
-
-    def record(self) -> dict[str, Any]:
-        """Return the origin as lists and texts, for JSON."""
-        choices = [choice._asdict() for choice in self.choices]
-        return {"name": self.name, "choices": choices, "changed": list(self.changed)}
-
-
-def origin_from(record: dict[str, Any]) -> Origin:
-    """Return the origin from `Origin.record`; any other dictionary raises `KeyError` or `TypeError`."""
-    choices = tuple(Choice(**choice) for choice in record["choices"])
-    return Origin(record["name"], choices, tuple(record["changed"]))
-
-
-TERMS = ("unsteady", "inflow")
-
-
-def place_in_words(species: str | None, speed: float | None, climb: float | None) -> str:
-    """Return which species flies, and how fast."""
-    if speed is None:
-        return str(species)
-    (factor, unit), (factor_up, unit_up) = (for_people(NOMENCLATURE[name].unit) for name in ("speed", "climb"))
-    climbing = f", climbing {climb * factor_up:.4g} {unit_up}" if climb else ""
-    return f"{species} at {speed * factor:.4g} {unit}{climbing}"
-
-
-def loads_in_words(aero: Mapping[str, Any]) -> str:
-    """Return the coefficients and the terms of the air loads, from their names in a record."""
-    named = [str(aero[name]) for name in ("coefficients", "extension", "force_point") if name in aero]
-    terms = [f"{aero[name]} {name}" for name in TERMS if name in aero]
-    if family := aero.get("reynolds_of_polars"):
-        named[0] += f" ({len(family)} polars, Re {family[0]:.0f} to {family[-1]:.0f})"
-    return ", ".join([*named, *(["full airspeed"] if aero.get("airspeed") == "full" else []), *terms])
-
-
-def model_rows(origin: Mapping[str, Any]) -> list[tuple[str, str]]:
-    """Return the name of the model that made the problem, and the choices that the user changed."""
-    changed = [name.replace("_", "-") for name in origin["changed"]]
-    return [("model", origin["name"] + (f"; changed: {', '.join(changed)}" if changed else ""))]
 
 
 @dataclass(frozen=True)
@@ -255,7 +197,7 @@ class OrbitProblem(Reported):
         object.__setattr__(self, "_plausible_limits", limits)
 
     def at_speed(self, speed: float) -> OrbitProblem:
-        """Return the problem at another speed; plausible limits become those at that speed.
+        """Return the problem at another speed; plausible limits and the animal's own frequency are those there.
 
         Parameters
         ----------
@@ -266,11 +208,21 @@ class OrbitProblem(Reported):
         InvalidInputError : an impossible speed, or one whose Reynolds number is not plausible.
         """
         moved = dataclasses.replace(self, speed=speed)
+        if self.origin is not None and self.origin.own_frequency:
+            moved = dataclasses.replace(moved, species=self.species.at_own_frequency(speed))
         limits, faults = getattr(self, "_plausible_limits", None), FaultList()
         if limits is not None:
             moved._limit_plausibly([c for c in self.subject_to if c not in limits], faults)
         faults.raise_if_any()
         return moved
+
+    @property
+    def frequency_basis(self) -> str:
+        """Where the frequency comes from: ``free`` (searched), ``given``, ``measured`` or by a ``law``."""
+        if "frequency" in self.free:
+            return "free"
+        own = self.origin is not None and self.origin.own_frequency and not self.species.is_set_by_hand(FREQUENCY)
+        return self.species.own_frequency(self.speed).basis if own else "given"
 
     def _quantities(self) -> list[Quantity]:
         """Return the objective and the constrained quantities that are outputs of the beat."""

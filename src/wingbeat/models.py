@@ -87,7 +87,10 @@ class Model:
         asked = {"aero": self.aero, "minimise": self.objective(flown)} | changes
         if not isinstance(asked["aero"], BladeElement):
             asked["aero"] = dataclasses.replace(self.aero, coefficients=asked["aero"])
-        own = self.frequency == "own" and not changes.get("free")
+        # Who asks for the least frequency, or names the free parameters, searches for it.
+        least = asked["minimise"]
+        least = named_objective(least) if isinstance(least, str) else least
+        own = self.frequency == "own" and not changes.get("free") and least != named_objective("frequency")
         origin = Origin(self.name, tuple(self._choices(flown)), tuple(self._changed(flown, changes)), own)
         if self.frequency not in ("own", "free") and "frequency" in flown.free:
             flown = flown.with_values({FREQUENCY: self.frequency})

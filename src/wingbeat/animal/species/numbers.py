@@ -205,6 +205,19 @@ class OwnFrequency(NamedTuple):
     speeds: tuple[float, float] = ALL_SPEEDS
 
 
+# How the source of a number begins that was neither measured nor derived by a law.
+_NOT_MEASURED = ("given", "guess", "first guess")
+
+
+def frequency_of(stock: Number, value: float, by_hand: bool) -> OwnFrequency:
+    """Return the frequency of a stock wingbeat; one that is given has no band."""
+    basis = "law" if stock.source.startswith("derived") else "measured"
+    if by_hand or not stock.source or stock.source.startswith(_NOT_MEASURED):
+        basis = "given"
+    band = (value, value) if basis == "given" or stock.range is None else stock.range
+    return OwnFrequency(value, band, basis, stock.source)
+
+
 def frequency_between(known: Sequence[OwnFrequency], speed: float) -> OwnFrequency:
     """Return the frequency at a flight speed [m/s]; between the speeds of two entries, on the straight line.
 
@@ -234,6 +247,30 @@ def frequency_between(known: Sequence[OwnFrequency], speed: float) -> OwnFrequen
     basis = "law" if "law" in (below.basis, above.basis) else "measured"
     where = f"between those at {below.speeds[1]:g} and {above.speeds[0]:g} m/s"
     return OwnFrequency(value, (low, high), basis, f"{where}: {below.source}; {above.source}", (speed, speed))
+
+
+# No number of an animal: the share of the muscle's fibres that a wingbeat uses.
+ACTIVATION = Range(None, 1.0, "1", "by definition: above 1, the wingbeat needs more fibres than the muscle has")
+UNKNOWN = "nothing is known: the species file gives no range"
+
+
+def range_of_tilt(numbers: Mapping[str, Number]) -> Range:
+    """Return the plausible range of the tail's tilt: its own, or what the range of the incidence allows."""
+    own, incidence = numbers.get("wingbeat.tail_tilt"), numbers.get("vehicle.tail.incidence")
+    if own is not None and own.range is not None:
+        return range_of(own)
+    if incidence is None or incidence.range is None:
+        return Range(None, None, "rad", UNKNOWN)
+    level = incidence.value
+    assert not isinstance(level, tuple)
+    low, high = (end - level for end in incidence.range)
+    return Range(low, high, "rad", f"range of the tail's incidence; {incidence.source}")
+
+
+def range_of(number: Number) -> Range:
+    """Return the plausible range given with a number of a species file."""
+    low, high = number.range or (None, None)
+    return Range(low, high, number.unit, number.source if number.range else UNKNOWN)
 
 
 class Numbers(dict[str, Number]):

@@ -2,32 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
 
 from wingbeat._base import Block, Line, Report, Row, Table, cf, for_people
-from wingbeat.animal.species.numbers import ALL_SPEEDS, Number, bound_cells, display
+from wingbeat.animal.species.numbers import (
+    ALL_SPEEDS,
+    Alternative,
+    Bound,
+    Number,
+    OwnFrequency,
+    Range,
+    bound_cells,
+    display,
+)
 
-if TYPE_CHECKING:
-    from wingbeat.animal.species.species import Species
 
+def species_report(
+    head: str,
+    numbers: Mapping[str, Number],
+    bounds: Mapping[str, Bound],
+    plausible: Mapping[str, Range],
+    frequencies: Sequence[OwnFrequency],
+    alternatives: Mapping[str, Alternative],
+    drawn: Mapping[str, Number],
+    warnings: Sequence[str],
+) -> Report:
+    """Return every number with its source, the bounds of free parameters and of the path, and the plausible ranges.
 
-def species_report(animal: Species) -> Report:
-    """Return every number of a species with its source, the bounds of free parameters, and the plausible ranges."""
-    names = ", ".join(name for name in (animal.common_name, animal.scientific_name, animal.kind) if name)
+    The names of bounds of the path have no ``wingbeat.`` before them; `drawn` are numbers that only drawings use.
+    """
     sources: dict[str, int] = {}
-    blocks: list[Block] = [Line(f"{animal.name}{': ' if names else ''}{names}")]
-    blocks += [*_titled("numbers"), _numbers(animal.numbers, sources)]
+    blocks: list[Block] = [Line(head), *_titled("numbers"), _numbers(numbers, sources)]
     rows = []
-    bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()}
-    for path, limits in (bounds | animal.path_bounds).items():
-        short = path.removeprefix("wingbeat.")
-        guess = "guess: " if short in animal.guessed_bounds else ""
-        rows.append(Row((*bound_cells(path, limits), guess + animal.reasons[short].removeprefix("guess: "))))
+    for path, bound in bounds.items():
+        guess = "guess: " if bound.guessed else ""
+        rows.append(Row((*bound_cells(path, bound.bounds), guess + bound.reason.removeprefix("guess: "))))
     blocks += _titled("free parameters, and limits that hold throughout the wingbeat")
     blocks.append(Table(tuple(rows), ("quantity", "bounds", "unit", "reason"), "nrll"))
     rows = []
-    for name, known in animal.plausible.items():  # those of parameters are in the table above
+    for name, known in plausible.items():  # those of parameters are in the table above
         factor, unit = for_people(cf(known.unit))
         low, high = ("" if end is None else f"{factor * end:g}" for end in known[:2])
         speeds = "{:g} to {:g}".format(*known.speeds) if known.speeds else ""
@@ -35,9 +48,9 @@ def species_report(animal: Species) -> Report:
     if rows:
         head = ("quantity", "minimum", "maximum", "unit", "at [m/s]", "source")
         blocks += [*_titled("plausible ranges"), Table(tuple(rows), head, "nrrlrr")]
-    if animal.frequencies:
+    if frequencies:
         rows = []
-        for own in animal.frequencies:
+        for own in frequencies:
             low, high = own.range
             speeds = "{:g} to {:g}".format(*own.speeds) if own.speeds != ALL_SPEEDS else ""
             rows.append(
@@ -45,12 +58,12 @@ def species_report(animal: Species) -> Report:
             )
         head = ("basis", "frequency [Hz]", "band [Hz]", "at [m/s]", "source")
         blocks += [*_titled("frequencies of its flights"), Table(tuple(rows), head, "nrlrr")]
-    for name, other in animal.alternatives.items():
+    for name, other in alternatives.items():
         blocks += [*_titled(f"alternative {name}: {other.reason}"), _numbers(other.numbers, sources)]
-    if animal.shape:
-        blocks += [*_titled("shape, which only drawings use"), _numbers(animal.shape.numbers, sources)]
+    if drawn:
+        blocks += [*_titled("shape, which only drawings use"), _numbers(drawn, sources)]
     blocks += [*_titled("sources"), *(Line(f"[{number}] {source}") for source, number in sources.items())]
-    return [*blocks, *(Line(f"warning: {warning}", tone="warning") for warning in animal.warnings)]
+    return [*blocks, *(Line(f"warning: {warning}", tone="warning") for warning in warnings)]
 
 
 def _titled(title: str) -> tuple[Line, Line]:

@@ -34,14 +34,20 @@ from wingbeat.animal.species.building import (
 )
 from wingbeat.animal.species.file_schema import has_shape
 from wingbeat.animal.species.numbers import (
+    ACTIVATION,
     KEYS,
+    UNKNOWN,
     Alternative,
+    Bound,
     Number,
     Numbers,
     OwnFrequency,
     Range,
     frequency_between,
+    frequency_of,
     in_order,
+    range_of,
+    range_of_tilt,
     to_si,
     words,
 )
@@ -50,12 +56,7 @@ from wingbeat.animal.species.scaling import muscle_numbers, tail_numbers
 from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.vehicle import Air, Vehicle
 
-# No number of an animal: the share of the muscle's fibres that a wingbeat uses.
-ACTIVATION = Range(None, 1.0, "1", "by definition: above 1, the wingbeat needs more fibres than the muscle has")
-UNKNOWN = "nothing is known: the species file gives no range"
 FREQUENCY = "wingbeat.frequency"
-# How the source of a number begins that was neither measured nor derived by a law.
-_NOT_MEASURED = ("given", "guess", "first guess")
 
 
 _SET_BY_HAND = f"{BY_HAND} in place of"
@@ -127,12 +128,7 @@ class Species(Reported):
         """
         if self.frequencies and not self.is_set_by_hand(FREQUENCY):
             return frequency_between(self.frequencies, speed)
-        stock, value = self.numbers[FREQUENCY], self.wingbeat.frequency
-        basis = "law" if stock.source.startswith("derived") else "measured"
-        if self.is_set_by_hand(FREQUENCY) or stock.source.startswith(_NOT_MEASURED) or not stock.source:
-            basis = "given"
-        band = (value, value) if basis == "given" or stock.range is None else stock.range
-        return OwnFrequency(value, band, basis, stock.source)
+        return frequency_of(self.numbers[FREQUENCY], self.wingbeat.frequency, self.is_set_by_hand(FREQUENCY))
 
     def at_own_frequency(self, speed: float) -> Species:
         """Return this species beating at its own frequency at a flight speed; its band is that frequency's range.
@@ -179,7 +175,19 @@ class Species(Reported):
         return Range(None, None, known.unit, f"{where}: {known.source}", known.speeds)
 
     def _report(self) -> Report:
-        return species_report(self)
+        names = ", ".join(name for name in (self.common_name, self.scientific_name, self.kind) if name)
+        bounds = {f"wingbeat.{name}": limits for name, limits in self.bounds.items()} | self.path_bounds
+        told = {path: path.removeprefix("wingbeat.") for path in bounds}
+        return species_report(
+            f"{self.name}{': ' if names else ''}{names}",
+            self.numbers,
+            {path: Bound(bounds[path], self.reasons[n], n in self.guessed_bounds) for path, n in told.items()},
+            self.plausible,
+            self.frequencies,
+            self.alternatives,
+            self.shape.numbers if self.shape else {},
+            self.warnings,
+        )
 
     def with_values(self, values: Mapping[str, Any]) -> Species:
         """Return this species with some numbers set.
@@ -259,18 +267,14 @@ class Species(Reported):
             known = self.plausible_range(name, 0.0) if name in FREE_NAMES else None
             if known is None:
                 faults.add("free", name, "is no parameter that can be free", suggest(name, FREE_NAMES))
-            elif name not in bounds and (known.low is None or known.high is None):
-                fix = f"give it a range in the species file, or bounds={{{name!r}: (low, high)}} in Python"
-                faults.add("free", name, "has no plausible range", fix)
-            elif name not in bounds:
-                bounds[name] = (known.low, known.high)
+            elif known.low is None or known.high is None:
+                faults.add("free", name, "has no plausible range", "give it one in the species file")
+            else:
+                bounds.setdefault(name, (known.low, known.high))
         faults.raise_if_any()
         added = tuple(name for name in dict.fromkeys(names) if name not in self.free)
-        reasons = {name: "the plausible range of the species file" for name in added}
-        guessed = self.guessed_bounds | set(added)
-        return dataclasses.replace(
-            self, free=(*self.free, *added), bounds=bounds, guessed_bounds=guessed, reasons=self.reasons | reasons
-        )
+        reasons = self.reasons | {name: "the plausible range of the species file" for name in added}
+        return dataclasses.replace(self, free=(*self.free, *added), bounds=bounds, reasons=reasons)
 
     def is_set_by_hand(self, path: str) -> bool:
         """Return whether a number was set, by `with_values` or ``--set``, after the species was made.
@@ -443,22 +447,3 @@ def _jsonable(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _jsonable(item) for key, item in value.items()}
     return [_jsonable(item) for item in value] if isinstance(value, tuple | list) else value
-
-
-def range_of_tilt(numbers: Mapping[str, Number]) -> Range:
-    """Return the plausible range of the tail's tilt: its own, or what the range of the incidence allows."""
-    own, incidence = numbers.get("wingbeat.tail_tilt"), numbers.get("vehicle.tail.incidence")
-    if own is not None and own.range is not None:
-        return range_of(own)
-    if incidence is None or incidence.range is None:
-        return Range(None, None, "rad", UNKNOWN)
-    level = incidence.value
-    assert not isinstance(level, tuple)
-    low, high = (end - level for end in incidence.range)
-    return Range(low, high, "rad", f"range of the tail's incidence; {incidence.source}")
-
-
-def range_of(number: Number) -> Range:
-    """Return the plausible range given with a number of a species file."""
-    low, high = number.range or (None, None)
-    return Range(low, high, number.unit, number.source if number.range else UNKNOWN)

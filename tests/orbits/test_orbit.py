@@ -18,6 +18,7 @@ from wingbeat.records.tables import finite_or_none
 # The orbit record of the specification: names, and those of its parts.
 RECORD = {
     *("status", "message", "species", "vehicle", "aero", "air", "speed", "climb", "objective", "wingbeat"),
+    "frequency_basis",
     *("objective_value", "constraints"),
     *("initial_state", "active_bounds", "closure", "optimality", "starts", "distinct_optima", "mean_power"),
     "starts_at_best",

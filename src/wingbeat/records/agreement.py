@@ -22,6 +22,7 @@ from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.period import PATH_NAMES, SYMMETRY
 from wingbeat.orbits.options import DEFAULTS, Status
+from wingbeat.orbits.problem.origin import frequency_basis, origin_from
 from wingbeat.orbits.problem.quantities import judged_names
 from wingbeat.records.forms import from_json
 from wingbeat.records.inputs import (
@@ -139,6 +140,9 @@ def _check_inputs(record: dict[str, Any], inputs: dict[str, Any], species: Speci
     demand(record["species"] == species.name, "species is not that of the inputs")
     demand(record.get("model") == inputs.get("model"), "model is not that of the inputs")
     demand(inputs["objective"] in (record["objective"], f"{OWN} {record['objective']}"), "objective is another")
+    origin = origin_from(inputs["model"]) if "model" in inputs else None
+    basis = frequency_basis(inputs["free"], origin, species, inputs["speed"])
+    demand(record.get("frequency_basis", basis) == basis, f"frequency_basis is not {basis}")
     loads = {name: value for name, value in record["aero"].items() if name != "hand"}
     demand(loads.items() <= {**inputs["aero"], "hand": 0}.items(), "aero is not that of the inputs")
     demand({*species.warnings} <= {*record["warnings"]}, "a warning of the species is missing")

@@ -167,7 +167,7 @@ def _finite(text: str) -> float:
 
 # What a record holds that is not a number.
 _KINDS: dict[str, tuple[type, ...]] = {
-    **dict.fromkeys(("status", "message", "species", "objective", "version"), (str,)),
+    **dict.fromkeys(("status", "message", "species", "objective", "frequency_basis", "version"), (str,)),
     **dict.fromkeys(
         ("model", "vehicle", "aero", "air", "wingbeat", "initial_state", "closure", "constraints", "start"), (dict,)
     ),

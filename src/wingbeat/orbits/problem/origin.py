@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from wingbeat._base import NOMENCLATURE, for_people
+from wingbeat.animal.species.species import FREQUENCY, Species
 
 
 class Choice(NamedTuple):
@@ -64,3 +65,11 @@ def model_rows(origin: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Return the name of the model that made the problem, and the choices that the user changed."""
     changed = [name.replace("_", "-") for name in origin["changed"]]
     return [("model", origin["name"] + (f"; changed: {', '.join(changed)}" if changed else ""))]
+
+
+def frequency_basis(free: Iterable[str], origin: Origin | None, species: Species, speed: float) -> str:
+    """Return where the frequency of a problem comes from: ``free``, ``given``, ``measured`` or ``law``."""
+    if "frequency" in free:
+        return "free"
+    own = origin is not None and origin.own_frequency and not species.is_set_by_hand(FREQUENCY)
+    return species.own_frequency(speed).basis if own else "given"

@@ -24,11 +24,18 @@ from wingbeat.aero import SuFan
 from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.animal.species.numbers import bound_cells
-from wingbeat.animal.species.species import FREQUENCY, Species
+from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.orbits.flight.period import PATH_NAMES, PITCH_STATE
-from wingbeat.orbits.problem.origin import TERMS, Origin, loads_in_words, model_rows, place_in_words
+from wingbeat.orbits.problem.origin import (
+    TERMS,
+    Origin,
+    frequency_basis,
+    loads_in_words,
+    model_rows,
+    place_in_words,
+)
 from wingbeat.orbits.problem.outputs import check_quantities, value_count
 from wingbeat.orbits.problem.quantities import (
     FASTEST,
@@ -219,10 +226,7 @@ class OrbitProblem(Reported):
     @property
     def frequency_basis(self) -> str:
         """Where the frequency comes from: ``free`` (searched), ``given``, ``measured`` or by a ``law``."""
-        if "frequency" in self.free:
-            return "free"
-        own = self.origin is not None and self.origin.own_frequency and not self.species.is_set_by_hand(FREQUENCY)
-        return self.species.own_frequency(self.speed).basis if own else "given"
+        return frequency_basis(self.free, self.origin, self.species, self.speed)
 
     def _quantities(self) -> list[Quantity]:
         """Return the objective and the constrained quantities that are outputs of the beat."""

@@ -247,7 +247,8 @@ def _base(
     if len(faults.faults) > before:
         return None
     free, limits = tuple(form.free or ()), tuple(chosen["subject_to"])
-    recipe = Recipe(made["species"], made["aero"], made["minimise"], free, made["bounds"], limits, search)
+    parts = made["species"], made["aero"], made["minimise"], free, made["bounds"], limits, search
+    recipe = Recipe(*parts, made["own_frequency"])
     try:
         _ = recipe.example
         inputs = recipe.inputs()

@@ -24,6 +24,7 @@ from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.numbers import KEYS, Key, shown, spoken
 from wingbeat.animal.species.species import Species
 from wingbeat.models import Model, model_of
+from wingbeat.orbits.problem.origin import Origin
 from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, parameters_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.problem.quantities import named_objective
@@ -131,17 +132,23 @@ class Recipe:
     bounds: dict[str, tuple[float, float]] | str
     subject_to: tuple[str, ...]
     search: dict[str, Any]
+    own_frequency: bool = False  # whether each point flies at the frequency of the animal at its speed
 
     def problem(self, changes: Mapping[str, Any]) -> OrbitProblem:
         """Return the problem of a point, whose changes by path must have a speed among them."""
         numbers = {path: value for path, value in changes.items() if _key(path) is not None}
         species = self.species.with_values(numbers) if numbers else self.species
+        species, free = species.with_payload(changes.get("payload", 0.0)), self.free
+        if self.own_frequency:
+            species = species.at_own_frequency(changes["speed"])
+            free = tuple(name for name in species.free if name != "frequency")
         problem = OrbitProblem(
-            species.with_payload(changes.get("payload", 0.0)),
+            species,
             speed=changes["speed"],
             climb=changes.get("climb", 0.0),
             aero=self._aero({path: changes[path] for path in _CHOICES if path in changes}),
-            free=self.free,
+            free=free,
+            origin=Origin("animal", (), own_frequency=True) if self.own_frequency else None,
             bounds=self.bounds,
             minimise=from_inputs(self.objective),
             subject_to=self.subject_to,
@@ -231,6 +238,7 @@ class Recipe:
             "bounds": bounds if isinstance(bounds := self.bounds, str) else {n: list(b) for n, b in bounds.items()},
             "subject_to": list(self.subject_to),
             "search": self.search,
+            **({"own_frequency": True} if self.own_frequency else {}),
         }
 
     def described(self) -> dict[str, Any]:
@@ -250,6 +258,7 @@ def recipe_from(inputs: Mapping[str, Any]) -> Recipe:
         else {name: tuple(pair) for name, pair in bounds.items()},
         tuple(inputs["subject_to"]),
         inputs["search"],
+        inputs.get("own_frequency", False),
     )
 
 
@@ -314,11 +323,16 @@ def makers_of(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...],
             name = flown(species, model)[1].objective(animal(species, model))
         return as_inputs(name, folder)
 
+    def own_frequency(species: str, model: str, name: str) -> bool:
+        searched = form.free or ("minimise" in form.model_fields_set and name == "frequency")
+        return not searched and flown(species, model)[1].frequency == "own"
+
     of_model = "species", "model"
     makers = {
         "species": (of_model, animal),
         "aero": ((*of_model, "aero", *OF_COEFFICIENTS, *OF_ELEMENTS), loads),
         "minimise": ((*of_model, "minimise"), objective),
+        "own_frequency": ((*of_model, "minimise"), own_frequency),
         "bounds": ((), lambda: given if isinstance(given := form.bounds, str) else _bounds(given)),
     }
     return {name: (keys, functools.cache(make)) for name, (keys, make) in makers.items()}

@@ -254,12 +254,12 @@ def problem_of(scenario: Scenario) -> OrbitProblem:
     faults.raise_if_any()
     assert species is not None
     assert model is not None
-    freed = [name for name in (TAIL_TILT,) if name in scenario.bounds and name not in species.free]
+    if TAIL_TILT in scenario.bounds and TAIL_TILT not in species.free:
+        species = dataclasses.replace(species, free=(*species.free, TAIL_TILT))
     return dataclasses.replace(model, aero=loads).problem(
         species,
         scenario.speed,
         climb=scenario.climb,
-        free=(*species.free, *freed),
         bounds="plausible" if scenario.within_plausible else dict(scenario.bounds),
         minimise=scenario.minimise,
         subject_to=scenario.limits,

@@ -45,7 +45,7 @@ NAMES = {
     "--airspeed fast": "aero.airspeed = 'fast'|use one of planar, full",
     "--force-point nose": "aero.force_point = 'nose'|use one of quarter-chord, centre-of-pressure",
     "--force-point centre-of-pressure --aero dickinson": "aero.force_point|and dickinson has none; use quar",
-    "--frequency 3": "--frequency",
+    "--wobble 3": "--wobble",
     "12": "'12'",
     "--json=perhaps": "--json|perhaps",
 }

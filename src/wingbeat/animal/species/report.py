@@ -17,7 +17,7 @@ from wingbeat.animal.species.numbers import (
 )
 
 
-def species_report(
+def report_of(
     head: str,
     numbers: Mapping[str, Number],
     bounds: Mapping[str, Bound],
@@ -46,8 +46,8 @@ def species_report(
         speeds = "{:g} to {:g}".format(*known.speeds) if known.speeds else ""
         rows.append(Row((name, low, high, unit, speeds, _mark(known.source, sources))))
     if rows:
-        head = ("quantity", "minimum", "maximum", "unit", "at [m/s]", "source")
-        blocks += [*_titled("plausible ranges"), Table(tuple(rows), head, "nrrlrr")]
+        columns = ("quantity", "minimum", "maximum", "unit", "at [m/s]", "source")
+        blocks += [*_titled("plausible ranges"), Table(tuple(rows), columns, "nrrlrr")]
     if frequencies:
         rows = []
         for own in frequencies:
@@ -56,8 +56,8 @@ def species_report(
             rows.append(
                 Row((own.basis, f"{own.value:g}", f"{low:g} to {high:g}", speeds, _mark(own.source, sources)))
             )
-        head = ("basis", "frequency [Hz]", "band [Hz]", "at [m/s]", "source")
-        blocks += [*_titled("frequencies of its flights"), Table(tuple(rows), head, "nrlrr")]
+        columns = ("basis", "frequency [Hz]", "band [Hz]", "at [m/s]", "source")
+        blocks += [*_titled("frequencies of its flights"), Table(tuple(rows), columns, "nrlrr")]
     for name, other in alternatives.items():
         blocks += [*_titled(f"alternative {name}: {other.reason}"), _numbers(other.numbers, sources)]
     if drawn:

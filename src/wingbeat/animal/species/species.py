@@ -51,7 +51,7 @@ from wingbeat.animal.species.numbers import (
     to_si,
     words,
 )
-from wingbeat.animal.species.report import species_report
+from wingbeat.animal.species.report import report_of
 from wingbeat.animal.species.scaling import muscle_numbers, tail_numbers
 from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.vehicle import Air, Vehicle
@@ -175,19 +175,7 @@ class Species(Reported):
         return Range(None, None, known.unit, f"{where}: {known.source}", known.speeds)
 
     def _report(self) -> Report:
-        names = ", ".join(name for name in (self.common_name, self.scientific_name, self.kind) if name)
-        bounds = {f"wingbeat.{name}": limits for name, limits in self.bounds.items()} | self.path_bounds
-        told = {path: path.removeprefix("wingbeat.") for path in bounds}
-        return species_report(
-            f"{self.name}{': ' if names else ''}{names}",
-            self.numbers,
-            {path: Bound(bounds[path], self.reasons[n], n in self.guessed_bounds) for path, n in told.items()},
-            self.plausible,
-            self.frequencies,
-            self.alternatives,
-            self.shape.numbers if self.shape else {},
-            self.warnings,
-        )
+        return species_report(self)
 
     def with_values(self, values: Mapping[str, Any]) -> Species:
         """Return this species with some numbers set.
@@ -248,19 +236,15 @@ class Species(Reported):
         return dataclasses.replace(changed, numbers=in_order(numbers))
 
     def with_free(self, names: Sequence[str]) -> Species:
-        """Return this species with more free parameters, within their plausible ranges.
+        """Return this species with more free parameters of the wingbeat, within their plausible ranges.
 
         Parameters
         ----------
-        names : of wingbeat parameters; one that is free already stays as it is.
+        names : of the parameters.
 
         Raises
         ------
         InvalidInputError : a name that is no parameter of the wingbeat, or one without a plausible range.
-
-        >>> from wingbeat import load_species
-        >>> load_species("pigeon").with_free(["twist_ratio"]).bounds["twist_ratio"]
-        (1.0, 2.0)
         """
         faults, bounds = FaultList(), dict(self.bounds)
         for name in names:
@@ -447,3 +431,20 @@ def _jsonable(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _jsonable(item) for key, item in value.items()}
     return [_jsonable(item) for item in value] if isinstance(value, tuple | list) else value
+
+
+def species_report(animal: Species) -> Report:
+    """Return every number of a species with its source, the bounds of free parameters, and the plausible ranges."""
+    names = ", ".join(name for name in (animal.common_name, animal.scientific_name, animal.kind) if name)
+    bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()} | animal.path_bounds
+    told = {path: path.removeprefix("wingbeat.") for path in bounds}
+    return report_of(
+        f"{animal.name}{': ' if names else ''}{names}",
+        animal.numbers,
+        {path: Bound(bounds[path], animal.reasons[n], n in animal.guessed_bounds) for path, n in told.items()},
+        animal.plausible,
+        animal.frequencies,
+        animal.alternatives,
+        animal.shape.numbers if animal.shape else {},
+        animal.warnings,
+    )

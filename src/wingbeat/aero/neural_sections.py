@@ -18,14 +18,12 @@ import math
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from wingbeat._base import FaultList, FileError, install_extra, read_text
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 LEAST_CONFIDENCE, GOOD_CONFIDENCE = 0.5, 0.9
 # NeuralFoil was trained from Re 1e3 on; below 5e3 its confidence falls under a half.

@@ -331,8 +331,7 @@ class MujocoFlight:
         # The joints as they would move if flap angle and wing pitch at the root were zero.
         self._besides = self._joints._replace(factors=self._joints.factors.copy())
         self._besides.factors[:, HINGES] = 0.0
-        # What the joints do when one of the five coordinates moves, and forces on the joints that do the work of
-        # forces on the coordinates.
+        # What the joints do when a coordinate moves, and forces on them that do the work of forces on coordinates.
         self._moved = np.zeros((self.model.nv, 5))
         self._moved[_BODY, :3] = np.eye(3)
         self._moved[_WINGS, 3:] = self._joints.factors[:, HINGES]

@@ -33,6 +33,7 @@ NO_ARRAY = {
     "fit",
     "function",
     "given",
+    "kernel",
     "like",
     "numbers",
     "stages",

@@ -21,6 +21,11 @@ Angles = Float[Any, "*angles"]
 Spline = Float[Any, "4 pieces"]
 PieceColumns = Float[Any, "numbers pieces"]
 Cells = Float[Any, "cells"]
+# A family of polars: logarithms of their Reynolds numbers, quintics between them, widths of both ends, weights.
+FamilyNodes = Float[Any, "members"]
+FamilyBasis = Float[Any, "6 gaps members"]
+FamilyEnds = Float[Any, "2"]
+FamilyWeights = Float[Any, "members *angles"]
 # Angles of a table's rows, and values at them.
 Knots = Float[Any, "knots"]
 

@@ -21,7 +21,7 @@ from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
 from wingbeat.aero.derived_kernels import ArmHandKernel, UpstrokeKernel
 
 if TYPE_CHECKING:
-    from wingbeat._jax.arrays import Angles, Scalar
+    from wingbeat._jax.arrays import Angles, FamilyBasis, FamilyEnds, FamilyNodes, FamilyWeights, Scalar
 
 # Polars nearer than this ratio are one stream, measured twice.
 _CLOSEST = 1.02
@@ -33,7 +33,7 @@ class FamilyAt(NamedTuple):
     """The kernel of a family at given Reynolds numbers: kernels of the members, and weights, shape (n, ...)."""
 
     members: tuple[Kernel, ...]
-    weights: Any
+    weights: FamilyWeights
 
     def lift_drag(self, alpha: Angles) -> tuple[Angles, Angles]:
         """Return C_L and C_D at `alpha` [rad], whose shape is that of the Reynolds numbers."""
@@ -56,11 +56,11 @@ class FamilyKernel(NamedTuple):
     """
 
     members: tuple[Kernel, ...]
-    nodes: Any
-    basis: Any
-    ends: Any
+    nodes: FamilyNodes
+    basis: FamilyBasis
+    ends: FamilyEnds
 
-    def at(self, reynolds: Any) -> FamilyAt:
+    def at(self, reynolds: Angles) -> FamilyAt:
         """Return the kernel at Reynolds numbers of any shape. Theory: equation ``reynolds-family``."""
         nodes, basis = jnp.asarray(self.nodes), jnp.asarray(self.basis)
         low, high = nodes[0], nodes[-1]
@@ -99,7 +99,7 @@ def depends_on_reynolds(kernel: Any) -> bool:
     )
 
 
-def at_reynolds(kernel: Any, reynolds: Any) -> Kernel:
+def at_reynolds(kernel: Any, reynolds: Angles) -> Kernel:
     """Return the kernel at the strips' Reynolds numbers, shape (N, ...); one that does not use them stays."""
     if isinstance(kernel, FamilyKernel):
         return kernel.at(reynolds)

@@ -329,6 +329,55 @@ def test_a_file_is_known_by_its_content_whatever_its_name(tmp_path):
         load_coefficients(str(tmp_path / "missing.dat"))
 
 
+def commas(text):
+    """Return a text as a program writes it whose numbers follow a German or French locale."""
+    return re.sub(r"(?<=\d)\.(?=\d)", ",", text)
+
+
+@pytest.mark.parametrize(
+    "form", ["XFOIL", "XFOIL, head with points", "two polars", *FORMS, "QBlade", "xflr5.csv ;"]
+)
+def test_decimal_commas_throughout_are_read_as_points_and_said(form, tmp_path):
+    """JavaFoil follows the locale of its machine; spreadsheets save the others so."""
+    texts = {"XFOIL": XFOIL, "XFOIL, head with points": XFOIL, "QBlade": QBLADE} | FORMS
+    texts["two polars"] = (OWN / "xfoil_naca4412_two_re.pol").read_text()
+    texts["xflr5.csv ;"] = (OWN / "xflr5_610.csv").read_text().replace(",", ";")
+    lines = texts[form].splitlines(keepends=True)
+    keep = 12 if form == "XFOIL, head with points" else 0
+    known = load_measurements(written(tmp_path, texts[form]))
+    found = load_measurements(written(tmp_path, "".join([*lines[:keep], commas("".join(lines[keep:]))])))
+    assert "decimal commas are read as points" in found.notes
+    for name in known.columns():
+        assert found.columns()[name] == pytest.approx(known.columns()[name], nan_ok=True), name
+
+
+UNSURE = {
+    "one comma": (XFOIL.replace("0.4478", "0,4478"), "'0,4478': has a comma, and 18 rows have decimal points"),
+    "some rows": (
+        "\n".join(commas(line) if k % 2 else line for k, line in enumerate(XFOIL.splitlines())),
+        "has a comma, and 9 rows have decimal points",
+    ),
+    "two readings": (
+        re.sub(r"(?m)^( +-?\d.*)", lambda row: re.sub(r"\d+\.\d+", "1,234", row[1]), XFOIL),
+        "two ways",
+    ),
+    "commas between": (commas((OWN / "xflr5_610.csv").read_text()), "has commas between columns and in numbers"),
+    "Re": (
+        commas(XFOIL).replace("0,050 e 6", "50,000"),
+        "'Re =     50,000': has a comma, which can mean two numbers",
+    ),
+    "Re of UIUC": (commas(UIUC).replace("  61000", "  61,000"), "has a comma, which can mean two numbers"),
+}
+
+
+@pytest.mark.parametrize("kind", UNSURE)
+def test_doubtful_commas_are_refused_in_one_sentence(kind, tmp_path):
+    text, words = UNSURE[kind]
+    said = refused(written(tmp_path, text))
+    assert words in said
+    assert "\n" not in said
+
+
 MUTILATIONS = 300
 
 

@@ -1,5 +1,6 @@
 """What is flown of tracked points besides angles: the fold with its wrist, and a body that changes speed."""
 
+import json
 import math
 import re
 import subprocess
@@ -11,6 +12,7 @@ import pytest
 import wingbeat as wb
 from tests.experiment.points_truth import a_beat, csv_of, points_of, tracked
 from wingbeat.animal.kinematics import recovery
+from wingbeat.cli import main
 from wingbeat.experiment import Film, TrackedPoints, angles_from_points, fit_body_path, fit_film, read_film
 
 TIME = np.arange(150) / 240
@@ -74,6 +76,75 @@ def test_a_body_that_slows_down_is_said_and_its_deceleration_is_part_of_the_miss
     spread = np.std([one.velocity[0] for one in path.draws(40)])
     # The error of a slope through 240 places, about.
     assert spread == pytest.approx(1e-3 * math.sqrt(12 / 240) / 0.48, rel=0.6)
+
+
+@pytest.mark.parametrize("shuffled", [False, True])
+def test_a_film_with_the_path_of_the_body_is_saved_with_times_and_read_again(shuffled, tmp_path):
+    # With phases alone, as they were written before, read_film refused the path of the body.
+    time = np.arange(120) / 240 + 0.1
+    columns = {"flap_deg": 40 * np.cos(2 * np.pi * 7 * time), "body_x_m": 8 * time, "body_z_m": 0.01 * np.sin(time)}
+    order = np.random.default_rng(1).permutation(120) if shuffled else np.arange(120)
+    film = Film("f", 7 * time[order], {name: one[order] for name, one in columns.items()}, 7.0, 0.01, wrist=0.4)
+    film.save(tmp_path / "film.csv")
+    again = read_film(tmp_path / "film.csv")
+    assert again.frequency == pytest.approx(7.0, abs=1e-4)
+    assert again.phase == pytest.approx(again.frequency * time, rel=1e-7)
+    assert list(again.columns) == list(film.columns)
+    for name, one in columns.items():
+        assert again.columns[name] == pytest.approx(one, rel=1e-6, abs=1e-9)
+    speed = [fit_body_path(fit_film(one), body_pitch=0.0).velocity[0] for one in (film, again)]
+    assert speed == pytest.approx([8.0, 8.0], abs=1e-3)
+
+
+def test_a_semi_span_that_is_not_the_species_own_is_said_with_the_setting_that_would_use_it(tmp_path):
+    pigeon, found = wb.load_species("pigeon"), angles()
+    found.save(tmp_path / "film.csv")
+    film = read_film(tmp_path / "film.csv")
+    assert film.semi_span == pytest.approx(found.semi_span, rel=1e-4)
+    own, seen = pigeon.vehicle.wing.semi_span, film.semi_span
+    said = f"film.csv: wing.semi_span is {seen:.4g} m in the film, and {own:.4g} is used; --set wing.semi_span="
+    assert abs(seen / own - 1) > 0.05
+    assert any(one.startswith(said) for one in wb.filmed_species(fit_film(film), pigeon).warnings)
+    same = pigeon.with_values({"wing.semi_span": 1.04 * seen})
+    assert not [one for one in wb.filmed_species(fit_film(film), same).warnings if "semi_span" in one]
+    (tmp_path / "bad.csv").write_text(
+        (tmp_path / "film.csv").read_text().replace("semi_span [m]", "semi_span [cm]")
+    )
+    with pytest.raises(wb.InvalidInputError, match=r"is not the expected unit, \[m\]"):
+        read_film(tmp_path / "bad.csv")
+
+
+def test_a_wrist_that_is_set_by_hand_replaces_the_films_and_other_numbers_do_not():
+    beat, pigeon = fit_film(angles().film), wb.load_species("pigeon")
+    assert wb.filmed_species(beat, pigeon).wingbeat.wrist == pytest.approx(0.45, abs=0.01)
+    own = pigeon.with_values({"wingbeat.wrist": 0.6, "wingbeat.flap_amplitude_deg": 20.0})
+    flown = wb.filmed_species(beat, own)
+    assert flown.wingbeat.wrist == 0.6
+    assert flown.wingbeat.flap_amplitude == beat.numbers["flap_amplitude"]
+    said = " | ".join(flown.warnings)
+    assert "wingbeat.wrist is 0.6, set by hand, in place of the film's 0.45" in said
+    assert "the film replaces what was set by hand: wingbeat.flap_amplitude" in said
+    assert "film's 0.45" not in " ".join(wb.filmed_species(beat, pigeon).warnings)
+
+
+def test_a_wrist_without_a_fold_is_used_by_none_and_said_where_the_species_folds():
+    phase, bat = np.arange(60) / 30, wb.load_species("bat")
+    beat = fit_film(Film("f", phase, {"flap_deg": 40 * np.cos(2 * np.pi * phase)}, 8.0, wrist=0.35))
+    assert bat.wingbeat.fold_amplitude
+    said = "f: wingbeat.wrist is 0.35 in the film, and 0.5 is used; --set wingbeat.wrist=0.35 would use the film's"
+    assert said in wb.filmed_species(beat, bat).warnings
+    pigeon = wb.load_species("pigeon")
+    assert not [one for one in wb.filmed_species(beat, pigeon).warnings if "wrist" in one]
+
+
+@pytest.mark.slow
+def test_the_answer_stands_beside_what_the_film_and_the_species_differ_in(tmp_path, capsys):
+    angles(0.0005).save(tmp_path / "film.csv")
+    words = ["--kinematics", str(tmp_path / "film.csv"), "--set", "wingbeat.wrist=0.6", "--beats", "1", "--json"]
+    main(["simulate", "pigeon", *words])
+    warnings = json.loads(capsys.readouterr().out)["warnings"]
+    assert any("wing.semi_span is" in one and "--set wing.semi_span=" in one for one in warnings)
+    assert any("wingbeat.wrist is 0.6, set by hand, in place of the film's" in one for one in warnings)
 
 
 @pytest.mark.slow

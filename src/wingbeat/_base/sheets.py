@@ -195,6 +195,47 @@ def _with_commas(
     return changed, plain, (f"read with {said}",)
 
 
+# A number between spaces, tabs or semicolons, and one whose comma can be nothing but decimal: 0,500 or 2,5.
+_EITHER = re.compile(r"[+-]?(\d+|\d*[.,]\d+)([eEdD][+-]?\d+)?$")
+_DECIMAL = re.compile(r"[+-]?(0*,\d+|\d+,(\d{1,2}|\d{4,}))([eEdD][+-]?\d+)?$")
+# A row of whole numbers between commas, some with zeros in front: the digits behind decimal commas.
+_COMMAS_ONLY = re.compile(r"(?=.*,\s*0\d)\s*[+-]?\d+(\s*,\s*[+-]?\d+){5,}\s*$")
+# A Reynolds number whose commas may stand between thousands, as XFOIL, UIUC and QBlade place it; 1,000 e 6 cannot.
+_MARKED = re.compile(
+    r"(?i)\bre\w*\s*[=:]\s*[1-9]\d{0,2}(,\d{3})+(?!\s*[ed]\s*[+\d])|^\s*[1-9]\d{0,2}(,\d{3})+\s*$"
+    r"|(,\d{3})+\s+(?-i:REYNOLDS)"
+)
+
+
+def decimal_points(faults: FaultList, file: str, lines: list[str]) -> list[str]:
+    """Return the lines of a program's text with points for decimal commas; the same list if no row has any.
+
+    Rows of numbers between spaces, tabs or semicolons show it: commas in numbers are decimal commas if one of them
+    can be nothing else, and no row has a point.
+
+    >>> decimal_points(FaultList(), "a.txt", ["Mach = 0,100", "1,000 -0,250 0,020"])
+    ['Mach = 0.100', '1.000 -0.250 0.020']
+    """
+    commas, points = list[tuple[int, str]](), 0
+    for number, line in enumerate(lines, start=1):
+        cells = re.split(r"[\s;]+", line.strip(" \t;"))
+        if _COMMAS_ONLY.match(line):
+            fix = "export with spaces or semicolons between columns"
+            faults.add(f"{file} row {number}", line.strip(), "has commas between columns and in numbers", fix)
+            faults.raise_if_any()
+        if len(cells) > 2 and all(_EITHER.match(cell) for cell in cells):
+            commas += [(number, cell) for cell in cells if "," in cell]
+            points += "." in line
+    if not commas:
+        return lines
+    if points or not any(_DECIMAL.match(cell) for _, cell in commas):
+        rule = f"has a comma, and {points} rows have decimal points" if points else "can be read in two ways"
+        number, cell = commas[0]
+        faults.add(f"{file} row {number}", cell, rule, "write decimal points, and no mark between thousands")
+        faults.raise_if_any()
+    return [line if _MARKED.search(line) else re.sub(r"(?<=\d),(?=\d)", ".", line) for line in lines]
+
+
 def read_sheet(path: str | Path, *, of_program: bool = False) -> Sheet:
     """Split a CSV file into its constants (``# name = value``) and its table, without converting numbers.
 

@@ -8,6 +8,7 @@ What differs from what one would guess: the table of tests/cases/README.md.
 
 from __future__ import annotations
 
+import functools
 import math
 import re
 from typing import NamedTuple
@@ -16,7 +17,7 @@ import numpy as np
 
 from wingbeat._base import FaultList
 from wingbeat._base.files import POLAR_SUFFIXES as POLAR_SUFFIXES
-from wingbeat._base.sheets import Sheet, same_name
+from wingbeat._base.sheets import Sheet, decimal_points, same_name
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eEdD][+-]?\d+)?$")
 # Programs whose polars have lines of text above the names of the columns.
@@ -64,15 +65,20 @@ def polar_of(faults: FaultList, file: str, text: str) -> PolarFile | None:
     lines = text.splitlines()
     start = "\n".join(lines[:60])
     if re.search(r"(?im)^[^!\n]*\bNumAlf\b", text):
-        return _airfoil_info(faults, file, lines)
-    if re.search(r"(?im)number of airfoil tables in this file", start):
-        return _aerodyn_14(faults, file, lines)
-    if re.search(r"(?m)^\S.*\s(POLARNAME|ISDECOMPOSED)\b", start):
-        return _qblade(faults, file, lines)
-    for program, pattern in _PROGRAMS.items():
-        if re.search(f"(?m){pattern}", start) and not start.lstrip().startswith("#"):
-            return _with_heads(faults, file, lines, program)
-    return None
+        read = _airfoil_info
+    elif re.search(r"(?im)number of airfoil tables in this file", start):
+        read = _aerodyn_14
+    elif re.search(r"(?m)^\S.*\s(POLARNAME|ISDECOMPOSED)\b", start):
+        read = _qblade
+    else:
+        program = next((name for name, pattern in _PROGRAMS.items() if re.search(f"(?m){pattern}", start)), "")
+        if not program or start.lstrip().startswith("#"):
+            return None
+        read = functools.partial(_with_heads, program=program)
+    plain = decimal_points(faults, file, lines)
+    found = read(faults, file, plain)
+    said = () if plain is lines else ("decimal commas are read as points",)
+    return found._replace(sheet=found.sheet._replace(notes=(*said, *found.sheet.notes)))
 
 
 def _plain(cells: list[str]) -> list[str]:
@@ -109,7 +115,7 @@ def _places(line: str, program: str) -> dict[str, int]:
     return found if {"alpha", "lift"} <= set(found) else {}
 
 
-def _with_heads(faults: FaultList, file: str, lines: list[str], program: str) -> PolarFile | None:
+def _with_heads(faults: FaultList, file: str, lines: list[str], program: str) -> PolarFile:
     """Read polars that have lines of text above the names of their columns, one below the other."""
     heads = [(i, places) for i, line in enumerate(lines) if (places := _places(line, program))]
     if not heads:
@@ -119,9 +125,6 @@ def _with_heads(faults: FaultList, file: str, lines: list[str], program: str) ->
     rows: list[_Row] = []
     notes: list[str] = []
     above = 0  # where the head of the polar begins
-    decimal = program == "JavaFoil" and any(re.search(r"\d,\d", line) for line in lines[heads[0][0] + 1 :])
-    if decimal:
-        notes.append("decimal commas are read as points")
     for (at, places), end in zip(heads, [*(i for i, _ in heads[1:]), len(lines)], strict=True):
         whole, separator = "\n".join(lines[above:at]), _separator(lines[at])
         if "drag" not in places:
@@ -137,7 +140,7 @@ def _with_heads(faults: FaultList, file: str, lines: list[str], program: str) ->
         names, above = _split(lines[at], separator), end
         for number, line in enumerate(lines[at + 1 : end], start=at + 2):
             text = line.strip()
-            cells = _split(line.replace(",", ".") if decimal and separator != "," else line, separator)
+            cells = _split(line, separator)
             if not text or set(text) <= set("- \t") or all(re.fullmatch(r"[\[(].*[\])]|-", c) for c in cells):
                 continue  # blank, a rule, or units
             numbers = [_NUMBER.match(cell) is not None for cell in cells]
@@ -164,7 +167,7 @@ def _with_heads(faults: FaultList, file: str, lines: list[str], program: str) ->
             faults.add(f"{file} row {at + 1}", lines[at].strip(), "has no row of numbers below it", fix)
             continue
         usual = max(set(widths), key=widths.count)
-        if usual < len(names) or (usual > len(names) and program not in ("XFLR5", "flow5")):
+        if not 0 <= usual - len(names) <= (2 if program in ("XFLR5", "flow5") else 0):
             rule = f"has {usual} cells, but the head names {len(names)} columns"
             faults.add(f"{file} row {own[0].row}", lines[own[0].row - 1].strip(), rule, _WHOLE)
             continue

@@ -21,7 +21,7 @@ from wingbeat.cli.terminal import answer, plain_console
 from wingbeat.experiment.film_fit import FilmedBeat
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.flights import check_samples
-from wingbeat.orbits.problem.filmed import filmed_species
+from wingbeat.orbits.problem.filmed import doubts_of, filmed_species
 from wingbeat.plots import film_page
 from wingbeat.records.numbers import beat_mean
 from wingbeat.records.orbit_record import crossing
@@ -101,6 +101,7 @@ def simulate(
         animal, whole = model.flown(species, set_)
         if kinematics is not None:
             beat = filmed.filmed_beat(kinematics, side)
+            doubts += doubts_of(beat, animal)
             animal = filmed_species(beat, animal)
         wingbeat, reach = animal.wingbeat, animal.path_bounds["flap"]
         if beat is not None and beat.film.shows_body:
@@ -114,7 +115,8 @@ def simulate(
             velocity = float(start.u), float(start.w)
             flown_by = FlightModel(animal.vehicle, whole.aero, animal.air, velocity=velocity)
     if prescribed is not None:
-        flight, errors, doubts = prescribed
+        flight, errors, more = prescribed
+        doubts += more
         record: dict[str, Any] = {"body": "prescribed", "trimmed": filmed.trimmed(flight.summary, errors)}
         record |= {"summary": flight.summary, "standard_errors": errors}
         report, completed = functools.partial(filmed.print_carried, flight.summary, errors), True
@@ -129,7 +131,7 @@ def simulate(
         record = {"completed": completed, "beats": rows}
         report = functools.partial(_print, rows, completed)
     notes = [*crossing(flight.model.vehicle, flight.model.strips, wingbeat, reach)]
-    notes += [*(beat.warnings if beat else ()), *doubts]
+    notes += doubts
     record |= {"warnings": notes} | ({} if beat is None else {"kinematics": filmed.film_record(beat)})
     with answer() as told:
         told.tell(record, report, json)

@@ -74,6 +74,7 @@ class Film:
     stated : the frequency that the film's file states, None if it states none [Hz].
     read_notes, read_warnings : what the reader of the file found, see `notes` and `warnings`.
     wrist : where the hand folds, as a fraction of the span; None if not filmed.
+    semi_span : shoulder to tip of the spread wing [m]; None if not measured. It is compared with the species'.
 
     Attributes
     ----------
@@ -99,6 +100,7 @@ class Film:
     read_notes: tuple[str, ...] = ()
     read_warnings: tuple[str, ...] = ()
     wrist: float | None = None
+    semi_span: float | None = None
     clip: Clip | None = field(default=None, init=False)
     notes: tuple[str, ...] = field(default=(), init=False)
     warnings: tuple[str, ...] = field(default=(), init=False)
@@ -111,6 +113,8 @@ class Film:
         if self.wrist is not None:
             fix = "a fraction of the span, from the shoulder"
             faults.number(f"{self.name}, wrist", self.wrist, above=0, below=1, fix=fix)
+        if self.semi_span is not None:
+            faults.number(f"{self.name}, semi_span", self.semi_span, above=0, unit="m")
         if not set(self.columns) & set(FILMED) or set(self.columns) - set(COLUMNS):
             shown = ", ".join(self.columns) or "nothing"
             faults.add(f"{self.name}, columns", shown, "cannot be filmed", f"any of {', '.join(COLUMNS)}")
@@ -241,7 +245,7 @@ class Film:
         return found
 
     def save(self, path: str | Path) -> None:
-        """Write the film as a CSV file that `read_film` reads.
+        """Write the film as a CSV file that `read_film` reads, with phases; with times if it shows the body's path.
 
         Parameters
         ----------
@@ -258,7 +262,12 @@ class Film:
             lines += [f"# frequency [Hz] = {self.frequency!r}", f"# frequency_se [Hz] = {self.frequency_se!r}"]
         if self.wrist is not None:
             lines.append(f"# wrist = {self.wrist!r}")
-        write_columns(path, lines, {"phase": self.phase, **self.columns})
+        if self.semi_span is not None:
+            lines.append(f"# semi_span [m] = {self.semi_span!r}")
+        clock, order = {"phase": self.phase}, np.arange(len(self.phase))
+        if self.shows_body and self.frequency is not None:  # the path of a body needs times, which rise
+            clock, order = {"time [s]": self.phase / self.frequency}, np.argsort(self.phase, kind="stable")
+        write_columns(path, lines, {name: column[order] for name, column in (clock | self.columns).items()})
 
 
 def check_flap(faults: FaultList, where: str, clock: Array, flap: Array) -> None:

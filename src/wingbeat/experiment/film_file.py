@@ -28,7 +28,7 @@ from wingbeat.experiment.periodic import MIN_BEATS, SURE, Array, Clip, clip_rate
 # 100 s at 1000 frames a second: no animal repeats one wingbeat for longer. The fit of so many takes a second.
 MAX_FRAMES = 100_000
 _CLOCKS = {"phase": "", "time": "s", "frame": ""}
-_CONSTANTS = {"frequency": "Hz", "frequency_se": "Hz", "frame_rate": "Hz", "wrist": ""}
+_CONSTANTS = {"frequency": "Hz", "frequency_se": "Hz", "frame_rate": "Hz", "wrist": "", "semi_span": "m"}
 _SPELLINGS = {
     **{same_name(name): name for name in (*_CLOCKS, *COLUMNS, *_CONSTANTS)},
     **dict.fromkeys(("frames", "framenumber", "frameno", "frameindex", "fnum"), "frame"),
@@ -63,7 +63,8 @@ def read_film(path: str | Path, side: str = "both") -> Film:
     One column is phase (in beats), time [s], or frame (a number, which needs a line ``# frame rate [Hz] = 240``).
     Times and frames need a line ``# frequency [Hz] = 6.1`` above the table if the clip has fewer than two beats. A
     longer clip determines its frequency; one that disagrees is refused. A line ``# wrist = 0.5`` says where the
-    hand folds, as a fraction of the span. The other columns are any of those of `Film`, each for both wings
+    hand folds, as a fraction of the span; a line ``# semi_span [m] = 0.31``, how long the spread wing is. The
+    other columns are any of those of `Film`, each for both wings
     together or for one wing: ``left_flap_deg``, ``right_flap_deg``; unknown columns are refused. A cell is empty,
     NaN or NA where the wing was not seen.
 
@@ -119,8 +120,8 @@ def read_film(path: str | Path, side: str = "both") -> Film:
     synthetic = any(same_name(key) == "synthetic" for key in sheet.constants)
     stated = given["frequency"].value if "frequency" in given else None
     notes = (*sheet.notes, *notes)
-    wrist = given["wrist"].value if "wrist" in given else None
-    return Film(sheet.file, phase, columns, rate, rate_se, synthetic, fitted, stated, notes, warnings, wrist)
+    wrist, span = (given[name].value if name in given else None for name in ("wrist", "semi_span"))
+    return Film(sheet.file, phase, columns, rate, rate_se, synthetic, fitted, stated, notes, warnings, wrist, span)
 
 
 def _columns(faults: FaultList, sheet: Sheet) -> list[tuple[str, str]]:
@@ -181,7 +182,7 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, _Given]:
         if name == "wrist":
             faults.number(where, value, above=0, below=1, fix="a fraction of the span, from the shoulder")
         else:
-            faults.number(where, value, above=above, at_least=at_least, unit="Hz")
+            faults.number(where, value, above=above, at_least=at_least, unit=unit)
         if name in found:
             faults.add(where, text, f"is given twice, as {found[name].text} too", "keep one")
         found[name] = _Given(value, text, where)

@@ -35,6 +35,8 @@ _SWAPPED, _SWAPPED_SHARE = 9.0, 0.25
 _ONCE = 0.4
 # A filmed fold that differs from its law by this and by so many errors does not follow it [deg].
 _LEAST_FOLD, _SURE_FOLD = 2.0, 4.0
+# A length of the filmed animal that differs from the species' by more than this share is said.
+_UNLIKE = 0.05
 
 
 def _drawn_in(law: str, mean: float, waves: list[float]) -> dict[str, Any]:
@@ -236,6 +238,23 @@ class FilmedBeat:
             f"{self.film.name}, column fold_deg: the model folds the hand by {size:.3g} deg (1 - sin)/2, which is "
             f"{abs(off[worst]):.2g} +- {error[worst]:.1g} deg {way} than filmed at "
             f"phase {phase[worst]:.2f} (0 is the top of the stroke); the filmed fold does not follow this law",
+        )
+
+    def differences(self, vehicle: Vehicle, wingbeat: Wingbeat) -> tuple[str, ...]:
+        """Return a sentence for each length that was measured, is not used, and differs by more than a twentieth.
+
+        Parameters
+        ----------
+        vehicle, wingbeat : with the semi-span and the wrist that are used.
+        """
+        pairs = {"wing.semi_span": (self.film.semi_span, vehicle.wing.semi_span)}
+        if "fold_deg" not in self.laws and wingbeat.fold_amplitude:
+            pairs["wingbeat.wrist"] = self.film.wrist, wingbeat.wrist
+        return tuple(
+            f"{self.film.name}: {path} is {measured:.4g}{' m' * (path == 'wing.semi_span')} in the film, and "
+            f"{own:.4g} is used; --set {path}={measured:.4g} would use the film's"
+            for path, (measured, own) in pairs.items()
+            if measured is not None and abs(measured - own) > _UNLIKE * own
         )
 
     @property

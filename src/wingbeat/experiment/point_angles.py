@@ -144,6 +144,7 @@ class PointAngles:
         lines = [f"# note: {note}" for note in self.notes]
         lines += [f"# frequency [Hz] = {film.frequency!r}", f"# frequency_se [Hz] = {film.frequency_se!r}"]
         lines += [] if film.wrist is None else [f"# wrist = {film.wrist:.4f}"]
+        lines += [] if film.semi_span is None else [f"# semi_span [m] = {film.semi_span:.5g}"]
         write_columns(path, lines, {"time [s]": self.time, **film.columns})
 
 
@@ -347,7 +348,7 @@ def angles_from_points(
     wrists = [found["wrist"] for found in every.values() if "wrist" in found]
     film = Film(
         file, clip.rate * time, columns, clip.rate, clip.rate_se, False, True, None, tuple(notes), tuple(warnings),
-        float(np.nanmean(wrists)) if len(wrists) == len(every) else None,
+        float(np.nanmean(wrists)) if len(wrists) == len(every) else None, full * metres if unit else None,
     )  # fmt: skip
     beat = fit_film(film)
     # Scatter that the noise of the points explains is no sign of beats that differ.

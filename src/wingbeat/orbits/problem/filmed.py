@@ -25,6 +25,10 @@ class Filmed(Protocol):
         """Return the fields of a `Wingbeat` that the film gives, SI and radians."""
         ...
 
+    def differences(self, vehicle: Vehicle, wingbeat: Wingbeat) -> tuple[str, ...]:
+        """Return what was measured on the filmed animal, is not used, and differs from what is."""
+        ...
+
     @property
     def held(self) -> frozenset[str]:
         """Names of the parameters that an orbit must not change."""
@@ -38,6 +42,8 @@ class Filmed(Protocol):
 
 def filmed_species(beat: Filmed, species: Species) -> Species:
     """Return a species with the filmed wingbeat and its warnings; parameters that were not filmed do not change.
+
+    A wrist that was set by hand stays, and the film replaces other numbers that were; a warning says so.
 
     Parameters
     ----------
@@ -55,9 +61,24 @@ def filmed_species(beat: Filmed, species: Species) -> Species:
     >>> round(filmed.wingbeat.frequency / pigeon.wingbeat.frequency, 2)
     1.0
     """
-    filmed = beat.numbers_of(species.vehicle, species.wingbeat)
+    filmed = dict(beat.numbers_of(species.vehicle, species.wingbeat))
+    if species.is_set_by_hand("wingbeat.wrist"):
+        filmed.pop("wrist", None)
     changed = species.with_values({f"wingbeat.{name}": value for name, value in filmed.items()})
-    return dataclasses.replace(changed, warnings=(*changed.warnings, *beat.warnings))
+    return dataclasses.replace(changed, warnings=(*changed.warnings, *doubts_of(beat, species)))
+
+
+def doubts_of(beat: Filmed, species: Species) -> tuple[str, ...]:
+    """Return the warnings of a film, with those on numbers of the species that it contradicts."""
+    filmed, found = beat.numbers_of(species.vehicle, species.wingbeat), [*beat.warnings]
+    lost = [name for name in filmed if species.is_set_by_hand(f"wingbeat.{name}")]
+    lost = [name for name in lost if filmed[name] != getattr(species.wingbeat, name)]
+    if "wrist" in lost:
+        own = species.wingbeat.wrist
+        found.append(f"wingbeat.wrist is {own:.4g}, set by hand, in place of the film's {filmed['wrist']:.4g}")
+    if others := [f"wingbeat.{name}" for name in lost if name != "wrist"]:
+        found.append(f"the film replaces what was set by hand: {', '.join(others)}")
+    return (*found, *beat.differences(species.vehicle, species.wingbeat))
 
 
 def trim_of(beat: Filmed, species: Species) -> tuple[tuple[str, ...], dict[str, tuple[float, float]]]:

@@ -28,9 +28,12 @@ if TYPE_CHECKING:
 # --- options ---
 
 
-def option(text: str, *names: str) -> Parameter:
-    """Return an option or an argument with its help, and its names if it is not called as its parameter is."""
-    return Parameter(name=names or None, help=text)
+def option(text: str, *names: str, signed: bool = False) -> Parameter:
+    """Return an option or an argument with its help, and its names if it is not called as its parameter is.
+
+    The value of a `signed` one may begin with a minus that belongs to no number, as in ``--up -y``.
+    """
+    return Parameter(name=names or None, help=text, allow_leading_hyphen=signed)
 
 
 def flag(text: str) -> Parameter:

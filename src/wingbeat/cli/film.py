@@ -34,8 +34,13 @@ def film(
     side: Annotated[
         Literal["left", "right", "both"] | None, option("The wing that was tracked, or the one to use.")
     ] = None,
-    up: Annotated[str | None, option("The file's vertical axis, such as z or -y; default: found.")] = None,
-    forward: Annotated[str | None, option("The file's axis in which the animal flies; default: found.")] = None,
+    up: Annotated[
+        str | None,
+        option("The file's vertical axis, z or -y, or a direction: 0.1,-0.99,0.05; default: found.", signed=True),
+    ] = None,
+    forward: Annotated[
+        str | None, option("The file's axis in which the animal flies; default: found.", signed=True)
+    ] = None,
     units: Annotated[Literal["m", "cm", "mm"] | None, option("Unit of the coordinates; default: found.")] = None,
     semi_span: Annotated[
         float | None, option("Shoulder to tip of the spread wing [m]; default: the beat's largest.")

@@ -191,7 +191,7 @@ def angles_from_points(
     points : which point is what, see `name_points`; None for usual names such as left_wrist.
     frame_rate : frames per second, if the file does not state it [Hz].
     side : "left", "right" or "both" wings; None for all that are named.
-    up, forward : axis of the file, such as "z" or "-y"; None to find it.
+    up, forward : axis of the file, "z" or "-y", or three numbers, "0.1,-0.99,0.05"; None to find it.
     units : "m", "cm" or "mm"; None for the file's, or the only one that suits an animal.
     semi_span : length from shoulder to tip of the spread wing [m]; None for the largest of the beat.
 

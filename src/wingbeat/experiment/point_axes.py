@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import NamedTuple
 
 import numpy as np
@@ -21,6 +22,8 @@ _CLEAR_SWING = 2.0
 _ALONG = 0.77
 # Without travel, nothing tells a vertical stroke from a horizontal one but the swing of the tip.
 _CLEAR_TETHERED = 1.4
+# A direction is an axis of the file if it is this near [cosine].
+_AN_AXIS = 0.99999
 # A climb or descent above this is said [deg].
 _STEEP = 20.0
 
@@ -60,18 +63,32 @@ def _without(vector: Array, along: Array) -> Array:
 
 
 def axis_vector(faults: FaultList, where: str, word: str | None) -> Array | None:
-    """Return the unit vector of a word such as "z", "+y" or "-x"; None without a word, or with a fault noted."""
-    match = re.fullmatch(r"([+-]?)([xyz])", (word or "").strip().lower())
-    if word is None or match is None:
-        if word is not None:
-            faults.add(where, word, "is no axis", "write x, y or z, with - for the opposite direction, such as -y")
+    """Return the unit vector of a word: "z", "+y", "-x", or three numbers such as "0.1,-0.99,0.05".
+
+    None without a word, or with a fault noted.
+
+    >>> axis_vector(FaultList(), "--up", "-y").tolist(), axis_vector(FaultList(), "--up", "0,3,4").tolist()
+    ([-0.0, -1.0, -0.0], [0.0, 0.6, 0.8])
+    """
+    if word is None:
         return None
-    return (-1.0 if match[1] == "-" else 1.0) * np.eye(3)["xyz".index(match[2])]
+    if match := re.fullmatch(r"([+-]?)([xyz])", word.strip().lower()):
+        return (-1.0 if match[1] == "-" else 1.0) * np.eye(3)["xyz".index(match[2])]
+    with suppress(ValueError):
+        vector = np.array([float(cell) for cell in re.split(r"[\s,;]+", word.strip(" ()[]"))])
+        length = float(np.linalg.norm(vector))
+        if vector.shape == (3,) and 0 < length < math.inf:
+            return vector / length
+    fix = "write x, y or z, with - for the opposite direction, such as -y, or three numbers, such as 0.1,-0.99,0.05"
+    faults.add(where, word, "is no axis", fix)
+    return None
 
 
-def axis_name(vector: Array) -> str:
-    """Return the nearest axis of the file, such as "+z"."""
+def axis_name(vector: Array, *, nearest: bool = True) -> str:
+    """Return the nearest axis of the file, such as "+z"; if not `nearest`, three numbers for another direction."""
     k = int(np.argmax(np.abs(vector)))
+    if not nearest and abs(vector[k]) < _AN_AXIS:
+        return ",".join(f"{part:.3g}" for part in vector)
     return f"{'-' if vector[k] < 0 else '+'}{'xyz'[k]}"
 
 
@@ -152,6 +169,7 @@ def find_axes(
                 "travel: if it hovers with a horizontal stroke, give --up"
             )
     assert up is not None
+    shown, opposite = (axis_name(one, nearest=False) for one in (up, -up))
     if way is None:
         one, span = next(iter(spans.items()))
         out = _unit(_without(np.nanmean(span / np.linalg.norm(span, axis=1)[:, None], axis=0), up))
@@ -159,7 +177,7 @@ def find_axes(
     flat = _without(way, up)
     if np.linalg.norm(flat) < 0.3:
         rule, fix = f"is along the direction of flight, {axis_name(way)}", "give --up, or --forward, or both"
-        raise InvalidInputError([Fault(f"{file}, up", axis_name(up), rule, fix)])
+        raise InvalidInputError([Fault(f"{file}, up", shown, rule, fix)])
     flat = _unit(flat)
     left = np.cross(up, flat)
     outs = {one: float(np.nanmean(span @ left)) for one, span in spans.items()}
@@ -171,32 +189,28 @@ def find_axes(
         asked = one or (side if side in ("left", "right") else "")
         if not asked or asked == lies:
             continue
-        name = axis_name(up)
-        other = axis_name(-up)
         if not found:
             rule = (
-                f"but with {name} up and {axis_name(flat)} forward the wing lies on the {lies} "
+                f"but with {shown} up and {axis_name(flat)} forward the wing lies on the {lies} "
                 "(left = up x forward)"
             )
             fix = (
-                f"if the axes are right-handed, up is {other}: give --up {other}; if up is {name}, the axes are "
-                f"left-handed or it is the {lies} wing: give --up {name}"
+                f"if the axes are right-handed, up is {opposite}: give --up {opposite}; if up is {shown}, the axes "
+                f"are left-handed or it is the {lies} wing: give --up {shown}"
             )
             raise InvalidInputError([Fault(f"{file}, side", asked, rule, fix)])
         warnings.append(
-            f"{file}: with {name} up and {axis_name(flat)} forward the {asked} wing lies on the {lies}: the axes "
+            f"{file}: with {shown} up and {axis_name(flat)} forward the {asked} wing lies on the {lies}: the axes "
             "are left-handed, or the side is wrong; the angles are the same"
         )
         break
     if not any(named.wings) and side is None and not found:
         notes.append(
-            f"{file}: up is {axis_name(up)}, {said}; in right-handed axes this is the "
-            f"{next(iter(true.values()))} wing. If it is the other wing, give --up {axis_name(-up)}"
+            f"{file}: up is {shown}, {said}; in right-handed axes this is the "
+            f"{next(iter(true.values()))} wing. If it is the other wing, give --up {opposite}"
         )
     else:
-        notes.append(
-            f"{file}: up is {axis_name(up)}, from {said}" if found else f"{file}: up is {axis_name(up)}, {said}"
-        )
+        notes.append(f"{file}: up is {shown}, from {said}" if found else f"{file}: up is {shown}, {said}")
     tilt = math.degrees(math.asin(np.clip(way @ up, -1, 1)))
     notes.append(f"{file}: forward is {np.round(flat, 2).tolist()}, from {how}")
     climb = math.asin(np.clip(velocity @ up / speed, -1, 1)) if travels else 0.0

@@ -165,7 +165,8 @@ def read_points(source: Any) -> TrackedPoints:
     if table.kind == "DeepLabCut":
         warnings.append(
             f"{path.name}: DeepLabCut triangulates in the axes of its first camera, x right, y down, z away. "
-            "If nobody turned them, give --up -y; a camera that is not level tilts the stroke by its own angle"
+            "If nobody turned them, give --up -y; a camera that is not level tilts the stroke by its own angle: "
+            "--up takes its true direction too, such as --up=0,-0.96,-0.29 of one that looks 17 degrees down"
         )
     for name, at in positions.items():
         for k, (other, part) in enumerate(table.labels):

@@ -70,7 +70,8 @@ GROUPS = (
     ("flap_amplitude_deg", "flap amplitude", VERMILION, "s"),
     ("positive_power_per_mass", "power per mass", GREEN, "^"),
     ("muscle_power_per_mass", "power per muscle mass", GREEN, "v"),
-    ("muscle_efficiency", "muscle efficiency", PURPLE, "D"),
+    ("net_muscle_efficiency", "net efficiency of the muscle", PURPLE, "D"),
+    ("flight_efficiency", "efficiency of the flight", PURPLE, "P"),
 )
 
 

@@ -27,6 +27,10 @@ QUANTITIES = (
     "muscle_power_per_mass",
     "muscle_efficiency",
 )
+# Numbers of metabolism that change neither the flight nor a compared quantity.
+_WITHOUT_EFFECT = {
+    f"muscle.{name}" for name in ("activation_energy", "recovery_factor", "resting_rate", "support_factor")
+}
 
 
 def ranges(animal: str) -> dict[str, tuple[float, float]]:
@@ -36,7 +40,7 @@ def ranges(animal: str) -> dict[str, tuple[float, float]]:
     speeds = read_measured_flights(animal).speeds
     found = {"speed": (speeds[0], speeds[-1])}
     for one in parameters_of(problem):
-        if one.path.startswith("air."):  # known where a flight is measured
+        if one.path.startswith("air.") or one.path in _WITHOUT_EFFECT:  # air is known where a flight is measured
             continue
         estimate = terms.get(one.path.removeprefix("aero.wing."))
         limits = (estimate.low, estimate.high) if estimate is not None else one.plausible

@@ -26,6 +26,7 @@ from wingbeat_explorer.models import EXPLORER_MODELS
 _LISTED = {
     "mean_positive_power": "mechanical power at the wing hinges, mean of the positive part",
     "metabolic_power": "metabolic power of the flight muscle alone",
+    "metabolic_rate": "metabolic rate of the whole animal, an estimate",
     "electrical_power": "electrical power",
     "cost_of_transport": "cost of transport",
     "reduced_frequency": "reduced frequency",

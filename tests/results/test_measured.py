@@ -65,12 +65,12 @@ def test_powers_are_compared_with_their_own_kind():
     without = measured_beside(curve_of(), given)
     assert [(p["quantity"], p["compared_with"], p["residual"]) for p in without["points"]] == [
         ("mechanical_power", "mean_positive_power", -3.0),
-        ("metabolic_power", "metabolic_power", None),
+        ("metabolic_power", "metabolic_rate", None),
     ]
     assert "the curve has no metabolic power; --model animal gives one" in without["notes"][0]
-    whole = curve_of(metabolic_power=[50.0, 40.0, 40.0, np.nan, 60.0])
+    whole = curve_of(metabolic_rate=[50.0, 40.0, 40.0, np.nan, 60.0])
     assert [point["residual"] for point in measured_beside(whole, given)["points"]] == [-3.0, 15.0]
-    older = curve_of("metabolic_power", objective_value=[50.0, 40.0, 40.0, np.nan, 60.0])
+    older = curve_of("metabolic_rate", objective_value=[50.0, 40.0, 40.0, np.nan, 60.0])
     assert measured_beside(older, given)["points"][1]["residual"] == 15.0
 
 
@@ -122,7 +122,7 @@ def test_a_power_of_zero_has_no_share_and_no_division():
     assert "  residual = measured - computed: mean +2 W, rms 2 W, of 2" in texts
 
 
-@pytest.mark.parametrize("columns", [{}, {"metabolic_power": [50.0, 40.0, 40.0, np.nan, 60.0]}])
+@pytest.mark.parametrize("columns", [{}, {"metabolic_rate": [50.0, 40.0, 40.0, np.nan, 60.0]}])
 def test_each_kind_of_power_has_its_own_panel(columns):
     given = flights(
         [3.0, 5.0, 14.0],
@@ -152,7 +152,7 @@ def test_each_kind_of_power_has_its_own_panel(columns):
     (bars,) = drawn[frequency]["measured frequency, mine.csv"][2]
     assert [np.ptp(bar[:, 1]) for bar in bars.get_segments()] == pytest.approx([1.0, 0.4, 0.0])
     words = metabolic.get_ylabel()
-    assert words.startswith("metabolic power of the flight muscle" if columns else "metabolic power, measured [W]")
+    assert words.startswith("metabolic rate of the whole animal" if columns else "metabolic power, measured [W]")
     check_legends(figure)
 
 

@@ -193,6 +193,7 @@ def axis_label(name: str, full: bool = False) -> str:
 _WORDS = {"su-fan": "Su-Fan", "dickinson": "Dickinson", "wang": "Wang", "whitney-wood": "Whitney and Wood"}
 _WORDS |= {"parslew-crowther": "Parslew and Crowther", "byl": "Byl", "strouhal": "Strouhal number"}
 _WORDS |= {"metabolic_power": "metabolic power of the flight muscle", "reynolds": "Reynolds number"}
+_WORDS |= {"metabolic_rate": "metabolic rate of the whole animal"}
 
 
 def in_words(name: str) -> str:

@@ -66,13 +66,16 @@ def isometric_share(shortening: Series, curvature: Any) -> Series:
     return 1.0 / force_at(inside, curvature) + slope * jnp.maximum(shortening - _LAST_SHARE, 0.0)
 
 
-def metabolic_power(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[Series, Series]:
+def metabolic_power(
+    muscle: Muscle, torque: Series, flap_rate: Series, recoil: Series | float = 0.0
+) -> tuple[Series, Series]:
     """Return the metabolic powers of elevators and depressors [W], shape (K,); only positive values count.
 
     Equation: ``T omega_max Phi(q)``, with T the isometric torque of the active fibres and omega_max the flap rate
     at which they exert no torque. The elevators exert upward torques, and the depressors downward ones: `torque` is
     that of both wings, up positive [N m], as is `flap_rate` [rad/s]. At each instant, the muscle that does not
-    exert the torque rests, and its value is negative. The power of the rest of the body is not included.
+    exert the torque rests, and its value is negative. The power of the rest of the body is not included. The
+    `recoil` of the elevators' tendon is added to their rate; see `tendon_recoil`.
     """
 
     def cost(shortening: Series) -> Series:
@@ -80,18 +83,49 @@ def metabolic_power(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[
         return muscle.max_flap_rate * per_torque
 
     shortening = flap_rate / muscle.max_flap_rate
-    return torque * cost(shortening), -torque * cost(-shortening)
+    return torque * cost((flap_rate + recoil) / muscle.max_flap_rate), -torque * cost(-shortening)
 
 
-def activation(muscle: Muscle, torque: Series, flap_rate: Series) -> tuple[Series, Series]:
+def activation(
+    muscle: Muscle, torque: Series, flap_rate: Series, recoil: Series | float = 0.0
+) -> tuple[Series, Series]:
     """Return the shares of active fibres that elevators and depressors need; above 1, a muscle is too weak.
 
-    At each instant one muscle rests; its share is negative. Torque and rate are as for `metabolic_power`.
+    At each instant one muscle rests; its share is negative. Torque, rate and recoil are as for `metabolic_power`.
     """
     shortening, whole = flap_rate / muscle.max_flap_rate, muscle.depressor_torque
-    up = torque * isometric_share(shortening, muscle.curvature) / (whole * muscle.elevator_share)
+    elevating = (flap_rate + recoil) / muscle.max_flap_rate
+    up = torque * isometric_share(elevating, muscle.curvature) / (whole * muscle.elevator_share)
     down = -torque * isometric_share(-shortening, muscle.curvature) / whole
     return up, down
+
+
+def tendon_recoil(muscle: Muscle, torque: Series, period: Any) -> Series:
+    """Return the rate that the tendon of the elevators adds to the flap rate at the muscle [rad/s], shape (K,).
+
+    Equation: ``C torque'``. The tendon lies in series with the elevators, so that their angle is ahead of the
+    wing's by C times the torque. It lengthens while they brake the downstroke, and shortens during the upstroke:
+    they then shorten less than the wing moves. It holds where the elevators exert the torque.
+    """
+    return muscle.tendon_compliance * periodic_rate(torque, period)
+
+
+def activation_power(muscle: Muscle, up: Series, down: Series, frequency: Any) -> Any:
+    """Return the power that the activation of elevators and depressors takes [W].
+
+    Equation: ``e f m (s max(up) + max(down))``: once a beat, each muscle activates as many fibres as it needs at
+    most, and e is the energy for that per mass. The shares `up` and `down` are those of `activation`.
+
+    Source of e: Barclay, Woledge and Curtin 2007, J Muscle Res Cell Motil 28:259, doi 10.1007/s10974-007-9116-7,
+    abstract: pumping takes 30 to 40 % of the energy of isometric contraction.
+
+    >>> from wingbeat.animal.vehicle import Muscle
+    >>> muscle = Muscle(0.06, 0.2, 0.15, 20.0, 250e3, 0.36, activation_energy=5.0)
+    >>> round(float(activation_power(muscle, jnp.array([-1.0, 0.5]), jnp.array([0.4, -1.0]), 6.0)), 3)
+    0.9
+    """
+    active = muscle.elevator_share * jnp.maximum(jnp.max(up), 0.0) + jnp.maximum(jnp.max(down), 0.0)
+    return muscle.activation_energy * frequency * muscle.mass * active
 
 
 def best_efficiency(curvature: Any) -> Any:

@@ -171,10 +171,15 @@ class Muscle:
     max_strain_rate : largest speed of shortening, in lengths per second [1/s].
     isometric_stress : stress of fully active fibres that keep their length [Pa].
     curvature : k of Hill's relation [-]; the smaller k is, the faster the force falls with speed.
+    tendon_compliance : one over the stiffness of the elevators' tendon, both sides [rad/(N m)]; 0 is rigid.
+    activation_energy : of one contraction, to release and pump back calcium, per mass of active fibres [J/kg].
+    recovery_factor : initial metabolism and recovery together, divided by the initial one [-].
+    resting_rate : metabolic rate of the whole animal at rest [W]; like the next, not of its muscle alone.
+    support_factor : metabolic rate with posture, breathing and circulation, divided by that without [-].
 
     Raises
     ------
-    InvalidInputError : a number that is not positive or not finite.
+    InvalidInputError : a number that is not finite, or out of range.
 
     >>> muscle = Muscle(0.057, 0.16, 0.18, max_strain_rate=12.0, isometric_stress=130e3, curvature=0.25)
     >>> round(float(muscle.max_flap_rate), 1), round(float(muscle.depressor_torque), 2)
@@ -187,17 +192,24 @@ class Muscle:
     max_strain_rate: float
     isometric_stress: float
     curvature: float
+    tendon_compliance: float = 0.0
+    activation_energy: float = 0.0
+    recovery_factor: float = 1.0
+    resting_rate: float = 0.0
+    support_factor: float = 1.0
 
     def __post_init__(self) -> None:
         faults = FaultList()
-        together = "give the mass of the depressors of both sides together"
-        faults.number("muscle.mass", self.mass, above=0, unit="kg", fix=together)
+        faults.number("muscle.mass", self.mass, above=0, unit="kg", fix="count the depressors of both sides")
         faults.number("muscle.elevator_share", self.elevator_share, above=0, at_most=2)
         faults.number("muscle.strain_per_angle", self.strain_per_angle, above=0, unit="1/rad")
-        lengths = "give lengths per second"
-        faults.number("muscle.max_strain_rate", self.max_strain_rate, above=0, unit="1/s", fix=lengths)
+        faults.number("muscle.max_strain_rate", self.max_strain_rate, above=0, unit="1/s", fix="in lengths")
         faults.number("muscle.isometric_stress", self.isometric_stress, above=0, unit="Pa")
         faults.number("muscle.curvature", self.curvature, above=0, fix="fast muscle has 0.15 to 0.4")
+        for name in ("tendon_compliance", "activation_energy", "resting_rate"):
+            faults.number(f"muscle.{name}", getattr(self, name), at_least=0, fix="0 leaves it out")
+        for name in ("recovery_factor", "support_factor"):
+            faults.number(f"muscle.{name}", getattr(self, name), at_least=1, fix="1 leaves it out")
         faults.raise_if_any()
 
     @property
@@ -221,8 +233,8 @@ class Muscle:
 class Motor:
     """A motor that flaps both wings but does not pitch them: with brushes, or brushless with its controller.
 
-    For two motors, one for each wing, give the same torque constant, half of the resistance, twice the rotor
-    inertia and twice the no-load current. Torques and currents are then sums of both motors.
+    For two motors, one for each wing, give half of the resistance, twice the rotor inertia and twice the no-load
+    current. Torques and currents are then sums.
 
     Parameters
     ----------
@@ -280,8 +292,7 @@ class Springs:
 
     Raises
     ------
-    InvalidInputError : a negative stiffness or compliance, a rest angle beyond half a turn, a number that is not
-        finite.
+    InvalidInputError : a negative stiffness or compliance, a rest angle beyond half a turn, no finite number.
 
     >>> Springs(stiffness=0.5).series_compliance
     0.0

@@ -79,7 +79,7 @@ def curve_page(
     own = minimised if minimised in (*powers, "frequency") else "objective_value"
     panels = [*powers, *([own] if own == "objective_value" else []), "frequency"]
     # Metabolic power never stands in the panel of mechanical power, also if the curve has none of its own.
-    metabolic = own if minimised == "metabolic_power" else "metabolic_power"
+    metabolic = own if minimised == "metabolic_rate" else "metabolic_rate"
     if measured is not None and "metabolic_power" in measured.values and metabolic not in panels:
         panels.insert(-1, metabolic)
     places = COMPARED | {"metabolic_power": metabolic}

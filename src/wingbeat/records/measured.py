@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 COMPARED = {
     "frequency": "frequency",
     "mechanical_power": "mean_positive_power",
-    "metabolic_power": "metabolic_power",
+    "metabolic_power": "metabolic_rate",  # a respirometer measures the whole animal
 }
 
 
@@ -38,7 +38,7 @@ def measured_beside(dataset: xr.Dataset, flights: FlightPoints) -> dict[str, Any
         there = dataset[variable].values[:, 0] if has_it else np.full(len(speeds), np.nan)
         if not has_it:
             words = quantity.replace("_", " ")
-            notes.append(f"the curve has no {words}; --model animal gives one, and --minimise metabolic-power")
+            notes.append(f"the curve has no {words}; --model animal gives one")
         for i in np.flatnonzero(np.isfinite(measured)):
             speed, error = float(flights.speed[i]), float(flights.errors[quantity][i])
             computed, limited, why = None, False, ""

@@ -382,7 +382,7 @@ def curve_dataset(
 
 def _numbers(problem: OrbitProblem) -> Iterator[tuple[str, str, str, Callable[[dict[str, Any]], float | None]]]:
     """Yield name, unit and meaning of each number of an optimum, and the function that reads it from a record."""
-    for name in (*_NUMBERS, *(["metabolic_power"] if problem.vehicle.muscle is not None else [])):
+    for name in (*_NUMBERS, *(["metabolic_power", "metabolic_rate"] if problem.vehicle.muscle else [])):
         unit = cf(problem.minimise.unit) if name == "objective_value" else NOMENCLATURE[name].unit
         yield name, unit, label_of(name), lambda record, name=name: record[name]
     for name in PARAMETER_NAMES:

@@ -33,7 +33,7 @@ _LABELS = {
 # What measured powers are compared with; they are not the same quantities.
 _AGAINST = {
     "mechanical_power": ", beside the mean positive hinge power",
-    "metabolic_power": ", beside that of the flight muscle alone (no resting rate, heart or breathing)",
+    "metabolic_power": ", beside the estimate for the whole animal",
 }
 _HEADINGS = ("U\n[m/s]", "f\n[Hz]", "P+\n[W]", "CoT\n[-]", "flap\n[deg]", "optima", "at the limit of")
 _NEAR = 0.02  # share of a speed within which the lowest computed point stands for the minimum

@@ -29,8 +29,11 @@ from wingbeat.orbits.problem.quantity import OF_MOTOR, OF_MUSCLE
 from wingbeat.records.judgements import SetBy, called, set_by_limit, statements
 
 Rows = list[tuple[str, str]]
-# The metabolic power of a live animal, as it is measured, holds more.
-_LEFT_OUT = ", without resting rate, heart, breathing, other muscles and the muscle's recovery"
+# What the two metabolic powers of a record are.
+_ABOUT = {
+    "metabolic_power": ", without its activation and recovery",
+    "metabolic_rate": ", an estimate of what a respirometer measures",
+}
 DEFAULT_AIR = dict(vars(Air()))  # of which nothing is said
 Limited = Mapping[str, SetBy]  # numbers that a limit has set, by name
 _NONE: Limited = {}
@@ -192,8 +195,7 @@ def power_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
             each = f" ({_number(record[name], unit, 1 / mass)})" if mass and record[name] is not None else ""
             rows.append((power_label(name), f"{_of(record, name)}{each}{_why(name, limited)}"))
     others = [name for name in ("cost_of_transport", *OF_MUSCLE, *OF_MOTOR) if name in record]
-    rows += [(_label(name), _of(record, name, limited)) for name in others]
-    return [(label, value + _LEFT_OUT if label == _label("metabolic_power") else value) for label, value in rows]
+    return [*rows, *((_label(name), _of(record, name, limited) + _ABOUT.get(name, "")) for name in others)]
 
 
 def certificate_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:

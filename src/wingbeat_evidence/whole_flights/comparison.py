@@ -16,7 +16,8 @@ AGREES = {
     "flap_amplitude_deg": 1.25,
     "positive_power_per_mass": 2.0,
     "muscle_power_per_mass": 2.0,
-    "muscle_efficiency": 2.0,
+    "net_muscle_efficiency": 2.0,
+    "flight_efficiency": 2.0,
     "minimum_power_speed": 3.0,
 }
 

@@ -15,7 +15,8 @@ COMPARED = (
     "flap_amplitude_deg",
     "positive_power_per_mass",
     "muscle_power_per_mass",
-    "muscle_efficiency",
+    "net_muscle_efficiency",
+    "flight_efficiency",
     "minimum_power_speed",
 )
 # How a number was found: measured on the animal, with a model of air or body, or by a law of other animals.

@@ -81,7 +81,8 @@ IN_SHORT = {
     "flap_amplitude_deg": "flap amplitude [deg]",
     "positive_power_per_mass": "hinge power [W/kg]",
     "muscle_power_per_mass": "muscle power [W/kg]",
-    "muscle_efficiency": "muscle efficiency",
+    "net_muscle_efficiency": "net efficiency of the muscle",
+    "flight_efficiency": "efficiency of the flight",
     "minimum_power_speed": "speed of minimum power [m/s]",
 }
 _ABOUT_DRAWS = (

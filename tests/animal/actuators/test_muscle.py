@@ -1,19 +1,23 @@
 """Flight muscle: its relations against their known values, and what a torque costs against a slow reference."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wingbeat as wb
-from wingbeat._jax.arrays import jax
+from wingbeat._jax.arrays import jax, jnp
 from wingbeat.animal.actuators import (
     activation,
+    activation_power,
     best_efficiency,
     force_at,
     isometric_share,
     metabolic_power,
     metabolic_rate,
+    tendon_recoil,
 )
 from wingbeat.animal.vehicle import Muscle
 
@@ -74,6 +78,37 @@ def test_the_muscle_of_the_laws_gives_the_power_that_was_measured():
     assert power.max() / muscle.mass == pytest.approx(533.0, rel=1e-6)
     assert share[power.argmax()] == pytest.approx(0.34, abs=1e-4)
     assert muscle.whole_mass == pytest.approx(muscle.mass * (1.0 + muscle.elevator_share), rel=1e-15)
+
+
+def test_a_tendon_gives_back_what_it_stores_and_takes_over_the_wings_motion():
+    """Of a torque ``a cos``: rate of the tendon by hand, its work over a beat, and how far the muscle moves."""
+    muscle = dataclasses.replace(MUSCLE, tendon_compliance=2.0)
+    phase, period = np.linspace(0.0, 1.0, 257), 0.16
+    torque = 0.3 * np.cos(2 * np.pi * phase) + 0.05
+    recoil = np.asarray(tendon_recoil(muscle, torque, period))
+    np.testing.assert_allclose(recoil, -2.0 * 0.3 * 2 * np.pi / period * np.sin(2 * np.pi * phase), atol=1e-9)
+    work = np.trapezoid(np.maximum(torque, 0.0) * recoil, phase) * period
+    assert abs(work) < 1e-5 * 0.5 * 2.0 * 0.35**2  # of what it stores
+    # The wing's own motion at bottom dead centre: with a tendon of the right compliance the muscle stays as long.
+    rate = 2.0 * 0.3 * 2 * np.pi / period * np.sin(2 * np.pi * phase)
+    up, _ = activation(muscle, torque, rate, recoil)
+    strongest = muscle.depressor_torque * muscle.elevator_share
+    np.testing.assert_allclose(up, torque / strongest, rtol=1e-6, atol=1e-9)
+
+
+def test_activation_takes_its_energy_once_a_beat_from_the_fibres_that_a_muscle_needs_at_most():
+    muscle = dataclasses.replace(MUSCLE, activation_energy=7.0)
+    up, down = np.array([-0.4, 0.1, 0.3]), np.array([0.8, -0.2, -0.6])
+    wanted = 7.0 * 6.0 * (0.06 * 0.8 + 0.06 * 0.15 * 0.3)
+    assert float(activation_power(muscle, up, down, 6.0)) == pytest.approx(wanted, rel=1e-14)
+
+
+def test_without_a_tendon_the_numbers_are_those_without_the_term():
+    torque, rate = jnp.linspace(-0.9, 0.9, 65), jnp.linspace(40.0, -55.0, 65)
+    still = tendon_recoil(MUSCLE, torque, 0.1)
+    for of in (activation, metabolic_power):
+        for with_term, without in zip(of(MUSCLE, torque, rate, still), of(MUSCLE, torque, rate), strict=True):
+            assert np.array_equal(with_term, without)
 
 
 def test_every_fault_is_named():

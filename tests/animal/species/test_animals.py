@@ -81,13 +81,16 @@ def test_laws_give_the_published_examples(law: scaling.Law, values: tuple[float,
     assert law(*values) == pytest.approx(expected, rel=0.012)
 
 
+_OF_MUSCLE = ("rad/(N m)", "J/kg", "W")
+
+
 def test_every_law_has_unit_source_and_spread() -> None:
     laws = [law for law in vars(scaling).values() if isinstance(law, scaling.Law)]
     assert len(laws) > 20
     for law in laws:
         assert law.source.strip()
         assert law.scatter.strip()
-        assert law.unit in ("m", "kg", "kg m2", "m2", "1", "Hz", "rad", "m/s", "Pa", "1/s", "1/rad")
+        assert law.unit in ("m", "kg", "kg m2", "m2", "1", "Hz", "rad", "m/s", "Pa", "1/s", "1/rad", *_OF_MUSCLE)
         assert 0 <= law.spread[0] <= 1 <= law.spread[1]
 
 

@@ -135,6 +135,7 @@ def test_numbers_stand_at_their_paths_in_the_order_of_the_record(load: Any) -> N
     assert {key.path.rpartition(".")[2] for key in KEYS} - {path.rpartition(".")[2] for path in named} == {
         *("area", "arm", "lift_slope", "drag_coefficient", "height", "incidence", "tail_tilt"),
         *("elevator_share", "strain_per_angle", "max_strain_rate", "isometric_stress", "curvature"),
+        *("tendon_compliance", "activation_energy", "recovery_factor", "resting_rate", "support_factor"),
         *("torque_constant", "resistance", "gear_ratio", "rotor_inertia", "no_load_current", "gear_efficiency"),
         *("crank", "stiffness", "rest_angle", "series_compliance"),
         *("chord_retraction", "twist_mean", "sweep_harmonics", "chord_harmonics", "twist_harmonics"),

@@ -62,6 +62,8 @@ KEYS = (
     *_keys("vehicle.wing", optional="stroke_plane_angle"),
     *_keys("vehicle.tail", "area arm lift_slope", "drag_coefficient height incidence"),
     *_keys("vehicle.muscle", "mass elevator_share strain_per_angle max_strain_rate isometric_stress curvature"),
+    *_keys("vehicle.muscle", optional="tendon_compliance activation_energy recovery_factor resting_rate"),
+    *_keys("vehicle.muscle", optional="support_factor"),
     *_keys("vehicle.motor", "torque_constant resistance gear_ratio", "rotor_inertia no_load_current"),
     *_keys("vehicle.motor", optional="gear_efficiency crank"),
     *_keys("vehicle.springs", optional="stiffness rest_angle series_compliance"),

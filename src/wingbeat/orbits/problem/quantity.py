@@ -12,11 +12,13 @@ from wingbeat.animal.actuators import (
     Driven,
     MotorState,
     activation,
+    activation_power,
     actuated,
     best_efficiency,
     metabolic_power,
     motor_state,
     spring_torque,
+    tendon_recoil,
 )
 from wingbeat.animal.vehicle import Springs
 
@@ -207,18 +209,49 @@ def _metabolic_power(beat: Beat, need: Driven) -> Any:
     # The muscles that pitch the wing are small. We assume that they work at their most efficient speed.
     muscle = beat.drive.muscle
     assert muscle is not None
-    flapping = sum(beat.mean_positive(part) for part in metabolic_power(muscle, need.torque, need.rate))
+    parts = metabolic_power(muscle, need.torque, need.rate, _recoil(beat, need))
+    flapping = sum(beat.mean_positive(part) for part in parts)
     return flapping + _pitching(beat) / best_efficiency(muscle.curvature)
+
+
+def _recoil(beat: Beat, need: Driven) -> Any:
+    """Return the rate that the elevators' tendon adds to theirs [rad/s]."""
+    assert beat.drive.muscle is not None
+    return tendon_recoil(beat.drive.muscle, need.torque, 1.0 / beat.frequency)
 
 
 def _peak_activation(beat: Beat, need: Driven) -> Any:
     assert beat.drive.muscle is not None
-    return jnp.stack(activation(beat.drive.muscle, need.torque, need.rate), axis=1)
+    return jnp.stack(activation(beat.drive.muscle, need.torque, need.rate, _recoil(beat, need)), axis=1)
+
+
+def _activation_power(beat: Beat, need: Driven) -> Any:
+    assert beat.drive.muscle is not None
+    active = _peak_activation(beat, need)
+    return activation_power(beat.drive.muscle, active[:, 0], active[:, 1], beat.frequency)
+
+
+def _whole_muscle(beat: Beat, need: Driven) -> Any:
+    """Return the metabolic power of the flight muscle with activation and recovery [W]."""
+    assert beat.drive.muscle is not None
+    return beat.drive.muscle.recovery_factor * (_metabolic_power(beat, need) + _activation_power(beat, need))
+
+
+def _metabolic_rate(beat: Beat, need: Driven) -> Any:
+    muscle = beat.drive.muscle
+    assert muscle is not None
+    return muscle.support_factor * (_whole_muscle(beat, need) + muscle.resting_rate)
+
+
+def _mechanical(beat: Beat, need: Driven) -> Any:
+    """Return the mean positive power of the muscles that flap the wings [W]."""
+    own = need.torque * need.rate + jnp.maximum(need.torque, 0.0) * _recoil(beat, need)
+    return beat.mean_positive(own)
 
 
 def _muscle_power_per_mass(beat: Beat, need: Driven) -> Any:
     assert beat.drive.muscle is not None
-    return beat.mean_positive(need.torque * need.rate) / beat.drive.muscle.whole_mass
+    return _mechanical(beat, need) / beat.drive.muscle.whole_mass
 
 
 def _muscle_work_per_mass(beat: Beat, need: Driven) -> Any:
@@ -226,8 +259,15 @@ def _muscle_work_per_mass(beat: Beat, need: Driven) -> Any:
 
 
 def _muscle_efficiency(beat: Beat, need: Driven) -> Any:
-    given = beat.mean_positive(need.torque * need.rate) + _pitching(beat)
-    return given / _metabolic_power(beat, need)
+    return (_mechanical(beat, need) + _pitching(beat)) / _metabolic_power(beat, need)
+
+
+def _net_muscle_efficiency(beat: Beat, need: Driven) -> Any:
+    return (_mechanical(beat, need) + _pitching(beat)) / _whole_muscle(beat, need)
+
+
+def _flight_efficiency(beat: Beat, need: Driven) -> Any:
+    return (_mechanical(beat, need) + _pitching(beat)) / _metabolic_rate(beat, need)
 
 
 def _motor_series(beat: Beat, need: Driven) -> MotorState:
@@ -268,6 +308,10 @@ OF_MUSCLE: dict[str, tuple[DriveQuantity, float]] = {
     "muscle_power_per_mass": (DriveQuantity(_muscle_power_per_mass), 20.0),
     "muscle_work_per_mass": (DriveQuantity(_muscle_work_per_mass), 5.0),
     "muscle_efficiency": (DriveQuantity(_muscle_efficiency), 0.1),
+    "activation_power": (DriveQuantity(_activation_power), 1.0),
+    "metabolic_rate": (DriveQuantity(_metabolic_rate), 10.0),
+    "net_muscle_efficiency": (DriveQuantity(_net_muscle_efficiency), 0.1),
+    "flight_efficiency": (DriveQuantity(_flight_efficiency), 0.1),
 }
 OF_MOTOR: dict[str, tuple[DriveQuantity, float]] = {
     "electrical_power": (DriveQuantity(_electrical_power), 2.0),

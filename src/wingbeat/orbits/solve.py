@@ -14,12 +14,13 @@ from typing import TYPE_CHECKING, TypeVar
 
 import numpy as np
 
-from wingbeat._base import FaultList
+from wingbeat._base import FaultList, cf, for_people
 from wingbeat._workers.tuning import core_count
-from wingbeat.orbits.diagnosis import unexplained, without_orbit
-from wingbeat.orbits.nlp.newton_kkt import first_certified
+from wingbeat.orbits.changes import possible_changes
+from wingbeat.orbits.diagnosis import Ending, certified_changes, least_change, unexplained, without_orbit
+from wingbeat.orbits.nlp.newton_kkt import Corrected, certified, first_certified
 from wingbeat.orbits.nlp.transcription import Candidate, Transcription, as_candidate, load_programs, search
-from wingbeat.orbits.options import DEFAULTS, SolverOptions
+from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
 from wingbeat.orbits.problem.quantity import MapQuantity
 from wingbeat.orbits.solution import Solution, families, optima_of, optimal, solution_of
 from wingbeat.orbits.starts import (
@@ -27,9 +28,11 @@ from wingbeat.orbits.starts import (
     asks_for_stability,
     easier,
     minimises_map,
+    plainly,
     start_beside,
     start_count,
     start_point,
+    starts_in_words,
     usual_most_starts,
 )
 
@@ -37,6 +40,7 @@ if TYPE_CHECKING:
     from wingbeat.orbits.problem.problem import OrbitProblem
 
 T = TypeVar("T")
+_WITHIN = "no orbit within the bounds"  # begins the message of a diagnosis
 Progress = Callable[[int, int], None]
 
 
@@ -91,13 +95,16 @@ def find_orbit(
     own = None if settings.start is None else np.array([*settings.start.values.values()])
     load_programs(programme, start_point(problem, 0, seed, options.search))
     free: list[Candidate] = []  # where the searches without limits of stability end, if there are such limits
+    unlimited: list[Candidate] = []  # and those without any limits
     if asks_for_stability(problem):
         free = first_searches(Transcription(easier(problem), options), starts, seed, threads, progress, own)
         found = stable_searches(programme, free, threads)
     else:
-        found = first_searches(programme, starts, seed, threads, progress, own)
+        found = first_searches(programme, starts, seed, threads, progress, own, unlimited)
     first = (free or found)[0]
-    best = first_certified(programme, found)
+    best, ending = first_certified(programme, found), None
+    if best is None and settings.explain and problem.within_plausible:
+        best, ending = beyond_limits(programme, unlimited, len(found), threads, settings.advise)
     for led in _where_limits_hold(programme, starts, seed, threads) if best is None else ():
         found += led
         if (best := first_certified(programme, led)) is not None:
@@ -109,7 +116,7 @@ def find_orbit(
             progress(done, max(starts, most))
         if (best := first_certified(programme, [candidate])) is not None:
             break
-    searches, ending = len(found), None
+    searches = len(found)
     if best is None and settings.explain:
         best, ending = without_orbit(programme, found, threads, settings.advise, progress)
     elif best is None:
@@ -130,10 +137,10 @@ def find_orbit(
         if number is not None:
             steps += [(number, step) for step in best.programme.steps or ()]
         solution = dataclasses.replace(solution, steps=tuple(steps))
-    unlimited = first_certified(free[0].programme, free) if free and not minimises_map(problem) else None
-    if unlimited is None:
+    freed = first_certified(free[0].programme, free) if free and not minimises_map(problem) else None
+    if freed is None:
         return solution
-    objective = unlimited.programme.objective(unlimited.scaled) * unlimited.programme.problem.minimise.scale
+    objective = freed.programme.objective(freed.scaled) * freed.programme.problem.minimise.scale
     return dataclasses.replace(solution, free_objective=objective)
 
 
@@ -154,6 +161,63 @@ def _where_limits_hold(programme: Transcription, starts: int, seed: int, threads
             yield search_from_optima(programme, found, threads)
 
 
+def beyond_limits(
+    programme: Transcription, unlimited: list[Candidate], searches: int, threads: int, advise: bool
+) -> tuple[Corrected | None, Ending | None]:
+    """Return the best orbit without limits, with the limits that it leaves and by how much; None if it leaves none.
+
+    With `advise`, each of these limits is moved alone, as little as possible, until an orbit keeps to it and to all
+    others. If hardly any move is needed, the searches missed an orbit, which is returned without an ending.
+    """
+    problem, options = programme.problem, programme.options
+    without = Transcription(dataclasses.replace(problem, subject_to=()), options)
+    orbit = first_certified(without, unlimited)
+    if orbit is None:  # then it is not the ranges that leave none
+        orbit, ending = without_orbit(without, unlimited, threads, advise)
+        if ending is not None and ending.status is not Status.INFEASIBLE:
+            return None, None
+        if ending is not None:
+            message = ending.message.replace(_WITHIN, f"{_WITHIN}, even without plausible limits,", 1)
+            # Its changes help where the ranges are left out.
+            return orbit, dataclasses.replace(ending, message=message, relaxations=())
+    plain = Transcription(plainly(problem), options) if programme.has_epigraph else programme
+    assert plain.outputs is not None
+    near = without.physical(orbit.scaled)
+    margins = plain.inequalities(plain.scaled(near))[len(plain.path_limits) :]
+    left, told = set(), []
+    for index, (quantity, limit, at_most) in enumerate(
+        (one.quantity, float(one.limit), one.at_most) for one in problem.subject_to
+    ):
+        margin = margins[list(plain.outputs.values_of(index))].min() * quantity.scale
+        if margin < -options.diagnosis.negligible_change * max(abs(limit), quantity.scale):
+            factor, unit = for_people(cf(quantity.unit))
+            value = f"{(limit - margin if at_most else limit + margin) * factor:.3g}"
+            end = f"at {'most' if at_most else 'least'} {limit * factor:.3g} {unit}".rstrip()
+            told.append(f"{quantity.name.replace('_', ' ')} {value} ({end})")
+            left.add((quantity.name, "<=" if at_most else ">="))
+    if not told:
+        return None, None
+    changes = [c for c in possible_changes(problem, (), {}, options.changes) if (c.name, c.sign) in left]
+    with ThreadPoolExecutor(threads) as pool:
+        tried = pool.map(lambda change: least_change(problem, change, near, options), changes if advise else ())
+        least = sorted((one for one in tried if one is not None), key=lambda one: one.share)
+    leads = [one.unknowns for one in least if one.share <= options.diagnosis.negligible_change]
+    if led := first_certified(programme, [search(programme.uncorrected(), lead) for lead in leads]):
+        return led, None
+    message = (
+        f"no orbit within the limits from {starts_in_words(searches)}: at {problem.speed:g} m/s, the best one "
+        f"without them has {', '.join(told)}"
+    )
+    flying = certified_changes(plain, least)
+    if flying:
+        message += f"; the smallest single changes that give an orbit: {', or '.join(one.text for one in flying)}"
+    elif advise:
+        message += "; moving one of these limits alone gave no orbit"
+    return certified(programme.uncorrected(), programme.scaled(near)), Ending(
+        Status.INFEASIBLE, message, (), flying
+    )
+
+
 def first_searches(
     programme: Transcription,
     starts: int,
@@ -161,8 +225,12 @@ def first_searches(
     threads: int,
     progress: Progress | None = None,
     own: np.ndarray | None = None,
+    unlimited: list[Candidate] | None = None,
 ) -> list[Candidate]:
-    """Search from starts, from optima of the problem without limits, and near the lowest peak; return all ends."""
+    """Search from starts, from optima of the problem without limits, and near the lowest peak; return all ends.
+
+    The ends without limits, if there are limits, are appended to `unlimited`.
+    """
     problem, options = programme.problem, programme.options
     if asks_for_stability(problem):
         free = first_searches(Transcription(easier(problem), options), starts, seed, threads, progress, own)
@@ -176,8 +244,10 @@ def first_searches(
     if limited:
         without = Transcription(dataclasses.replace(problem, subject_to=()), options)
         report = None if progress is None else lambda done, total: progress(starts + done, starts + total)
-        unlimited = first_searches(without, starts, seed, threads, report, own)
-        found += search_from_optima(programme, unlimited, threads)
+        easy = first_searches(without, starts, seed, threads, report, own)
+        found += search_from_optima(programme, easy, threads)
+        if unlimited is not None:
+            unlimited += easy
     if programme.has_epigraph:
         for _ in range(starts // 2):  # a lower peak is often near the best optimum
             optima = optima_of(found)

@@ -224,6 +224,11 @@ class OrbitProblem(Reported):
         return moved
 
     @property
+    def within_plausible(self) -> bool:
+        """Whether the problem was asked for within plausible ranges."""
+        return getattr(self, "_plausible_limits", None) is not None
+
+    @property
     def frequency_basis(self) -> str:
         """Where the frequency comes from: ``free`` (searched), ``given``, ``measured`` or by a ``law``."""
         return frequency_basis(self.free, self.origin, self.species, self.speed)

@@ -1,10 +1,10 @@
 """Polars of a section from NeuralFoil, which imitates XFOIL (extra ``neuralfoil``), with its own confidence.
 
 Measured against XFOIL 6.99 (NACA 0012 and 4412, Re 2e4 to 4e5, -10 to 15 degrees, 629 rows that converged), root
-mean squares by NeuralFoil's confidence: from 0.95 on (515 rows) C_L differs by 0.025 and C_D by 6 %; from 0.9 to 0.95
-(49 rows) by 0.05 and 16 %; from 0.5 to 0.9 (49 rows) by 0.08 and 20 %; from 0.3 to 0.5 (15 rows) by 0.09 and 12 %;
-below, XFOIL converged once. So rows below 0.5 are left out and those below 0.9 named. From 30 degrees the confidence
-is 0 for every section: the rest of the circle comes from an extension, such as Viterna's.
+mean squares by NeuralFoil's confidence: from 0.95 on (515 rows) C_L differs by 0.025 and C_D by 6 %; from 0.9 to
+0.95 (49 rows) by 0.05 and 16 %; from 0.5 to 0.9 (49 rows) by 0.08 and 20 %; from 0.3 to 0.5 (15 rows) by 0.09 and
+12 %; below, XFOIL converged once. So rows below 0.5 are left out and those below 0.9 named. From 30 degrees the
+confidence is 0 for every section: the rest of the circle comes from an extension, such as Viterna's.
 
 | NeuralFoil 0.3.3 | what differs from what one would guess |
 | --- | --- |

@@ -21,7 +21,9 @@ from typing import Any, Literal
 
 from wingbeat._base import FaultList, in_words
 from wingbeat.aero import BladeElement, Feathered
-from wingbeat.animal.species.scaling import BODY_DRAG_AREA
+from wingbeat.animal.kinematics import ANGLES
+from wingbeat.animal.species.posture import free_of, with_free_stroke, with_posture
+from wingbeat.animal.species.scaling import BODY_DRAG_AREA, CROSSFLOW_AREA
 from wingbeat.animal.species.species import FREQUENCY, Species
 from wingbeat.orbits.problem.origin import Choice, Origin
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -38,11 +40,6 @@ _WINGS = {
     ),
     "bat": ("membrane", "a membrane wing: a thin plate with the camber of a bat's wing; mostly guesses"),
     "robot": ("su-fan", "a rigid wing: the flat plate measured by Su et al. 2023"),
-}
-# Parameters that are free in addition to those of the species file: bounds [rad, 1] and their reasons.
-_FREE = {
-    "tail_tilt": ((-math.radians(30), math.radians(30)), "guess: no measured range of a tail's tilt was found"),
-    "downstroke_fraction": ((0.4, 0.6), "guess: in measured birds and bats it is near 0.5 and changes with speed"),
 }
 
 
@@ -91,14 +88,17 @@ class Model:
         least = asked["minimise"]
         least = named_objective(least) if isinstance(least, str) else least
         own = self.frequency == "own" and not changes.get("free") and least != named_objective("frequency")
-        origin = Origin(self.name, tuple(self._choices(flown)), tuple(self._changed(flown, changes)), own)
+        held = changes.get("bounds") or {}
+        posture = self.name == "animal" and self.kind != "robot" and (held == "plausible" or "body_pitch" not in held)
+        chosen = tuple(self._choices(flown)), tuple(self._changed(flown, changes))
+        origin = Origin(self.name, *chosen, own, posture)
         if self.frequency not in ("own", "free") and "frequency" in flown.free:
             flown = flown.with_values({FREQUENCY: self.frequency})
             asked = {"free": tuple(name for name in flown.free if name != "frequency")} | asked
         if own:
             flown = flown.at_own_frequency(speed)
             asked["free"] = tuple(name for name in flown.free if name != "frequency")
-        return OrbitProblem(flown, speed, climb, origin=origin, **asked)
+        return OrbitProblem(with_posture(flown, speed) if posture else flown, speed, climb, origin=origin, **asked)
 
     @property
     def gliding(self) -> BladeElement:
@@ -123,7 +123,7 @@ class Model:
         return "electrical_power" if drive.motor is not None else "mean_positive_power"
 
     def species(self, species: Species) -> Species:
-        """Return the species with what the model adds to it: body drag, tail, muscle, free parameters.
+        """Return the species with what the model adds to it: drag of the body, tail, muscle, free parameters.
 
         Values that the species file gives are kept, but a body drag of 0 counts as not given unless it was set by
         hand. The scaling laws use the whole mass, so add a payload afterwards:
@@ -146,20 +146,14 @@ class Model:
                 flown = species.with_alternative("body-drag")
             else:  # the law for birds
                 flown = species.with_derived({"vehicle.body.drag_area": BODY_DRAG_AREA.number(vehicle.mass)})
+        crossflow = "vehicle.body.crossflow_area"
+        if self.kind != "robot" and not vehicle.body.crossflow_area and not species.is_set_by_hand(crossflow):
+            flown = flown.with_derived({crossflow: CROSSFLOW_AREA.number(vehicle.mass)})
         if self.kind == "bird" and vehicle.tail is None:
             flown = flown.with_tail()
         if self.kind != "robot" and vehicle.muscle is None:
             flown = flown.with_muscle()
-        added = [name for name in _FREE if name not in flown.free]
-        if flown.vehicle.tail is None and "tail_tilt" in added:
-            added.remove("tail_tilt")
-        return dataclasses.replace(
-            flown,
-            free=(*flown.free, *added),
-            bounds=flown.bounds | {name: _FREE[name][0] for name in added},
-            guessed_bounds=flown.guessed_bounds | set(added),
-            reasons=flown.reasons | {name: _FREE[name][1] for name in added},
-        )
+        return with_free_stroke(flown)
 
     def _changed(self, flown: Species, changes: Mapping[str, Any]) -> Iterator[str]:
         """Yield the names of the choices in which the user departs from the model."""
@@ -196,17 +190,21 @@ class Model:
             ),
             Choice("body drag area", f"{1e4 * body.drag_area:.2g} cm2", numbers["vehicle.body.drag_area"].source),
         ]
+        if body.crossflow_area:
+            source = numbers["vehicle.body.crossflow_area"].source
+            found.append(Choice("cross-flow area of the body", f"{1e4 * body.crossflow_area:.2g} cm2", source))
         if tail is not None:
             found.append(Choice("tail area", f"{1e4 * tail.area:.2g} cm2", numbers["vehicle.tail.area"].source))
         if muscle is not None:
             mass, source = f"{1e3 * muscle.mass:.2g} g", numbers["vehicle.muscle.mass"].source
             found.append(Choice("mass of the depressors", mass, source))
-        for name, ((low, high), reason) in _FREE.items():
-            if name in flown.free and flown.reasons.get(name) == reason:
-                limits = f"{low:g} to {high:g} of a beat"
-                if name == "tail_tilt":
+        for name, bound in free_of(self.kind).items():
+            if name in flown.free and flown.reasons.get(name) == bound.reason:
+                low, high = flown.bounds[name]
+                limits = f"{low:g} to {high:g}" + (" of a beat" if name == "downstroke_fraction" else "")
+                if name in ANGLES:
                     limits = f"{math.degrees(low):.0f} to {math.degrees(high):.0f} degrees"
-                found.append(Choice(f"free: {name}", limits, reason))
+                found.append(Choice(f"free: {name}", limits, bound.reason))
         if self.frequency == "own":
             why = "measured, or by a law of its kind: no physics that was tried predicts it"
             found.append(Choice("frequency", "the animal's own", why))

@@ -27,7 +27,7 @@ NAMES = {
     "floquet_multipliers stable warnings solve_seconds version",
     "model": "name choices changed",
     "vehicle": "body wing",
-    "vehicle.body": "mass pitch_inertia drag_area",
+    "vehicle.body": "mass pitch_inertia drag_area crossflow_area",
     "vehicle.wing": "semi_span chord mass mass_exponent shoulder stroke_plane_angle",
     "aero": "coefficients extension blend_width_deg strips force_point airspeed",
     "air": "density viscosity gravity",

@@ -203,9 +203,17 @@ def _body_drag(vehicle, air, velocity):
     return -0.5 * air["density"] * vehicle["body"]["drag_area"] * np.linalg.norm(velocity) * velocity
 
 
+def crossflow(area, density, body_pitch, velocity):
+    """Force (N), x and z, across a body's axis at an angle of attack. Theory: equation ``crossflow-force``."""
+    angle = body_pitch - math.atan2(velocity[1], velocity[0])
+    size = 0.5 * density * area * (velocity @ velocity) * math.sin(angle) * abs(math.sin(angle))
+    return size * np.array([-math.sin(body_pitch), math.cos(body_pitch)])
+
+
 def body_air(vehicle, wingbeat, air, wing):
     """(force along x and z and nose-up moment, power) of the air on the body and its tail."""
     drag, velocity = _body_drag(vehicle, air, wing.v_body)[[0, 2]], wing.v_body[[0, 2]]
+    drag = drag + crossflow(vehicle["body"]["crossflow_area"], air["density"], wing.psi, velocity)
     force, place, moving = tail_load(vehicle, wingbeat, air["density"], wing.psi, velocity, wing.rate)
     return np.array([*(drag + force), moment(force, place)]), drag @ velocity + force @ moving
 

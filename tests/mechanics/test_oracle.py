@@ -86,7 +86,7 @@ def tail_of(case):
 
 
 def draw(species, case, random):
-    """Draw a case: folds, twist, retraction, offset shoulder, tilted stroke plane, body drag."""
+    """Draw a case: folds, twist, retraction, offset shoulder, tilted stroke plane, body drag, cross flow."""
     uniform = random.uniform
     coefficients, formula, force_point, airspeed, rich = KINDS[case % len(KINDS)]
     wing = dataclasses.replace(
@@ -97,6 +97,7 @@ def draw(species, case, random):
         chord=tuple(uniform(0.03, 0.15, 4).tolist()),
     )
     body = dataclasses.replace(species.vehicle.body, drag_area=uniform(1e-4, 2e-3))
+    body = dataclasses.replace(body, crossflow_area=0.0 if case % 3 == 1 else 0.01)
     loads = wb.aero.BladeElement(coefficients, STRIPS, force_point, airspeed)
     model = wb.FlightModel(wb.Vehicle(body, wing, tail_of(case)), loads, species.air)
     wingbeat = wb.Wingbeat(
@@ -281,6 +282,7 @@ def test_the_whole_airspeed_makes_other_loads_than_that_across_the_span():
     [
         ("body", "mass", 1 + 1e-7),
         ("body", "drag_area", 1 + 1e-5),
+        ("body", "crossflow_area", 1 + 1e-5),
         ("body", "pitch_inertia", 1 + 1e-7),
         ("wing", "mass_exponent", 1 + 1e-7),
         ("wing", "stroke_plane_angle", 1 + 1e-7),

@@ -53,7 +53,7 @@ def test_the_record_has_the_names_of_the_specification(solved):
     record = solved.orbit.record()
     assert record.keys() == RECORD
     assert {name: record[name].keys() for name in PARTS} == PARTS
-    assert record["vehicle"]["body"].keys() == {"mass", "pitch_inertia", "drag_area"}
+    assert record["vehicle"]["body"].keys() == {"mass", "pitch_inertia", "drag_area", "crossflow_area"}
     assert record["vehicle"]["wing"].keys() == WING
 
 

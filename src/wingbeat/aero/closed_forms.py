@@ -1,4 +1,4 @@
-"""Air loads in closed form: induced flow, unsteady loads of a thin aerofoil, tail, and drag of the body.
+"""Air loads in closed form: induced flow, unsteady loads of a thin aerofoil, tail, drag and cross flow of the body.
 
 Induced flow: Rankine and Froude's actuator disc in Glauert's form for any direction of flight,
 ``2 rho A v |V + v n| = k T``. Here T is the mean force of the wings, n its direction, V the velocity of the animal,
@@ -193,3 +193,21 @@ def body_drag(drag_area: Scalar, density: Scalar, velocity: Pair, xp: Any = np) 
     speed = xp.where(moving, xp.sqrt(xp.where(moving, squared, 1.0)), 0.0)
     pressure_area = -0.5 * density * drag_area * speed
     return pressure_area * velocity[0], pressure_area * velocity[1]
+
+
+def crossflow_force(area: Scalar, density: Scalar, normal: Pair, velocity: Pair, xp: Any = np) -> Pair:
+    """Return the force of the cross flow on the body [N], in the axes of `velocity`.
+
+    ``-1/2 rho S |v.n| (v.n) n``, with n the unit vector up in body axes: at the angle of attack a, the force across
+    the axis of a slender body is ``eta C q A_p sin(a)^2`` (Allen and Perkins 1951, NACA Report 1048), A_p its
+    planform area, C the drag coefficient of a cylinder across the flow and eta its reduction by finite length.
+
+    Theory: equation ``crossflow-force``.
+
+    >>> forward, up = crossflow_force(0.01, 1.225, (0.0, 1.0), (10.0, -1.0))
+    >>> abs(forward), round(up, 6)
+    (0.0, 0.006125)
+    """
+    across = velocity[0] * normal[0] + velocity[1] * normal[1]
+    push = -0.5 * density * area * xp.abs(across) * across
+    return push * normal[0], push * normal[1]

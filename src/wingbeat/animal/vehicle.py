@@ -13,7 +13,7 @@ from wingbeat._jax.arrays import register_record
 MUSCLE_DENSITY = 1060.0
 
 
-@register_record
+@register_record(optional=("crossflow_area",))
 @dataclass(frozen=True)
 class Body:
     """The body without its wings.
@@ -23,10 +23,12 @@ class Body:
     mass : mass without wings [kg].
     pitch_inertia : moment of inertia about the pitch axis through its own centre of mass [kg m2].
     drag_area : drag coefficient times frontal area [m2]; 0, as in the paper, means no body drag.
+    crossflow_area : coefficient of the force across the body axis times planform area, length times width of the
+        body, at 90 degrees to the flow [m2]; 0, as in the paper, means that drag does not depend on attitude.
 
     Raises
     ------
-    InvalidInputError : a mass or inertia that is not positive, a negative drag area, a number that is not finite.
+    InvalidInputError : a mass or inertia that is not positive, a negative area, a number that is not finite.
 
     >>> import wingbeat as wb
     >>> body = wb.Body(mass=0.276, pitch_inertia=3.6e-4, drag_area=5e-4)
@@ -37,12 +39,15 @@ class Body:
     mass: float
     pitch_inertia: float
     drag_area: float = 0.0
+    crossflow_area: float = 0.0
 
     def __post_init__(self) -> None:
         faults = FaultList()
         faults.number("body.mass", self.mass, above=0, unit="kg", fix="give the mass without the wings")
         faults.number("body.pitch_inertia", self.pitch_inertia, above=0, unit="kg m2")
         faults.number("body.drag_area", self.drag_area, at_least=0, unit="m2", fix="0 means no body drag")
+        fix = "0 means that drag does not depend on attitude"
+        faults.number("body.crossflow_area", self.crossflow_area, at_least=0, unit="m2", fix=fix)
         faults.raise_if_any()
 
 

@@ -27,7 +27,14 @@ from wingbeat._jax.arrays import (
     unchecked,
 )
 from wingbeat.aero.blade_element import BladeElement, StripForces, blade_element_of, strip_forces
-from wingbeat.aero.closed_forms import body_drag, check_descent, disc_area, induced_flow, tail_force
+from wingbeat.aero.closed_forms import (
+    body_drag,
+    check_descent,
+    crossflow_force,
+    disc_area,
+    induced_flow,
+    tail_force,
+)
 from wingbeat.aero.family import at_reynolds, depends_on_reynolds
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.vehicle import Air, Vehicle
@@ -158,8 +165,8 @@ def at_velocity(model: FlightModel, velocity: Pair) -> FlightModel:
 def flow_at(vehicle: Vehicle, air: Air, factor: Scalar, velocity: Pair, xp: Any = np) -> Pair:
     """Return the induced flow at the wings in steady flight, forward and up [m/s]. Theory: equation ``mean-force``.
 
-    The wings carry the weight and balance the body's drag at the mean velocity. The tail's lift and drag are left
-    out: they depend on the attitude, which is not known beforehand, and they are a small share of the weight.
+    The wings carry the weight and balance the body's drag at the mean velocity. The loads of tail and cross flow
+    are left out: they depend on the attitude, which is not known beforehand, and are a small share of the weight.
     """
     drag = body_drag(vehicle.body.drag_area, air.density, velocity, xp)
     force = -drag[0], vehicle.mass * air.gravity - drag[1]
@@ -257,6 +264,10 @@ def body_air(
     Theory: equation ``tail-velocity``.
     """
     drag, tail = body_drag(vehicle.body.drag_area, density, velocity, jnp), vehicle.tail
+    if not at_default(vehicle.body, "crossflow_area"):
+        normal = fusion_barrier((sin(axes), cos(axes)))
+        more = crossflow_force(vehicle.body.crossflow_area, density, normal, velocity, jnp)
+        drag = drag[0] + more[0], drag[1] + more[1]
     if tail is None:
         return drag, None
     # Behind the barriers, geometry and force are computed once for all directions of a derivative. A flight with a
@@ -280,7 +291,8 @@ def _air_loads(
     """
     model, motion = model_and_motion
     wings = wing_loads(model, motion, (forward, up), pitch_rate)
-    axes = 0.0 if model.vehicle.tail is None else stroke_attitude(model.vehicle.wing, motion, 0.0)
+    turned = model.vehicle.tail is not None or not at_default(model.vehicle.body, "crossflow_area")
+    axes = stroke_attitude(model.vehicle.wing, motion, 0.0) if turned else 0.0
     around = body or (forward, up)
     force, moment = body_air(model.vehicle, model.air.density, around, pitch_rate, axes, motion.tail_tilt)
     moment = wings.moment if moment is None else wings.moment + moment

@@ -9,7 +9,7 @@ import numpy as np
 from wingbeat._jax.arrays import in_own_settings, jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.aero.blade_element import BladeElement
-from wingbeat.aero.closed_forms import body_drag
+from wingbeat.aero.closed_forms import body_drag, crossflow_force
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.wing_points import air_forces_on, point_motion
@@ -65,7 +65,11 @@ def _loads_along(model: FlightModel, wingbeat: Wingbeat, state: State, accelerat
         q_second = jnp.concatenate([body_acceleration, jnp.stack([flap[2], pitch[2]])])
         points = point_motion(model, wingbeat, q, q_dot, when / wingbeat.frequency)
         air = air_forces_on(model, wingbeat, q, q_dot, when / wingbeat.frequency, points, q_second)
-        drag = body_drag(model.vehicle.body.drag_area, model.air.density, (body.u, body.w), jnp)
+        trunk, density, velocity = model.vehicle.body, model.air.density, (body.u, body.w)
+        upright = -jnp.sin(body.body_pitch), jnp.cos(body.body_pitch)
+        along = body_drag(trunk.drag_area, density, velocity, jnp)
+        across = crossflow_force(trunk.crossflow_area, density, upright, velocity, jnp)
+        drag = along[0] + across[0], along[1] + across[1]
         forward, up = air.generalised[0] - drag[0], air.generalised[1] - drag[1]
         return forward, up, drag[0] * body.u + drag[1] * body.w - air.power, air.strips.alpha
 

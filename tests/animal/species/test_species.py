@@ -273,7 +273,7 @@ def test_what_cannot_be_set_is_told_all_at_once() -> None:
 def test_as_dict_is_json_and_its_records_are_those_of_an_orbit(name: str) -> None:
     animal = load_species(name)
     plain = json.loads(json.dumps(animal.as_dict(), allow_nan=False))
-    assert list(plain["vehicle"]["body"]) == ["mass", "pitch_inertia", "drag_area"]
+    assert list(plain["vehicle"]["body"]) == ["mass", "pitch_inertia", "drag_area", "crossflow_area"]
     assert list(plain["vehicle"]["wing"]) == [
         "semi_span",
         "chord",

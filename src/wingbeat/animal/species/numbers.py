@@ -54,7 +54,7 @@ def _keys(section: str, required: str = "", optional: str = "", shape: str = "nu
 KEYS = (
     *_keys("vehicle", optional="mass"),
     *_keys("vehicle.body", optional="mass"),
-    *_keys("vehicle.body", "pitch_inertia", "drag_area"),
+    *_keys("vehicle.body", "pitch_inertia", "drag_area crossflow_area"),
     *_keys("vehicle.wing", "semi_span"),
     *_keys("vehicle.wing", "chord", shape="stations"),
     *_keys("vehicle.wing", "mass", "mass_exponent"),

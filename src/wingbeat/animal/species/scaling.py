@@ -139,6 +139,11 @@ BODY_DRAG_AREA = _law(
     "drag coefficient 0.2 (Klein Heerenbrink 2016, jackdaw, doi 10.1242/jeb.132480) times 0.00813 m^0.666",
     lambda mass: 0.2 * 0.00813 * mass**0.666,
 )
+CROSSFLOW_AREA = _law(
+    "crossflow_area",
+    "0.6 times 1.2 times 3, an ellipsoid's planform over its frontal area, times 0.00813 m^0.666",
+    lambda mass: 0.6 * 1.2 * 3.0 * 0.00813 * mass**0.666,
+)
 BODY_HALF_WIDTH = _law(
     "body_half_width",
     "(0.00813 m^0.666 / pi)^(1/2), the radius of a circle of the body's frontal area",

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from wingbeat._base import NOMENCLATURE, for_people
+from wingbeat.animal.species.posture import with_posture
 from wingbeat.animal.species.species import FREQUENCY, Species
 
 
@@ -26,18 +27,32 @@ class Origin(NamedTuple):
     # no part of it: their sources name the change.
     changed: tuple[str, ...] = ()
     own_frequency: bool = False  # whether the frequency is that of the animal at its speed
+    own_posture: bool = False  # whether the body's pitch keeps to bounds of its kind at its speed
 
     def record(self) -> dict[str, Any]:
         """Return the origin as lists and texts, for JSON."""
         choices = [choice._asdict() for choice in self.choices]
-        own = {"own_frequency": True} if self.own_frequency else {}
+        own = {name: True for name in ("own_frequency", "own_posture") if getattr(self, name)}
         return {"name": self.name, "choices": choices, "changed": list(self.changed), **own}
+
+    def at_speed(
+        self, species: Species, bounds: Mapping[str, tuple[float, float]], speed: float
+    ) -> tuple[Species, dict[str, tuple[float, float]]]:
+        """Return species and bounds of the problem at another speed [m/s]."""
+        moved, found = species, dict(bounds)
+        if self.own_frequency:
+            moved = moved.at_own_frequency(speed)
+        if self.own_posture:
+            moved = with_posture(moved, speed)
+            found["body_pitch"] = moved.path_bounds["body_pitch"]
+        return moved, found
 
 
 def origin_from(record: dict[str, Any]) -> Origin:
     """Return the origin from `Origin.record`; any other dictionary raises `KeyError` or `TypeError`."""
     choices = tuple(Choice(**choice) for choice in record["choices"])
-    return Origin(record["name"], choices, tuple(record["changed"]), record.get("own_frequency", False))
+    own = (record.get(name, False) for name in ("own_frequency", "own_posture"))
+    return Origin(record["name"], choices, tuple(record["changed"]), *own)
 
 
 TERMS = ("unsteady", "inflow")

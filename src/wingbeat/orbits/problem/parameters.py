@@ -108,7 +108,7 @@ def _every(problem: OrbitProblem) -> Iterator[Parameter]:
                 for i, item in enumerate(value):
                     here = f"{path}.{'xyz'[i]}" if name == "shoulder" else f"{path}[{i}]"
                     yield _made(here, item, (*place, i), size=wing.mean_chord)
-            elif name != "crank":  # a switch
+            elif name != "crank" and (value or name != "crossflow_area"):  # a switch; a term that is off
                 yield _made(path, value, place, size=sizes.get(name, 1.0))
     wingbeat = problem.species.wingbeat
     for name in FREE_NAMES:

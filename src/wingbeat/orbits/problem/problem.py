@@ -204,7 +204,7 @@ class OrbitProblem(Reported):
         object.__setattr__(self, "_plausible_limits", limits)
 
     def at_speed(self, speed: float) -> OrbitProblem:
-        """Return the problem at another speed; plausible limits and the animal's own frequency are those there.
+        """Return the problem at another speed; plausible limits, posture and own frequency are those there.
 
         Parameters
         ----------
@@ -214,9 +214,10 @@ class OrbitProblem(Reported):
         ------
         InvalidInputError : an impossible speed, or one whose Reynolds number is not plausible.
         """
-        moved = dataclasses.replace(self, speed=speed)
-        if self.origin is not None and self.origin.own_frequency:
-            moved = dataclasses.replace(moved, species=self.species.at_own_frequency(speed))
+        species, bounds = self.species, self.bounds
+        if self.origin is not None:
+            species, bounds = self.origin.at_speed(species, bounds, speed)
+        moved = dataclasses.replace(self, species=species, speed=speed, bounds=bounds)
         limits, faults = getattr(self, "_plausible_limits", None), FaultList()
         if limits is not None:
             moved._limit_plausibly([c for c in self.subject_to if c not in limits], faults)

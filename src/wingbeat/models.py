@@ -89,7 +89,9 @@ class Model:
         least = named_objective(least) if isinstance(least, str) else least
         own = self.frequency == "own" and not changes.get("free") and least != named_objective("frequency")
         held = changes.get("bounds") or {}
-        posture = self.name == "animal" and self.kind != "robot" and (held == "plausible" or "body_pitch" not in held)
+        posture = (
+            self.name == "animal" and self.kind != "robot" and (held == "plausible" or "body_pitch" not in held)
+        )
         chosen = tuple(self._choices(flown)), tuple(self._changed(flown, changes))
         origin = Origin(self.name, *chosen, own, posture)
         if self.frequency not in ("own", "free") and "frequency" in flown.free:
@@ -205,6 +207,9 @@ class Model:
                 if name in ANGLES:
                     limits = f"{math.degrees(low):.0f} to {math.degrees(high):.0f} degrees"
                 found.append(Choice(f"free: {name}", limits, bound.reason))
+        if self.kind != "robot":
+            why = "guess: nearly level in fast flight and steeper in slow flight, as of pigeons and swallows"
+            found.append(Choice("pitch of the body", "within bounds that fall with speed", why))
         if self.frequency == "own":
             why = "measured, or by a law of its kind: no physics that was tried predicts it"
             found.append(Choice("frequency", "the animal's own", why))
@@ -225,7 +230,8 @@ def animal(species: Species, frequency: Frequency | None = None) -> Model:
 
     The kind determines the coefficients of the wing. Air loads include rotation, added mass and induced flow. Body
     drag, tail and muscle come from the species file or, if it gives none, from published laws. The tail's tilt and
-    the downstroke fraction are free. The objective is the metabolic power; for a robot, the electrical power of its
+    the downstroke fraction are free; of birds and bats twist, span retraction, mean sweep and tilt of the stroke
+    plane are too, and the body's pitch keeps to bounds that fall with speed. The objective is the metabolic power; for a robot, the electrical power of its
     motor, or the mean positive power if no motor is known.
 
     Parameters

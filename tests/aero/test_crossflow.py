@@ -1,4 +1,4 @@
-"""The force of the cross flow on a body: size, direction, derivatives, and what is off adds nothing to a program."""
+"""The force of the cross flow on a body: size, direction and derivatives; off, it adds nothing to a program."""
 
 import dataclasses
 

@@ -41,7 +41,12 @@ def odd_flight(airspeed):
     direction in which the numbers change; it returns the accelerations and their change.
     """
     bat = wb.load_species("bat").with_values(
-        {"wing.shoulder": [0.02, 0.01, 0.01], "wing.stroke_plane_angle_deg": 75.0, "body.drag_area": 1e-3, "body.crossflow_area": 0.01}
+        {
+            "wing.shoulder": [0.02, 0.01, 0.01],
+            "wing.stroke_plane_angle_deg": 75.0,
+            "body.drag_area": 1e-3,
+            "body.crossflow_area": 0.01,
+        }
     )
     model = wb.FlightModel(bat.vehicle, wb.aero.BladeElement(wb.aero.SuFan(), airspeed=airspeed))
     leaves, tree = jax.tree.flatten(model)

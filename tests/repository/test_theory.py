@@ -25,7 +25,8 @@ CENTRAL = """
 body-axes stroke-axes strip-axes quarter-turn phase stroke-phase recovery-law harmonics flap-law pitch-law
 span-law fold-law sweep-law twist-law chord-law strip-angles strip-place strip-chord strip-mass mass-points
 su-fan dickinson mirrored-extension strip-velocity angle-of-attack lift-drag strip-force force-point
-chord-turning rotation-force added-mass unsteady-couple induced-flow body-drag crossflow-force tail-velocity tail-coefficients
+chord-turning rotation-force added-mass unsteady-couple induced-flow body-drag crossflow-force
+tail-velocity tail-coefficients
 generalised-air-loads body-balance partial-velocities equations-of-motion mass-matrix velocity-matrix
 time-force gravity-force frozen-motion hinge-torques hinge-power actuator-power air-power energies
 """

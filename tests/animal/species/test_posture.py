@@ -1,4 +1,4 @@
-"""What live animals of a kind change in flight: the parameters that the model animal frees, and the body's pitch."""
+"""What live animals of a kind change in flight: parameters that the model animal frees, and the body's pitch."""
 
 import dataclasses
 

@@ -42,8 +42,8 @@ def free_of(kind: str) -> dict[str, Bound]:
 def with_free_stroke(species: Species) -> Species:
     """Return a bird, bat or robot with what live animals of its kind change free as well.
 
-    Guessed bounds of a parameter that is free already become as narrow as those of its kind. A parameter that has no
-    effect stays fixed.
+    Guessed bounds of a parameter that is free already become as narrow as those of its kind. A parameter that has
+    no effect stays fixed.
 
     >>> from wingbeat import load_species
     >>> "twist_ratio" in with_free_stroke(load_species("pigeon").with_tail()).free

@@ -2,7 +2,7 @@
 
 __version__ = "0.1.0"
 
-NUMERICAL_VERSION = 9
+NUMERICAL_VERSION = 10
 """The version of the numbers that this package computes. The key of every point of a study contains it.
 
 Raise it by one whenever a change may alter the numbers of any record by more than rounding: a change of equations,

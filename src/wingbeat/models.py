@@ -231,8 +231,8 @@ def animal(species: Species, frequency: Frequency | None = None) -> Model:
     The kind determines the coefficients of the wing. Air loads include rotation, added mass and induced flow. Body
     drag, tail and muscle come from the species file or, if it gives none, from published laws. The tail's tilt and
     the downstroke fraction are free; of birds and bats twist, span retraction, mean sweep and tilt of the stroke
-    plane are too, and the body's pitch keeps to bounds that fall with speed. The objective is the metabolic power; for a robot, the electrical power of its
-    motor, or the mean positive power if no motor is known.
+    plane are too, and the body's pitch keeps to bounds that fall with speed. The objective is the metabolic power;
+    for a robot, the electrical power of its motor, or the mean positive power if no motor is known.
 
     Parameters
     ----------

@@ -21,9 +21,8 @@ def turned(area, tail=None):
 
 @pytest.mark.parametrize("pitch", np.linspace(-3.0, 3.0, 7))
 def test_force_is_that_of_the_angle_of_attack(pitch):
-    velocity = np.array([9.0, -2.0])
-    normal = -np.sin(pitch), np.cos(pitch)
-    wanted = crossflow(0.008, 1.2, pitch, velocity)
+    velocity, normal = (9.0, -2.0), (-np.sin(pitch), np.cos(pitch))
+    wanted = crossflow(0.008, 1.2, pitch, np.array(velocity))
     np.testing.assert_allclose(crossflow_force(0.008, 1.2, normal, velocity), wanted, rtol=1e-12, atol=1e-16)
 
 

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 import dataclasses
 import functools
+import math
 import tomllib
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from wingbeat.animal.species.numbers import Bound, to_si
+from wingbeat.animal.species.numbers import Bound
 from wingbeat.animal.species.scaling import CRUISE_BY_MASS
 from wingbeat.animal.species.species import Species
 
@@ -34,7 +35,7 @@ def free_of(kind: str) -> dict[str, Bound]:
     """
     found = {}
     for name, entry in _table()[kind]["free"].items():
-        low, high = (to_si(value, name) for value in entry["bounds"])
+        low, high = (math.radians(value) if name.endswith("_deg") else float(value) for value in entry["bounds"])
         found[name.removesuffix("_deg")] = Bound((low, high), entry["reason"], entry["guessed"])
     return found
 

@@ -186,7 +186,10 @@ def _vehicle(kind: Kind, given: Numbers, mass: float, span: float, area: float) 
     length = given.get("vehicle.wing.semi_span", kind.wing_length.number(span))
     wing_mass = given.get("vehicle.wing.mass", kind.wing_mass.number(mass))
     drag = scaling.BODY_DRAG_AREA.number(mass)
+    cross = scaling.CROSSFLOW_AREA.number(mass)
     assert drag.range is not None, "every law has a spread"
+    assert cross.range is not None, "every law has a spread"
+    cross_source = f"Su et al., arXiv 2302.09602, have no force across the body; top of the range {cross.source}"
     drag_source = f"Su et al., arXiv 2302.09602, have no body drag; top of the range {drag.source}"
     chord = scaling.MEAN_CHORD.number(span, area)
     (low, high), whose = kind.aspect_ratios
@@ -203,6 +206,7 @@ def _vehicle(kind: Kind, given: Numbers, mass: float, span: float, area: float) 
         "vehicle.mass": whole,
         "vehicle.body.pitch_inertia": kind.pitch_inertia.number(mass),
         "vehicle.body.drag_area": Number(0.0, drag.unit, drag_source, (0.0, drag.range[1])),
+        "vehicle.body.crossflow_area": Number(0.0, "m2", cross_source, (0.0, cross.range[1])),
         "vehicle.wing.semi_span": length,
         "vehicle.wing.chord": chord,
         "vehicle.wing.mass": wing_mass,

@@ -67,8 +67,7 @@ class Wing:
 
     Raises
     ------
-    InvalidInputError : a length or mass that is not positive, a negative exponent, fewer than two stations of the
-        chord, a shoulder that is not three numbers, a number that is not finite.
+    InvalidInputError : a number out of range or not finite, a chord of one station, a shoulder of other length.
 
     >>> import wingbeat as wb
     >>> wing = wb.Wing(semi_span=0.3, chord=(0.12, 0.10, 0.04), mass=0.02, mass_exponent=2.0)
@@ -132,8 +131,7 @@ class Tail:
 
     Raises
     ------
-    InvalidInputError : an area or slope that is not positive, a negative drag coefficient, a number that is not
-        finite.
+    InvalidInputError : a number out of range or not finite.
 
     >>> import dataclasses, wingbeat as wb
     >>> pigeon = wb.load_species("pigeon").vehicle
@@ -211,10 +209,9 @@ class Muscle:
         faults.number("muscle.max_strain_rate", self.max_strain_rate, above=0, unit="1/s", fix="in lengths")
         faults.number("muscle.isometric_stress", self.isometric_stress, above=0, unit="Pa")
         faults.number("muscle.curvature", self.curvature, above=0, fix="fast muscle has 0.15 to 0.4")
-        for name in ("tendon_compliance", "activation_energy", "resting_rate"):
-            faults.number(f"muscle.{name}", getattr(self, name), at_least=0, fix="0 leaves it out")
-        for name in ("recovery_factor", "support_factor"):
-            faults.number(f"muscle.{name}", getattr(self, name), at_least=1, fix="1 leaves it out")
+        for name in ("tendon_compliance", "activation_energy", "resting_rate", "recovery_factor", "support_factor"):
+            least = int(name.endswith("factor"))
+            faults.number(f"muscle.{name}", getattr(self, name), at_least=least, fix=f"{least} leaves it out")
         faults.raise_if_any()
 
     @property
@@ -254,8 +251,7 @@ class Motor:
 
     Raises
     ------
-    InvalidInputError : a constant that is not positive, a negative inertia or current, an efficiency outside 0 to
-        1, a crank other than 0 or 1, a number that is not finite.
+    InvalidInputError : a number out of range or not finite.
 
     >>> Motor(torque_constant=2.1e-3, resistance=0.45, gear_ratio=10.0).crank
     0.0
@@ -381,8 +377,7 @@ class Air:
 
     Raises
     ------
-    InvalidInputError : a density or viscosity that is not positive, a negative gravity, a number that is not
-        finite.
+    InvalidInputError : a number out of range or not finite.
 
     >>> import wingbeat as wb
     >>> high = wb.Air(density=0.9)

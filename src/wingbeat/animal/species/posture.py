@@ -52,7 +52,8 @@ def with_free_stroke(species: Species) -> Species:
     """
     vehicle, known = species.vehicle, free_of(species.kind)
     idle = set() if vehicle.tail is not None else {"tail_tilt"}
-    if vehicle.tail is None and vehicle.wing.shoulder[0] == vehicle.wing.shoulder[2] == 0.0:
+    upright = vehicle.tail is None and not vehicle.body.crossflow_area
+    if upright and vehicle.wing.shoulder[0] == vehicle.wing.shoulder[2] == 0.0:
         idle.add("stroke_plane_tilt")
     added = [name for name in known if name not in species.free and name not in idle]
     bounds, reasons = dict(species.bounds), dict(species.reasons)

@@ -292,9 +292,11 @@ class OrbitProblem(Reported):
             elif name not in bounds:
                 faults.add("bounds", name, "is free but has no bounds", "give bounds={name: (lower, upper)}")
         ahead, _, above = self.vehicle.wing.shoulder
-        if self.vehicle.tail is None and "stroke_plane_tilt" in free and ahead == above == 0:
+        attitude_counts = self.vehicle.tail is not None or self.vehicle.body.crossflow_area
+        if "stroke_plane_tilt" in free and ahead == above == 0 and not attitude_counts:
             rule = (
-                "changes only the body's pitch, because the shoulder is at its centre of mass and there is no tail"
+                "changes only the body's pitch, because the shoulder is at its centre of mass and there is no tail "
+                "and no body.crossflow_area"
             )
             faults.add("free", "stroke_plane_tilt", rule, "set wing.shoulder, or leave stroke_plane_tilt fixed")
         if self.vehicle.tail is None and "tail_tilt" in free:

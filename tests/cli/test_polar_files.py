@@ -12,6 +12,7 @@ from tests.helpers.places import ROOT
 from wingbeat.aero import load_coefficients
 from wingbeat.cli import main
 from wingbeat.experiment.coefficient_table import load_measurements
+from wingbeat_evidence.measured_motion.ladder import ladder
 
 CASES = ROOT / "tests/cases/polars"
 WHOLE = [(a, 1.1 * np.sin(2 * np.deg2rad(a)), 1.06 - np.cos(2 * np.deg2rad(a))) for a in range(0, 91, 5)]
@@ -243,3 +244,14 @@ def test_coarse_tables_of_other_directions_are_refused(kind, command, capsys):
     written("a.csv", HEADS[0], rows)
     assert main(shlex.split(command)) == 2
     assert words in capsys.readouterr().err
+
+
+def test_validate_takes_the_extension_that_its_own_message_advises(capsys):
+    polar = str(ROOT / "tests/aero/polars/xfoil_naca4412_re50000.pol")
+    assert main(["validate", "--aero", polar]) == 2
+    assert "--extension viterna" in capsys.readouterr().err
+    assert [one.aero.coefficients.name for one in ladder([polar], "none", "none", 1.2, "viterna")] == [
+        Path(polar).stem
+    ]
+    assert main(["validate", "--extension", "viterna"]) == 2
+    assert "give --aero with a polar" in capsys.readouterr().err

@@ -10,6 +10,7 @@ from cyclopts import Parameter
 from wingbeat._base import FaultList, FileError, read_text, toml_tables, write_atomically
 from wingbeat._workers.tuning import core_count
 from wingbeat.aero import EXTENSIONS
+from wingbeat.aero.completion import VITERNA
 from wingbeat.animal.species.making import load_species
 from wingbeat.cli.arguments import Whole, check_files, check_outputs, figure, flag, written_to
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
@@ -50,7 +51,11 @@ def validate(
         ),
     ] = None,
     extension: Annotated[
-        str | None, Parameter(help=f"Extension to angles outside the fit, for all models: {', '.join(EXTENSIONS)}.")
+        str | None,
+        Parameter(
+            help=f"Extension to angles outside the fit, for all models: {', '.join(EXTENSIONS)}; viterna completes "
+            "polars that end at the stall."
+        ),
     ] = None,
     unsteady: Annotated[
         str | None,
@@ -101,7 +106,10 @@ def validate(
     if plot is not None and case is None:
         faults.add("--plot", str(plot), "draws one case", "name the case, or write the page with -o")
     if extension is not None:
-        faults.choice("--extension", extension, EXTENSIONS)
+        faults.choice("--extension", extension, (*EXTENSIONS, VITERNA))
+        if extension == VITERNA and aero is None:
+            rule = "completes a table that ends at the stall, and the models of the package need no completion"
+            faults.add("--extension", extension, rule, "give --aero with a polar")
     check_files(faults, output, plot=plot)
     loads = {"--aero": aero, "--extension": extension, "--unsteady": unsteady, "--inflow": inflow}
     loads |= {"--induced-factor": induced_factor}

@@ -17,7 +17,7 @@ from wingbeat.records.judgements import JUDGED_NAMES, set_by_limit, statements
 from wingbeat.records.numbers import SPENT, beat_mean
 from wingbeat.results.orbit import Orbit
 from wingbeat.viewer import scene
-from wingbeat.words.orbit_words import limits_in_words, mass_of
+from wingbeat.words.orbit_words import FREQUENCY_BASES, frequency_in_words, limits_in_words, mass_of
 from wingbeat_evidence.whole_flights import Measurement, measured_animals, read_measured_flights
 from wingbeat_evidence.whole_flights.comparison import ends_of, name_of
 from wingbeat_explorer.models import EXPLORER_MODELS
@@ -60,6 +60,8 @@ def face_of(orbit: Orbit, model: str) -> dict[str, Any]:
     certified, limits = orbit.status is Status.CONVERGED, limits_in_words(record)
     spent = {name: beat_mean(orbit.dataset[series].values) for name, series in SPENT.items()} if certified else None
     warnings = [f"set by limits, not predicted: {limits}"] if limits else []
+    if given := frequency_in_words(record) if certified else "":
+        warnings.insert(0, f"{given}: given, not predicted")
     return {
         "species": species.name,
         "title": title,
@@ -101,7 +103,8 @@ def sentence_of(record: dict[str, Any], title: str) -> str:
     if record["status"] != "converged":
         return f"No wingbeat that closes was found for {who[0].lower()}{who[1:]}."
     beats, power = _short(record["wingbeat"]["frequency"]), _short(record["mean_positive_power"])
-    why = " (set by a limit)" if "frequency" in set_by_limit(record) else ""
+    why = FREQUENCY_BASES.get(record.get("frequency_basis", "free"), "")
+    why = " (set by a limit)" if "frequency" in set_by_limit(record) else f" (given: {why})" if why else ""
     sentence = f"{who} beats {beats} times a second{why} and needs {power} W"
     judged = {one["name"]: one for one in record.get("plausibility") or []}
     limit = judged.get(_MUSCLE, {}).get("high")
@@ -193,10 +196,10 @@ def _sentence(text: str) -> str:
 def gauges_of(record: dict[str, Any]) -> list[dict[str, Any]]:
     """Return the gauges of an orbit record: one for each number of its ``plausibility``.
 
-    Each has name, label, value, unit, low, high, inside, limited and source. Angles are in degrees. An end of a
-    range that is open or unknown is None. `inside` is None if the number has no value, such as the Strouhal number
-    in hover, or if nothing is known of its range. `limited` says whether a limit has set the number, or it follows
-    from a limit.
+    Each has name, label, value, unit, low, high, inside, limited, given and source. Angles are in degrees. An
+    end of a range that is open or unknown is None. `inside` is None if the number has no value, such as the
+    Strouhal number in hover, or if nothing is known of its range. `limited` says whether a limit has set the
+    number, or it follows from a limit; `given`, whether it is a frequency that was not searched for.
 
     >>> judged = {"name": "frequency", "value": 12.0, "unit": "Hz", "low": 4.0, "high": 10.0, "within": False}
     >>> gauge = gauges_of({"plausibility": [judged | {"source": "a law"}]})[0]
@@ -204,10 +207,12 @@ def gauges_of(record: dict[str, Any]) -> list[dict[str, Any]]:
     ('Wingbeat frequency', 12.0, False)
     """
     limited = set_by_limit(record)
-    return [_gauge(one, one["name"] in limited) for one in record.get("plausibility") or []]
+    given = {"frequency"} if record.get("frequency_basis", "free") in FREQUENCY_BASES else set()
+    judged = record.get("plausibility") or []
+    return [_gauge(one, one["name"] in limited, one["name"] in given) for one in judged]
 
 
-def _gauge(judged: dict[str, Any], limited: bool) -> dict[str, Any]:
+def _gauge(judged: dict[str, Any], limited: bool, given: bool) -> dict[str, Any]:
     factor, unit = for_people(cf(judged["unit"]))
     value, low, high = (None if part is None else factor * part for part in (judged[n] for n in _NUMBERS))
     known = low is not None or high is not None
@@ -221,6 +226,7 @@ def _gauge(judged: dict[str, Any], limited: bool) -> dict[str, Any]:
         "high": high,
         "inside": judged["within"] if known else None,
         "limited": limited,
+        "given": given,
         "source": " ".join(judged["source"].split()),
     }
 

@@ -208,7 +208,14 @@ def test_gauges_say_in_words_where_the_number_lies(show, answers):
         row = page.locator(f"[data-gauge={name}]")
         inside = "set by a limit" if one["limited"] else "inside"
         assert row.locator(".wbx-word").inner_text() == (inside if one["inside"] else "above")
+        assert not one["given"]
         assert float(gauge(page, name).get_attribute("data-exact")) == one["value"]
+    given = words["frequency"] | {"given": True, "inside": True}
+    page.evaluate(f"gauge => {FACE}.gauges.show([gauge])", given)
+    row = page.locator("[data-gauge=frequency]")
+    assert row.locator(".wbx-word").inner_text() == "given"
+    assert row.locator("p").first.text_content().startswith("Given, not predicted. Plausible: 4")
+    page.evaluate(f"gauges => {FACE}.gauges.show(gauges)", list(words.values()))
     # A range that begins below 0, from -10 to 40 degrees, has its place on a bar from -20 to 80.
     band = page.locator("[data-gauge=mean_body_pitch] .wbx-band")
     ends = [band.evaluate(f"band => Number(band.style.{end}.replace(/[^0-9.]/g, ''))") for end in ("left", "right")]

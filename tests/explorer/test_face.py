@@ -40,6 +40,16 @@ def test_the_sentence_of_a_plausible_flight(record):
 
 
 @pytest.mark.parametrize(
+    ("basis", "why"),
+    [("free", ""), ("law", " (given: by a law of its kind)"), ("measured", " (given: measured on the animal)")],
+)
+def test_a_frequency_that_was_not_searched_for_is_called_given(record, basis, why):
+    record |= {"active_bounds": [], "frequency_basis": basis}
+    assert f"beats 5.6 times a second{why} and needs" in sentence_of(record, "rock pigeon")
+    assert [one["name"] for one in gauges_of(record) if one["given"]] == (["frequency"] if why else [])
+
+
+@pytest.mark.parametrize(
     ("share", "words"),
     [(1.02, "more than what its muscle gives."), (2.0, "twice what"), (3.14, "3.1 times what")],
 )

@@ -178,6 +178,26 @@ def test_a_species_file_gets_its_command_or_goes_to_the_page(show):
     page.wait_for_function("() => window.given === 'my-bird.toml'")
 
 
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("my foil.dat", ""),
+        ("foil.txt", "XFOIL Version 6.99\n\n   alpha    CL        CD\n  0.000   0.0000   0.01\n"),
+        ("foil.csv", "Alpha,Cl,Cd\n0,0,0.01\n"),
+        ("foil.tsv", "Angle of attack (deg)\tLift coefficient\n0\t0\n"),
+    ],
+)
+def test_a_polar_gets_its_command_or_goes_to_the_page(show, name, text):
+    page = show(fragment="#animal=pigeon&speed=12").page
+    page.evaluate(DROP, [name, text])
+    page.wait_for_function("() => document.querySelector('.wbx-own-state code')")
+    shown = f'"{name}"' if " " in name else name
+    assert f"wingbeat orbit pigeon --speed 12 --aero {shown}" in state(page)
+    page.evaluate(f"() => {{ {FACE}.onfile = (file) => {{ window.given = file.name; }}; }}")
+    page.evaluate(DROP, [name, text])
+    page.wait_for_function("name => window.given === name", arg=name)
+
+
 def test_a_dropped_file_is_shown_and_does_not_replace_the_page(show):
     page = show().page
     assert page.evaluate(DROP, ["mine.csv", FLIGHTS]) is False  # the browser's own way is prevented

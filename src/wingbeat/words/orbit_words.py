@@ -98,17 +98,17 @@ def limits_in_words(record: dict[str, Any]) -> str:
     return f"{', '.join(own)}{then}"
 
 
-_BASIS = {"measured": "measured on the animal", "law": "by a law of its kind", "given": "as asked for"}
+FREQUENCY_BASES = {"measured": "measured on the animal", "law": "by a law of its kind", "given": "as asked for"}
 
 
 def frequency_in_words(record: dict[str, Any]) -> str:
     """Return the frequency of an orbit that did not search for it, with where it comes from and its band."""
     basis = record.get("frequency_basis", "free")
-    if basis not in _BASIS:
+    if basis not in FREQUENCY_BASES:
         return ""
     own = [one for one in record.get("plausibility") or () if one["name"] == "frequency" and one["low"] is not None]
     band = f", {_range(own[0]['low'], own[0]['high'], 'Hz', 1.0)}" if own and basis != "given" else ""
-    return f"frequency {_number(record['wingbeat']['frequency'], 'Hz', 1.0)}, {_BASIS[basis]}{band}"
+    return f"frequency {_number(record['wingbeat']['frequency'], 'Hz', 1.0)}, {FREQUENCY_BASES[basis]}{band}"
 
 
 def flight_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:

@@ -162,13 +162,18 @@ class Errands:
                 if scenario is None:
                     text = f"{label} is shown as it is; the controls cannot represent it: {found['why_not']}."
                     self._view.show_trouble(text)
+            elif "aero_file" in found:
+                self._session.change(**found)
             elif "text" in found:
                 self._session.change(species=found["species"], species_file=found["text"], values={}, bounds={})
             else:
                 self._session.scenario = from_plain(found["scenario"])
                 self._session.ask(whole=True)
 
-        self._start({"do": "read", "path": path, "label": label}, f"Reading {label}.", show, end=end, name=label)
+        now = self._session.scenario
+        what = {"do": "read", "path": path, "label": label}
+        what |= {"extension": now.extension, "blend_width_deg": now.blend_width_deg}
+        self._start(what, f"Reading {label}.", show, end=end, name=label)
 
     def leave(self) -> None:
         """Release the files that are not read yet, because the visitor has left."""

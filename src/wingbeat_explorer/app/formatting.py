@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Iterable
 from typing import Any
 
 from wingbeat._base import NOMENCLATURE, Fault, for_people
 from wingbeat.animal.species.numbers import Number, display
 from wingbeat.words.orbit_words import mass_of
+
+_LONGEST_LABEL, _LONGEST_ENDING = 60, 8  # characters
 
 
 def number(value: float | None, digits: int = 4) -> str:
@@ -82,3 +85,15 @@ def tiles(record: dict[str, Any]) -> list[tuple[str, str, str, str]]:
         ("cost_of_transport", "Cost of transport", number(cost, 3), repr(cost)),
     ]
     return [(label, value, for_people(NOMENCLATURE[name].unit)[1], exact) for name, label, value, exact in found]
+
+
+def clean_label(name: str) -> str:
+    r"""Return a file's name for messages: the last part of its path, printable, shortened before its ending.
+
+    >>> clean_label("../../etc/my\nbat.toml"), clean_label(80 * "a" + ".pol")[-8:]
+    ('mybat.toml', 'aaaa.pol')
+    """
+    last = name.replace("\\", "/").rpartition("/")[2]
+    stem, ending = os.path.splitext("".join(c for c in last if c.isprintable()).strip())
+    ending = ending[:_LONGEST_ENDING]
+    return stem[: _LONGEST_LABEL - len(ending)] + ending or "the file"

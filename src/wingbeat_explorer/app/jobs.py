@@ -17,8 +17,11 @@ from typing import Any
 from wingbeat._base import FileError, InvalidInputError, first_line, read_text
 from wingbeat._workers.process import Context
 from wingbeat.aero.blade_element import OF_ELEMENTS
+from wingbeat.aero.completion import VITERNA
+from wingbeat.aero.polar_formats import POLAR_SUFFIXES
+from wingbeat.animal.species.species import FREQUENCY
 from wingbeat.animal.species.writing import species_text
-from wingbeat.models import MODELS
+from wingbeat.models import MODELS, model_of
 from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, search_near
@@ -27,9 +30,17 @@ from wingbeat.records.result_files import load_dataset, netcdf_bytes
 from wingbeat.results.orbit import Orbit, orbit_from, solve_orbit
 from wingbeat.results.sensitivities import sensitivities
 from wingbeat.words.orbit_words import orbit_groups
-from wingbeat_explorer.app.formatting import refusals
+from wingbeat_explorer.app.formatting import clean_label, refusals
 from wingbeat_explorer.app.links import from_json, from_plain, to_plain
-from wingbeat_explorer.app.scenario import MOST_STARTS, Scenario, problem_of, species_from_text, species_in
+from wingbeat_explorer.app.scenario import (
+    LARGEST_TABLE,
+    MOST_STARTS,
+    Scenario,
+    problem_of,
+    species_from_text,
+    species_in,
+    table_of,
+)
 from wingbeat_explorer.face_data import face_of, is_plausible, lights_of, measured_points
 from wingbeat_explorer.lattice import flown_through_gusts
 
@@ -65,16 +76,17 @@ def _orbit(what: dict[str, Any], context: Context) -> dict[str, Any]:
     begun = time.perf_counter()
     scenario = from_plain(what["scenario"])
     problem = problem_of(scenario)
+    notes = {"notes": list(getattr(problem.aero.coefficients, "notes", ()))}  # an orbit's own problem has none
     near_since = time.perf_counter()
     continued = _continued(problem, what.get("near"))
     in_vain = time.perf_counter() - near_since
     if continued is not None:
-        return answer_of(Orbit.of(continued, 1), scenario.face_model, begun) | {"continued": True}
+        return answer_of(Orbit.of(continued, 1), scenario.face_model, begun) | notes | {"continued": True}
     orbit = solve_orbit(problem, scenario.search_starts, scenario.seed, context.progress)
     context.check()
     answer = answer_of(orbit, scenario.face_model, begun)
     # The page waited for both searches.
-    return answer | {"solver_seconds": in_vain + answer["solver_seconds"]}
+    return answer | notes | {"solver_seconds": in_vain + answer["solver_seconds"]}
 
 
 def _continued(problem: OrbitProblem, near: dict[str, Any] | None) -> Solution | None:
@@ -189,11 +201,12 @@ def _file(what: dict[str, Any], context: Context) -> dict[str, Any]:
 
 
 def _read(what: dict[str, Any], context: Context) -> dict[str, Any]:
-    """Return the content of an uploaded file: a scenario, a species, or an answer.
+    """Return the content of an uploaded file: a scenario, a species, coefficients, or an answer.
 
     An answer comes with its scenario, if the page's controls can represent it.
     """
-    orbit, label = read_upload(what["path"], what["label"]), what["label"]
+    reach = what.get("extension", "mirrored"), what.get("blend_width_deg", 1.0)
+    orbit, label = read_upload(what["path"], what["label"], reach), what["label"]
     if not isinstance(orbit, Orbit):
         return orbit
     begun = time.perf_counter()
@@ -210,18 +223,11 @@ def _read(what: dict[str, Any], context: Context) -> dict[str, Any]:
 # Uploaded files --------------------------------------------------------------------------------------------------
 
 
-def clean_label(name: str) -> str:
-    r"""Return the name of a file for messages: the last part of its path, shortened and printable.
+def read_upload(path: str, label: str, reach: tuple[str, float] = ("mirrored", 1.0)) -> Orbit | dict[str, Any]:
+    """Return the orbit in a file, ``{"scenario": ...}`` of a saved state, or ``{"species": ..., "text": ...}``.
 
-    >>> clean_label("../../etc/my\nbat.toml")
-    'mybat.toml'
-    """
-    last = name.replace("\\", "/").rpartition("/")[2]
-    return "".join(c for c in last if c.isprintable()).strip()[:60] or "the file"
-
-
-def read_upload(path: str, label: str) -> Orbit | dict[str, Any]:
-    """Return the orbit in a file, or ``{"scenario": ...}`` of a saved state, or ``{"species": ..., "text": ...}``.
+    Of a table of coefficients, return ``{"aero": ..., "aero_file": ..., "extension": ...}``. `reach` is the
+    extension that the page asks for and half the width [deg] of its blends.
 
     The server stored the file under a path that it chose; `label` is the visitor's name for it.
     """
@@ -230,6 +236,8 @@ def read_upload(path: str, label: str) -> Orbit | dict[str, Any]:
     try:
         if start == _HDF5:
             return _checked(path, label)
+        if label.lower().endswith(POLAR_SUFFIXES):
+            return _table_in(path, label, *reach)
         text = read_text(path)
         if text.lstrip()[:1] == "{":
             return {"scenario": to_plain(from_json(text, label))}
@@ -237,6 +245,25 @@ def read_upload(path: str, label: str) -> Orbit | dict[str, Any]:
     except FileError as error:
         raise FileError(str(error).replace(path, label)) from None
     return {"species": clean_label(species.name), "text": text}
+
+
+def _table_in(path: str, label: str, extension: str, blend_width_deg: float) -> dict[str, Any]:
+    """Return the coefficients in a file; Viterna's rule completes a table that is refused otherwise.
+
+    What is refused in both ways is refused in the words of the command line.
+    """
+    with open(path, "rb") as file:
+        content = file.read()
+    refused: InvalidInputError | None = None
+    for asked in ("mirrored" if extension == VITERNA else extension, VITERNA):
+        try:
+            table_of(content, label, asked, blend_width_deg)
+        except InvalidInputError as error:
+            refused = refused or error
+        else:
+            return {"aero": label, "aero_file": read_text(path, limit=LARGEST_TABLE), "extension": asked}
+    assert refused is not None
+    return {"refused": [["", str(fault)] for fault in refused.faults]}
 
 
 def _checked(path: str, label: str) -> Orbit:
@@ -288,6 +315,11 @@ def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool
     elements["hand"] = getattr(aero.hand, "name", "none")
     model = problem.origin.name if problem.origin else MODELS[0]
     known = species_in(Scenario(species=name, species_file=text, model=model))
+    usual = model_of(model, known).frequency
+    basis, left = problem.frequency_basis, ["vehicle.mass"]
+    frequency = species.wingbeat.frequency if basis == "given" and "frequency" in known.free else None
+    if frequency is not None or basis in ("measured", "law"):
+        left.append(FREQUENCY)
     bounds = known.bounds | known.path_bounds
     own = {n: (float(p[0]), float(p[1])) for n, p in problem.bounds.items() if tuple(p) != bounds.get(n)}
     limits = tuple(f"{c.quantity.name}{'<=' if c.at_most else '>='}{c.limit!r}" for c in problem.subject_to)
@@ -295,6 +327,8 @@ def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool
         species=name,
         species_file=text,
         model=model,
+        frequency=frequency,
+        free_frequency=basis == "free" and usual == "own" and problem.minimise.parameter != "frequency",
         speed=problem.speed,
         climb=problem.climb,
         aero=aero.coefficients.name,
@@ -308,7 +342,7 @@ def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool
         values={
             path: number.value
             for path, number in species.numbers.items()
-            if path != "vehicle.mass" and (path not in known.numbers or known.numbers[path].value != number.value)
+            if path not in left and (path not in known.numbers or known.numbers[path].value != number.value)
         },
         starts=min(inputs["starts"], MOST_STARTS),
         seed=inputs["seed"],

@@ -16,6 +16,8 @@ from urllib.parse import parse_qsl, urlencode
 from pydantic import TypeAdapter, ValidationError
 
 from wingbeat._base import Fault, FaultList, FileError, InvalidInputError
+from wingbeat.aero.polar_formats import POLAR_SUFFIXES
+from wingbeat_explorer.app.formatting import clean_label
 from wingbeat_explorer.app.scenario import LARGEST_FILE, NUMBERS, SWITCHES, WHOLE, WORDS, Scenario
 
 # Servers and browsers accept addresses of 16 kB and more; a species file takes some 6 kB.
@@ -28,7 +30,10 @@ _CHECKED = TypeAdapter(Scenario)
 
 
 def to_query(scenario: Scenario) -> str:
-    """Return the query of a permalink: values that differ from the defaults, and the compressed species file."""
+    """Return the query of a permalink: values that differ from the defaults, and the compressed species file.
+
+    It has the name of a file of coefficients, not its text.
+    """
     empty, words = Scenario(), []
     for name in (*WORDS, *NUMBERS, *WHOLE):
         value = getattr(scenario, name)
@@ -47,7 +52,7 @@ def to_query(scenario: Scenario) -> str:
 
 
 def from_query(query: str) -> Scenario:
-    """Return the scenario of a permalink.
+    """Return the scenario of a permalink; it may name a file of coefficients, which its `faults` then ask for.
 
     Raises
     ------
@@ -67,6 +72,9 @@ def from_query(query: str) -> Scenario:
     for name, text in pairs:
         _read_pair(plain, name, text, faults)
     faults.raise_if_any()
+    if plain.get("aero", "").lower().endswith(POLAR_SUFFIXES):
+        scenario = from_plain({name: value for name, value in plain.items() if name != "aero"})
+        return dataclasses.replace(scenario, aero=clean_label(plain["aero"]))
     return from_plain(plain)
 
 

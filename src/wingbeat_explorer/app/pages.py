@@ -16,6 +16,7 @@ from nicegui import Client, ui
 
 from wingbeat._base import InvalidInputError
 from wingbeat._workers.pool import Event
+from wingbeat.aero.polar_formats import POLAR_SUFFIXES
 from wingbeat_explorer.app.controls import Controls
 from wingbeat_explorer.app.errands import Errands
 from wingbeat_explorer.app.face_element import Downloads, Face
@@ -28,7 +29,7 @@ from wingbeat_explorer.app.speed_curve import Curve, drawn
 from wingbeat_explorer.app.widgets import Trouble, button, choice_field, folded, part, run_script, set_class, tag
 
 _THEMES = (("system", "System"), ("light", "Light"), ("dark", "Dark"))
-_ACCEPT = ".toml,.nc,.json"
+_ACCEPT = ",".join((".toml", ".nc", ".json", *POLAR_SUFFIXES))
 _WORK = "wingbeat_explorer.app.jobs:do"
 # Most pages that were fetched and wait for their browser to connect. Browsers connect within a second. Programs
 # that only fetch pages never do, and each page takes 3.2 MB of memory until NiceGUI drops it after a minute. A
@@ -45,6 +46,7 @@ class Page:
         self._refusals, scenario = [], self._first.scenario
         try:
             scenario = from_query(query) if query else scenario
+            self._refusals = [f"The link needs a file. {fault}" for fault in scenario.faults().faults]
         except InvalidInputError as error:
             self._refusals = [f"The link was not understood. {fault}" for fault in error.faults]
         self._is_ready = scenario.asks_as(self._first.scenario)
@@ -75,6 +77,7 @@ class Page:
             self._house.warm_up()  # who looks at it may soon move on
         if self._refusals:  # shown after the request, because a request removes earlier messages
             self.show_trouble(*self._refusals)
+            self._face.say("")  # where nothing is solved, nobody waits
 
     @property
     def waits(self) -> bool:
@@ -138,7 +141,7 @@ class Page:
         self._trouble = Trouble()
 
     def _build_menu(self) -> None:
-        what = "A species file (TOML), an orbit (NetCDF), or a saved state (JSON)"
+        what = "A species file (TOML), a polar, an orbit (NetCDF), or a saved state (JSON)"
         self._upload = tag("label", "Load a file", "button", title=what)
         chooser = tag("input", classes="unseen", type="file", accept=_ACCEPT)
         chooser.props["id"] = self._upload.props["for"] = chooser.html_id

@@ -37,6 +37,7 @@ class Brief:
             with tag("div", classes="words"):
                 self._title = tag("h2", "", "what")
                 self._message = tag("p", "", "message")
+                self._notes = tag("p", "", "note")
             self._pin = button("Pin", pin, disabled=True, title="Keep this result to compare it with the next one")
 
     def show(self, answer: dict[str, Any], count: int) -> None:
@@ -48,6 +49,8 @@ class Brief:
         self._title.props["data-solver-seconds"] = answer["solver_seconds"]
         self._title.props["data-count"] = count
         self._message.set_text(_message(answer))
+        notes = "; ".join(answer.get("notes", ()))
+        self._notes.set_text(f"Read from the file of coefficients: {notes}." if notes else "")
         self._pin.props.pop("disabled", None)
 
 

@@ -5,8 +5,11 @@ from __future__ import annotations
 import dataclasses
 import functools
 import math
+import os
+import tempfile
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Annotated, get_type_hints
 
 from pydantic import AfterValidator, Field, SkipValidation, Strict
@@ -16,21 +19,28 @@ from wingbeat.aero import (
     EXTENSIONS,
     LIBRARY,
     BladeElement,
+    FamilyCoefficients,
+    TableCoefficients,
     load_coefficients,
 )
 from wingbeat.aero.blade_element import ELEMENT_LIMITS, ELEMENT_WORDS, OF_ELEMENTS, load_hand
+from wingbeat.aero.completion import VITERNA
+from wingbeat.aero.polar_formats import POLAR_SUFFIXES
+from wingbeat.aero.polar_models import load_table
 from wingbeat.animal.species.making import load_species, species_of
 from wingbeat.animal.species.reading import read_species_text, species_names
 from wingbeat.animal.species.species import Species
 from wingbeat.models import MODELS, model_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.problem.quantities import FASTEST, QUANTITIES
+from wingbeat_explorer.app.formatting import clean_label
 from wingbeat_explorer.models import name_of, search_starts
 
 # Limits for one visitor, because others use the machine, too.
 MOST_STARTS, MOST_STRIPS, MOST_SPEEDS, MOST_LIMITS, MOST_NUMBERS = 100, 60, 60, 8, 60
 TAIL_TILT = "tail_tilt"  # the parameter that a species holds fixed and the page can free
 LARGEST_FILE = 1 << 18  # characters of a species file, as `load_species` has it
+LARGEST_TABLE = 1 << 20  # characters of a file of coefficients; twenty polars of a whole turn take 0.3 million
 _LONGEST_WORD = 200
 
 
@@ -66,6 +76,10 @@ class Scenario:
     speed, climb : mean velocity [m/s].
     model : ``"paper"`` or ``"animal"``, see `wingbeat.models`; it determines what is added to the species. If a
         model is chosen on the page, the page also sets its air loads and objective, which can be changed later.
+    frequency : a frequency to fly at [Hz]; None for the model's own choice, see `wingbeat.models`.
+    free_frequency : whether it is searched for in place of the model's own choice; bounds of it say the same.
+    aero_file : text of the visitor's own coefficients, empty for those of the library; `aero` is the file's name.
+        It stays in the session and in saved states: links have the name alone.
     aero, extension, blend_width_deg, strips, force_point, airspeed, unsteady, inflow, induced_factor, hand,
         hand_from, upstroke_factor : the air loads, as on the command line.
     minimise : name of the quantity to minimise.
@@ -84,7 +98,10 @@ class Scenario:
     speed: Finite = 10.0
     climb: Finite = 0.0
     model: Word = "paper"
+    frequency: Finite | None = None
+    free_frequency: Switch = False
     aero: Word = "su-fan"
+    aero_file: Annotated[str, Strict(), AfterValidator(_encodable)] = ""
     extension: Word = "mirrored"
     blend_width_deg: Finite = 1.0
     strips: Whole = BladeElement.strips
@@ -125,8 +142,24 @@ class Scenario:
         faults.number("speed", self.speed, **SPEED_LIMITS, fix="0 is hover")
         faults.number("climb", self.climb, **CLIMB_LIMITS, fix="0 is level flight")
         faults.choice("model", self.model, MODELS)
-        faults.choice("aero", self.aero, tuple(LIBRARY))
-        faults.choice("extension", self.extension, EXTENSIONS)
+        is_file = self.aero.lower().endswith(POLAR_SUFFIXES) and clean_label(self.aero) == self.aero
+        if not is_file and not self.aero_file:
+            faults.choice("aero", self.aero, tuple(LIBRARY))
+        elif not is_file:
+            fix = f"the name ends in {', '.join(POLAR_SUFFIXES)}"
+            faults.add("aero", self.aero, "is no name of a file of coefficients", fix)
+        elif not self.aero_file:
+            fix = "drop it here, or choose other coefficients"
+            faults.add("aero", self.aero, "is a file, which no link holds", fix)
+        elif len(self.aero_file) > LARGEST_TABLE:
+            faults.add(
+                "aero", self.aero, f"has {len(self.aero_file)} characters", f"at most {LARGEST_TABLE} are read"
+            )
+        faults.choice("extension", self.extension, (*EXTENSIONS, VITERNA))
+        if self.frequency is not None:
+            faults.number("frequency", self.frequency, above=0, unit="Hz", fix="leave it empty for the model's own")
+            if self.free_frequency:
+                faults.add("frequency", self.frequency, "is given, and also searched for", "keep one")
         faults.number("blend_width_deg", self.blend_width_deg, above=0, at_most=3, unit="deg")
         for name, words in ELEMENT_WORDS.items():
             faults.choice(name, getattr(self, name), words)
@@ -177,12 +210,17 @@ class Scenario:
 
 
 def _named(*types: object) -> tuple[str, ...]:
-    """Return the names of the choices of these types; a species file is no word."""
+    """Return the names of the choices of these types; the text of a file is no word."""
     hints = get_type_hints(Scenario)
-    return tuple(name for name, kind in hints.items() if kind in types and name != "species_file")
+    return tuple(name for name, kind in hints.items() if kind in types and not name.endswith("_file"))
 
 
-WORDS, NUMBERS, WHOLE, SWITCHES = _named(str), _named(float), _named(int, int | None), _named(bool)
+WORDS, NUMBERS, WHOLE, SWITCHES = (
+    _named(str),
+    _named(float, float | None),
+    _named(int, int | None),
+    _named(bool),
+)
 
 
 @functools.lru_cache(maxsize=32)
@@ -195,6 +233,28 @@ def species_from_text(text: str, label: str) -> Species:
     """
     faults = FaultList()
     return species_of(read_species_text(text, label, label.removesuffix(".toml"), faults), faults)
+
+
+@functools.lru_cache(maxsize=16)
+def table_of(
+    content: bytes, label: str, extension: str, blend_width_deg: float
+) -> TableCoefficients | FamilyCoefficients:
+    """Return the coefficients in a visitor's file, whose name is `label`; all is as `load_table` has it.
+
+    Raises
+    ------
+    FileError, InvalidInputError : in the words of the command line.
+    """
+    with tempfile.TemporaryDirectory(prefix="wingbeat-") as folder:
+        path = Path(folder) / label
+        path.write_bytes(content)
+        try:
+            return load_table(path, extension, blend_width_deg)
+        except FileError as error:
+            raise FileError(str(error).replace(folder + os.sep, "")) from None
+        except InvalidInputError as error:  # some name the command that helps, with the path
+            told = [dataclasses.replace(one, fix=one.fix.replace(folder + os.sep, "")) for one in error.faults]
+            raise InvalidInputError(told) from None
 
 
 @functools.lru_cache(maxsize=64)
@@ -237,7 +297,8 @@ def problem_of(scenario: Scenario) -> OrbitProblem:
     species, loads, model = None, None, None
     try:
         species = species_in(scenario)
-        model = model_of(scenario.model, species)
+        free = scenario.free_frequency or (scenario.frequency is None and "frequency" in scenario.bounds)
+        model = model_of(scenario.model, species, "free" if free else scenario.frequency)
         if scenario.values:
             species = species.with_values(dict(scenario.values))
     except InvalidInputError as error:
@@ -248,9 +309,15 @@ def problem_of(scenario: Scenario) -> OrbitProblem:
         reach = scenario.extension, scenario.blend_width_deg
         elements = {name: getattr(scenario, name) for name in OF_ELEMENTS}
         elements["hand"] = load_hand(scenario.hand, *reach)
-        loads = BladeElement(load_coefficients(scenario.aero, *reach), **elements)
+        if scenario.aero_file:
+            coefficients = table_of(scenario.aero_file.encode(), scenario.aero, *reach)
+        else:
+            coefficients = load_coefficients(scenario.aero, *reach)
+        loads = BladeElement(coefficients, **elements)
     except InvalidInputError as error:
         faults.faults += error.faults
+    except FileError as error:
+        faults.add("aero", scenario.aero, str(error))
     faults.raise_if_any()
     assert species is not None
     assert model is not None

@@ -40,7 +40,11 @@ scenarios = st.builds(
     seed=st.integers(0, 100_000),
     sweep=st.tuples(st.floats(0, 10), st.floats(11, 20), st.floats(1, 5)),
     within_plausible=st.booleans(),
-).filter(lambda scenario: not (scenario.within_plausible and scenario.bounds))
+    frequency=st.none() | st.floats(0.1, 500),
+    free_frequency=st.booleans(),
+).filter(
+    lambda one: not (one.within_plausible and one.bounds) and not (one.frequency is not None and one.free_frequency)
+)
 
 
 @given(scenarios)

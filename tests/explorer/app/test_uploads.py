@@ -171,3 +171,21 @@ def test_an_orbit_comes_back_with_its_model_and_its_limits(model, asked):
     assert (plain["bounds"], plain["set"]) == ({}, {})
     again = problem_of(from_plain(plain))
     assert (again.bounds, again.subject_to) == (problem.bounds, problem.subject_to)
+
+
+@pytest.mark.parametrize("name", ["pigeon", "common-murre"])
+@pytest.mark.parametrize("frequency", [None, "free", 7.25])
+def test_an_orbit_comes_back_with_its_frequency(name, frequency):
+    species = wb.load_species(name)
+    problem = model_of("animal", species, frequency).problem(species, 14.0)
+    unsolved: Any = SimpleNamespace(problem=problem, inputs=inputs_of(problem, 1, 0))
+    plain, why_not = scenario_of(unsolved)
+    assert plain is not None, why_not
+    assert (plain["frequency"], plain["free_frequency"]) == (
+        frequency if frequency != "free" else None,
+        frequency == "free",
+    )
+    again = problem_of(from_plain(plain))
+    assert (again.frequency_basis, again.free) == (problem.frequency_basis, problem.free)
+    assert again.species.wingbeat == problem.species.wingbeat
+    assert plain["set"] == {}

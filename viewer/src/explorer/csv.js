@@ -66,6 +66,22 @@ function cells(line, separator) {
   return found.map((cell) => cell.trim());
 }
 
+const ANGLES = ["alpha", "alphadeg", "aoa", "aoadeg", "angleofattack", "angleofattackdeg", "α"];
+const CLOCKS = ["phase", "time"];
+
+// Whether a text is a polar: a line of its head names lift, and the angle of attack or drag. Which program wrote it, and
+// what it says, is for the server to find.
+export function isPolar(text) {
+  return text
+    .split(/\r\n|\r|\n/, 60)
+    .some((line) => {
+      const parts = line.toLowerCase().replace(/[[(][^\])]*[\])]/g, "").split(/[\t;,]/.test(line) ? /[\t;,]/ : /\s+/);
+      const names = parts.map((part) => part.replace(/[^a-zα]/g, ""));
+      const has = (...known) => known.some((name) => names.includes(name));
+      return has("cl", "liftcoefficient") && has("cd", "dragcoefficient", ...ANGLES) && !has(...CLOCKS);
+    });
+}
+
 // A column's words and unit: "Speed [m/s]", "speed_m_s" and "Speed (m/s)" are the same.
 export function named(text) {
   const bracket = /[[(]([^\])]*)[\])]/.exec(text);

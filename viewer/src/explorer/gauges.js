@@ -49,7 +49,8 @@ class Row {
     this.value.dataset.exact = value;
     this.word.textContent = word(gauge);
     this.element.className = { true: "wbx-inside", false: "wbx-outside" }[gauge.inside] ?? "";
-    this.range.textContent = known ? `Plausible: ${range(gauge)}` : "No plausible range is known.";
+    const given = gauge.given ? "Given, not predicted. " : "";
+    this.range.textContent = given + (known ? `Plausible: ${range(gauge)}` : "No plausible range is known.");
     this.source.textContent = known ? `Source: ${source}` : "";
     const most = high !== null ? ROOM * high : 2.5 * low;
     const least = low !== null && low < 0 ? ROOM * low : 0;
@@ -70,10 +71,10 @@ class Row {
   }
 }
 
-export function word({ value, low, high, inside, limited }) {
+export function word({ value, low, high, inside, limited, given }) {
   if (value === null) return "not defined";
-  if (low === null && high === null) return "no range known";
-  if (inside) return limited ? "set by a limit" : "inside";
+  if (low === null && high === null) return given ? "given" : "no range known";
+  if (inside) return given ? "given" : limited ? "set by a limit" : "inside";
   return high !== null && value > high ? "above" : "below";
 }
 

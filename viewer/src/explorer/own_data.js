@@ -1,25 +1,28 @@
 // The reader's own files: measured flights behind the curve, a wing's motion in the plots, and species files.
 
-import { Faults, tableOf, tooLarge } from "./csv.js";
+import { Faults, isPolar, tableOf, tooLarge } from "./csv.js";
 import { flightsOf, kindOf, motionOf } from "./own_tables.js";
 import { make } from "./shared.js";
 
 const HELP =
   "A CSV file of measured flights has the columns speed [m/s] and mechanical power [W] or frequency [Hz], and may " +
   "have error and label. A CSV file of a wingbeat has phase or time [s], and columns such as flap_deg or pitch_deg. With time, the " +
-  "rows are one beat from the first to the last, unless a line “# frequency [Hz] = 8.2” says how long a beat is.";
+  "rows are one beat from the first to the last, unless a line “# frequency [Hz] = 8.2” says how long a beat is. " +
+  "A polar has alpha, CL and CD; those of XFOIL, XFLR5, AeroDyn and others are read as they are.";
 const UNKNOWN =
-  "The first line must name the columns: speed with power or frequency, for measured flights; or phase or time with " +
-  "flap_deg and others, for a wingbeat.";
+  "The first line must name the columns: speed with power or frequency, for measured flights; phase or time with " +
+  "flap_deg and others, for a wingbeat; or alpha, CL and CD, for a polar.";
 const PRIVATE =
-  "Drop a file anywhere on this page, or choose one. A CSV file stays in your browser: nothing of it is uploaded.";
+  "Drop a file anywhere on this page, or choose one. A CSV file of flights or a wingbeat stays in your browser: nothing of it " +
+  "is uploaded.";
+const POLAR = /\.(dat|pol|plr|polar|drg|lft)$/i; // and .csv, .tsv and .txt by their content
 
 export class OwnData {
   // `face`: the explorer whose curve and plots show the data.
   constructor(face) {
     this.face = face;
     this.shown = []; // {title, kind, points or curves}
-    const about = { type: "file", multiple: true, accept: ".csv,.txt,.tsv,.toml" };
+    const about = { type: "file", multiple: true, accept: ".csv,.txt,.tsv,.toml,.dat,.pol,.plr,.polar,.drg,.lft" };
     this.input = make("input", { ...about, onchange: () => this.chosen() });
     const choose = make("label", { class: "wbx-file" }, make("span", {}, "Choose a file"), this.input);
     this.list = make("ul", { class: "wbx-own-list" });
@@ -71,8 +74,10 @@ export class OwnData {
     if (!/\.(csv|tsv|txt)$/i.test(file.name)) return this.other(file);
     const faults = new Faults();
     const large = tooLarge(file);
+    const text = large ? "" : await file.text();
+    if (isPolar(text)) return this.other(file, true);
     if (large) faults.add(large);
-    else this.interpret(file.name, await file.text(), faults);
+    else this.interpret(file.name, text, faults);
     if (faults.texts.length) this.refuse(file.name, faults.told);
   }
 
@@ -87,15 +92,23 @@ export class OwnData {
     else faults.add(UNKNOWN);
   }
 
-  // A species file has to be solved, which a page without a server cannot do.
-  other(file) {
+  // Species files and polars have to be solved, which a page without a server cannot do.
+  other(file, polar = POLAR.test(file.name)) {
     if (this.face.onfile) return this.face.onfile(file);
+    if (polar) return this.fly(file.name);
     if (!/\.toml$/i.test(file.name)) {
-      return this.refuse(file.name, ["Its name must end in .csv, or in .toml for a species file."]);
+      return this.refuse(file.name, ["Its name must end in .csv, in .toml for a species file, or in .pol or .dat for a polar."]);
     }
     const command = `wingbeat explore --static my-explorer --animals ${file.name}`;
     const words = `${file.name} is a species file. Its flights must be solved, which this page cannot do.`;
     this.say(make("p", {}, `${words} This command makes a page with them:`), make("code", {}, command));
+  }
+
+  fly(name) {
+    const { species, speed } = this.face.answer ?? { species: "pigeon", speed: 10 };
+    const words = `${name} is a polar. Flights with it must be solved, which this page cannot do.`;
+    const command = `wingbeat orbit ${species} --speed ${speed} --aero ${/\s/.test(name) ? `"${name}"` : name}`;
+    this.say(make("p", {}, `${words} This command flies it:`), make("code", {}, command));
   }
 
   refuse(title, texts) {

@@ -46,7 +46,6 @@ class Page:
         self._refusals, scenario = [], self._first.scenario
         try:
             scenario = from_query(query) if query else scenario
-            self._refusals = [f"The link needs a file. {fault}" for fault in scenario.faults().faults]
         except InvalidInputError as error:
             self._refusals = [f"The link was not understood. {fault}" for fault in error.faults]
         self._is_ready = scenario.asks_as(self._first.scenario)
@@ -68,7 +67,8 @@ class Page:
             return
         self._asked = True
         if not self._is_ready:
-            self._session.ask(whole=True)
+            if not self._session.ask(whole=True):
+                self._face.say("")  # nothing is solved, so nobody waits
         else:
             if self._session.scenario == self._first.scenario:
                 self._curve.take(self._first.scenario, self._first.answer, self._first.points)
@@ -77,7 +77,6 @@ class Page:
             self._house.warm_up()  # who looks at it may soon move on
         if self._refusals:  # shown after the request, because a request removes earlier messages
             self.show_trouble(*self._refusals)
-            self._face.say("")  # where nothing is solved, nobody waits
 
     @property
     def waits(self) -> bool:

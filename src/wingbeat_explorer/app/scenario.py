@@ -150,7 +150,7 @@ class Scenario:
             faults.add("aero", self.aero, "is no name of a file of coefficients", fix)
         elif not self.aero_file:
             fix = "drop it here, or choose other coefficients"
-            faults.add("aero", self.aero, "is a file, which no link holds", fix)
+            faults.add("aero", self.aero, f"needs the file {self.aero}, which no link holds", fix)
         elif len(self.aero_file) > LARGEST_TABLE:
             faults.add(
                 "aero", self.aero, f"has {len(self.aero_file)} characters", f"at most {LARGEST_TABLE} are read"

@@ -99,13 +99,15 @@ def test_a_link_names_the_file_and_a_state_holds_it():
     again = from_query(to_query(scenario))
     assert dataclasses.replace(again, aero_file=scenario.aero_file) == scenario
     (fault,) = again.faults().faults
-    assert str(fault).startswith("aero = 'openfast_io_two_re.dat': is a file, which no link holds; drop it here")
+    assert str(fault).startswith(
+        "aero = 'openfast_io_two_re.dat': needs the file openfast_io_two_re.dat, which no link"
+    )
 
 
 @pytest.mark.parametrize(
     ("choices", "words"),
     [
-        ({"aero": "n.pol"}, "is a file, which no link holds"),
+        ({"aero": "n.pol"}, "needs the file n.pol, which no link holds; drop it"),
         ({"aero": "../n.pol", "aero_file": "x"}, "is no name of a file"),
         ({"aero": "su-fan", "aero_file": "x"}, "is no name of a file"),
         ({"aero": "n.pol", "aero_file": "a" * (LARGEST_TABLE + 1)}, "1048577 characters"),
@@ -144,6 +146,8 @@ def test_a_dropped_polar_is_flown_and_said(visit):
 @pytest.mark.slow
 def test_a_link_asks_for_its_file_and_takes_it(visit):
     page = visit("species=pigeon&speed=11&starts=1&aero=turn.dat")
-    page.wait_for_function("() => document.querySelector('.trouble').textContent.includes('no link holds')")
+    page.wait_for_function(
+        "() => document.querySelector('.refusal').textContent.includes('the file turn.dat, which no link')"
+    )
     page.evaluate(DROP, ["turn.dat", (POLARS / AERODYN).read_text()])
     solved(page, "pigeon at 11 m/s, turn")

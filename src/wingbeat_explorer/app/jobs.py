@@ -321,6 +321,8 @@ def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool
     if frequency is not None or basis in ("measured", "law"):
         left.append(FREQUENCY)
     bounds = known.bounds | known.path_bounds
+    if problem.origin and problem.origin.own_posture:  # the model's own bounds at this speed
+        bounds |= {"body_pitch": tuple(problem.bounds["body_pitch"])}
     own = {n: (float(p[0]), float(p[1])) for n, p in problem.bounds.items() if tuple(p) != bounds.get(n)}
     limits = tuple(f"{c.quantity.name}{'<=' if c.at_most else '>='}{c.limit!r}" for c in problem.subject_to)
     return Scenario(

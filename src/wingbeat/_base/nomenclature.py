@@ -11,8 +11,9 @@ from __future__ import annotations
 import csv
 import math
 import re
+from collections.abc import Mapping
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 # --- harmonics of a wingbeat: ``flap_sin_2`` is the second number of the list ``flap_harmonics`` ---
 
@@ -80,6 +81,8 @@ SERIES, SERIES_WHERE_ON = tuple(_GROUPS["series"]), tuple(_GROUPS["series_where_
 GLIDE, RUN = tuple(_GROUPS["glide"]), tuple(_GROUPS["run"])
 # The attribute of a data set that says what it is: an orbit, a flight, a curve, a study.
 KIND = "wingbeat_kind"
+# The attribute that names what a curve runs over; one over speed has none.
+OVER = "over"
 # The attribute of an orbit or a flight that says how the animal looks: its kind, and its shape if that is known.
 SHAPE = "shape"
 # The body's state in the world, as data sets and records name it.
@@ -348,3 +351,8 @@ def _significant(number: float, digits: int) -> str:
     if not _LOWEST <= top < _HIGHEST:
         return f"{number:.{digits}g}"
     return f"{float(round(number, digits - 1 - top)) + 0.0:.10g}"
+
+
+def over_of(attributes: Mapping[Any, Any]) -> str:
+    """Return what the curve with these attributes runs over: ``speed`` or ``frequency``."""
+    return str(attributes.get(OVER, "speed"))

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from wingbeat._base import KIND, FaultList
+from wingbeat._base import KIND, FaultList, over_of
 from wingbeat.animal.vehicle import Air
 from wingbeat.cli.arguments import check_outputs, flag, option, written_to
 from wingbeat.experiment import FlightPoints, read_flights
@@ -29,7 +29,7 @@ def plot(
 ) -> None:
     """Draw one page: wing motion, body pitch, power, phase portraits, angles of attack and forces.
 
-    For a curve, draw power and frequency against speed.
+    For a curve, draw power and frequency against speed, or power, amplitude and activation against frequency.
 
     Examples: wingbeat plot pigeon.nc -o pigeon.pdf; wingbeat plot pigeon.nc --power -o power.png
     """
@@ -41,6 +41,9 @@ def plot(
     if data is not None and dataset.attrs[KIND] != "curve":
         faults.add("--data", str(data), f"belongs beside a curve, and {file.name} holds none", "give curve's file")
         faults.raise_if_any()
+    elif data is not None:
+        check_over_speed(faults, "--data", str(data), over_of(dataset.attrs))
+        faults.raise_if_any()
     flights = None if data is None else read_flights(data)
     if power:
         page = power_page(dataset)
@@ -50,8 +53,16 @@ def plot(
     print(f"wrote {output}", file=sys.stderr)
 
 
+def check_over_speed(faults: FaultList, option: str, value: object, over: str) -> None:
+    """Note a fault if an option that belongs to curves over speed is given for another."""
+    if over != "speed":
+        faults.add(option, value, "belongs to a curve over speed", "leave it out")
+
+
 def page_of(curve: Curve, flights: FlightPoints | None = None) -> Figure:
     """Return the page of a curve, with published measurements of the animal and the user's own flights."""
+    if curve.over != "speed":
+        return curve.plot()
     record, speed = curve.record(), curve.dataset["speed"].values
     vehicle = vehicle_from(record["vehicle"])
     beside = published_for(record["species"], vehicle, Air(**record["air"]), float(speed[0]), float(speed[-1]))

@@ -1,4 +1,4 @@
-"""Branches of orbits along speed or along the share of terms of the air loads, and what marks the best orbits."""
+"""Branches of orbits along speed, frequency or the share of terms of the air loads, and their marks."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -17,35 +17,62 @@ from wingbeat._workers.tuning import core_count
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
 from wingbeat.orbits.nlp.transcription import Candidate, Transcription, as_candidate, refine
 from wingbeat.orbits.options import DEFAULTS, ContinuationOptions, SolverOptions, Status
+from wingbeat.orbits.problem.parameters import with_number
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution, certified_optimum, optimal, place_of
 from wingbeat.orbits.solve import Progress, Settings, find_orbit, first_searches
 
 
 class Along(NamedTuple):
-    """A number of a problem along which orbits are continued, and its first and smallest `steps` by the options."""
+    """A number of a problem along which orbits are continued, and its first and smallest `steps` from a value."""
 
     name: str
+    plural: str
     unit: str
     of: Callable[[OrbitProblem], float]
     moved: Callable[[OrbitProblem, float], OrbitProblem]
-    steps: Callable[[ContinuationOptions], tuple[float, float]]
+    steps: Callable[[ContinuationOptions, float], tuple[float, float]]
+    advise: bool = True  # whether a problem without an orbit asks for changes of its numbers that would give one
+
+
+def at_frequency(problem: OrbitProblem, frequency: float) -> OrbitProblem:
+    """Return the problem at a given frequency [Hz], which is free no more and no longer the animal's own."""
+    held = with_number(problem.species, ("wingbeat", "frequency"), frequency)
+    origin = problem.origin and problem.origin._replace(own_frequency=False)
+    return dataclasses.replace(problem, species=held, origin=origin, **fixed_frequency(problem))
+
+
+def fixed_frequency(problem: OrbitProblem) -> dict[str, Any]:
+    """Return the free parameters and the bounds of a problem without those of the frequency."""
+    free = tuple(name for name in problem.free if name != "frequency")
+    return {"free": free, "bounds": {n: pair for n, pair in problem.bounds.items() if n != "frequency"}}
 
 
 SPEED = Along(
     "speed",
+    "speeds",
     "m/s",
     lambda problem: problem.speed,
     lambda problem, speed: problem.at_speed(speed),
-    lambda options: (options.first_speed_step, options.least_speed_step),
+    lambda options, _: (options.first_speed_step, options.least_speed_step),
+)
+FREQUENCY = Along(
+    "frequency",
+    "frequencies",
+    "Hz",
+    lambda problem: problem.species.wingbeat.frequency,
+    at_frequency,
+    lambda options, value: (options.first_frequency_step * value, options.least_frequency_step * value),
+    advise=False,  # the other frequencies show which one would do
 )
 # From 0 for none of the terms to 1 for all of each.
 SHARE = Along(
     "share",
+    "shares",
     "",
     lambda problem: problem.aero.share,
     lambda problem, share: dataclasses.replace(problem, aero=dataclasses.replace(problem.aero, share=share)),
-    lambda options: (options.first_share_step, options.least_share_step),
+    lambda options, _: (options.first_share_step, options.least_share_step),
 )
 
 T = TypeVar("T")
@@ -145,7 +172,8 @@ class _BranchTracer:
         """Continue all optima; where that finds nothing, search once more, and keep what failed, by its number."""
         self._grow()
         lost = [i for i, met in enumerate(self._met) if not met and self._along.of(self._problems[i]) not in failed]
-        settings = Settings(2 * starts, seed, 2 * starts, options=self._options)
+        advise = self._along.advise
+        settings = Settings(2 * starts, seed, 2 * starts, advise=advise, options=self._options)
         again = self._each(lambda i: find_orbit(self._problems[i], settings, threads=1), lost)
         for place, solution in zip(lost, again, strict=True):
             self._searches[place] += solution.starts
@@ -283,8 +311,8 @@ def carry(optimum: Solution, problem: OrbitProblem, along: Along = SPEED) -> Lan
     If the branch ends on the way, a local search from its end leads to the landing, which then has 0 steps.
     """
     options = optimum.options.continuation
-    first_step, least_step = along.steps(options)
     value, last = along.of(optimum.problem), along.of(problem)
+    first_step, least_step = along.steps(options, value)
     here, rate = optimum.place, np.zeros(optimum.place.size)
     step = math.copysign(min(first_step, abs(last - value)), last - value)
     hessian: ReducedHessian | None = None
@@ -359,7 +387,7 @@ def marks_of(branches: Branches) -> list[Mark]:
     for interval, (below, above) in enumerate(itertools.pairwise(optima[0] for optima in branches.optima)):
         ends = along.of(below.problem), along.of(above.problem)
         if not certified(below) or not certified(above):
-            marks.append(Mark("gap", *ends, f"no certified orbit at one of these {along.name}s"))
+            marks.append(Mark("gap", *ends, f"no certified orbit at one of these {along.plural}"))
             continue
         if interval not in joined:
             marks.append(Mark("branch", *ends, _how_it_changes(branches, interval)))

@@ -122,6 +122,8 @@ _LEAST = 1e-3
 # Bounds of the frequency, which may move even if the closest wingbeat is not at them: if no start came near an
 # orbit, the closest wingbeat does not show which frequency an orbit needs.
 WIDER_FREQUENCIES = (("frequency", "<="), ("frequency", ">="))
+# What an animal would change first at a given frequency; the twist need not be free.
+FIRST = {"frequency": "frequency", "flap_amplitude": "flap amplitude", "twist_ratio": "twist"}
 
 
 @dataclass(frozen=True)
@@ -284,7 +286,8 @@ def possible_changes(
             upper = sign == "<="
             tries = options.raised_frequency if (name, upper) == ("frequency", True) else ()
             yield from towards(name, sign, float(problem.bounds[name][upper]), upper, tries)
-    for name in problem.species.bounds:
+    twist = ["twist_ratio"] if holds_frequency(problem) else []
+    for name in dict.fromkeys((*problem.species.bounds, *twist)):
         if name not in problem.free:
             tries = (0.1, 0.3, *options.raised_frequency) if name == "frequency" else (0.1, 0.3)
             for upper in (False, True):
@@ -306,6 +309,21 @@ def possible_changes(
     for way in (1.0, -1.0):
         reach = ahead + way * options.chords * wing.mean_chord
         yield Change("shoulder", "=", ahead, reach, wing.mean_chord, tries_for(MOMENT, 0.2, 0.6))
+
+
+def holds_frequency(problem: OrbitProblem) -> bool:
+    """Return whether the frequency of a problem is given."""
+    return "frequency" not in problem.free
+
+
+def in_turn(changes: Iterable[Change]) -> list[Change]:
+    """Return changes in the order in which they are tried at a given frequency; a slower beat comes last."""
+
+    def turn(change: Change) -> int:
+        slower = change.name == "frequency" and change.direction < 0
+        return len(FIRST) + 1 if slower else [*FIRST, change.name].index(change.name)
+
+    return sorted(changes, key=turn)
 
 
 def _reach(problem: OrbitProblem, name: str, old: float, upper: bool, wide: float) -> float:

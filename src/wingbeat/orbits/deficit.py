@@ -14,11 +14,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from wingbeat.mechanics.flight_model import motion_table
+from wingbeat.orbits.changes import holds_frequency
 from wingbeat.orbits.flight.period import BALANCES, CLOSURE, CLOSURE_SCALE, LIFT, MOMENT, THRUST
 from wingbeat.orbits.nlp.levenberg_marquardt import least_squares
 
 if TYPE_CHECKING:
     from wingbeat.orbits.nlp.transcription import Candidate, Transcription
+    from wingbeat.orbits.options import DiagnosisOptions
 
 
 @dataclass(frozen=True)
@@ -173,11 +175,17 @@ def nearest_beat(programme: Transcription, found: Sequence[Candidate]) -> Neares
     return Nearest(beat.scaled, balance.deficits(beat), beat.closes)
 
 
+def is_clear(nearest: Nearest, options: DiagnosisOptions) -> bool:
+    """Return whether the closest wingbeat misses a balance by so much that more starts hardly find an orbit."""
+    return not nearest.closes and max(abs(deficit.share) for deficit in nearest.deficits) >= options.clear_deficit
+
+
 def words_of(programme: Transcription, deficits: Sequence[Deficit]) -> str:
     """Return the deficits as part of a sentence."""
     problem, least = programme.problem, programme.options.diagnosis.mentioned * abs(deficits[0].share)
     words = [str(d) for d in deficits if abs(d.share) >= least]
     place = f"at {problem.speed:g} m/s" if problem.speed else "in hover"
+    place += f" and {problem.species.wingbeat.frequency:.3g} Hz" if holds_frequency(problem) else ""
     limits = ", ".join(str(c) for c in problem.subject_to)
     return f"{place}{f' with {limits}' if limits else ''}, {' and '.join(words)}"
 

@@ -16,8 +16,11 @@ import numpy as np
 
 from wingbeat._base import InvalidInputError
 from wingbeat.orbits.changes import (
+    FIRST,
     Change,
     Relaxation,
+    holds_frequency,
+    in_turn,
     is_limit,
     on_and_off,
     possible_changes,
@@ -32,13 +35,14 @@ from wingbeat.orbits.deficit import Deficit, Nearest, bounds_near, nearest_beat,
 from wingbeat.orbits.flight.period import PATH_NAMES
 from wingbeat.orbits.nlp.newton_kkt import Corrected, certified, correct, first_certified
 from wingbeat.orbits.nlp.programme import Programme
-from wingbeat.orbits.nlp.transcription import Candidate, Transcription, refine, search
+from wingbeat.orbits.nlp.transcription import Candidate, Transcription, refine, restore_feasibility, search
 from wingbeat.orbits.options import SolverOptions, Status
 from wingbeat.orbits.starts import is_at_lower_bound, plainly, start_point, starts_in_words
 
 if TYPE_CHECKING:
     from wingbeat.orbits.problem.problem import OrbitProblem
 
+_SMALLEST = "the smallest single changes that give an orbit"
 # Number of cached problems: those of the last few points and of their difference quotients.
 _REMEMBERED = 8
 
@@ -197,7 +201,10 @@ def least_change(
             continue
         easy = Transcription(changed, options)
         for start in (start_point(easy.problem, 0, 0, search), near):
-            found, _ = easy.optimise(easy.scaled(start), usual.far_iterations, search.tolerance)
+            if holds_frequency(problem) and not problem.subject_to:  # no matter at which power
+                found = restore_feasibility(easy, easy.scaled(start))
+            else:
+                found, _ = easy.optimise(easy.scaled(start), usual.far_iterations, search.tolerance)
             if not easy.is_closed(found, search.closure_tolerance):
                 continue
             programme = relaxed(problem, change, options)
@@ -217,10 +224,11 @@ def least_changes(
     nearest: Nearest,
     threads: int,
     progress: Callable[[int, int], None] | None = None,
-) -> list[LeastChange]:
-    """Return the single changes that let a beat close, each as small as possible, the smallest first.
+) -> tuple[list[LeastChange], tuple[Relaxation, ...]]:
+    """Return single changes that let a beat close, each as small as possible, and those with a certified orbit.
 
-    `near` are the unknowns of the closest wingbeat; `threads` changes are tried at a time.
+    `near` are the unknowns of the closest wingbeat; `threads` changes are tried at a time. The smallest come first.
+    At a given frequency, the changes of `FIRST` do, and the search ends with `DiagnosisOptions.reported` of them.
     """
     problem, options = programme.problem, programme.options
 
@@ -233,14 +241,22 @@ def least_changes(
     at_bounds = bounds_near(programme, programme.scaled(near))
     shares = {deficit.law: deficit.share for deficit in nearest.deficits}
     changes = list(possible_changes(problem, at_bounds, shares, options.changes))
-    found = []
+    held, most = holds_frequency(problem), options.diagnosis.reported
+    changes = in_turn(changes) if held else changes
+    found: list[LeastChange] = []
+    flying: list[Relaxation] = []
+    together = threads if held else len(changes)
     with ThreadPoolExecutor(threads) as pool:
-        for i, answer in enumerate(pool.map(least, changes), start=1):
-            if answer is not None:
-                found.append(answer)
-            if progress is not None:
-                progress(i, len(changes))
-    return sorted(found, key=lambda least: least.share)
+        for first in range(0, len(changes), together):
+            for i, answer in enumerate(pool.map(least, changes[first : first + together]), start=first + 1):
+                if answer is not None and len(flying) < most:
+                    found.append(answer)
+                    flying += certified_changes(programme, [answer]) if held else ()
+                if progress is not None:
+                    progress(i, len(changes))
+            if len(flying) == most:
+                break
+    return (found if held else sorted(found, key=lambda least: least.share)), tuple(flying)
 
 
 def certified_changes(programme: Transcription, found: Iterable[LeastChange]) -> tuple[Relaxation, ...]:
@@ -338,14 +354,14 @@ def without_orbit(
     threads: int,
     advise: bool,
     progress: Callable[[int, int], None] | None = None,
+    nearest: Nearest | None = None,
 ) -> tuple[Corrected, Ending | None]:
     """Return the closest wingbeat and what fails; if it leads to an orbit after all, return that orbit.
 
-    The local searches ended in `found`. With `advise`, changes that lead to an orbit are sought, each of which
-    counts for `progress` as one more start.
+    The searches ended in `found`. With `advise`, changes are sought, each for `progress` one more start.
     """
     problem, options = programme.problem, programme.options
-    nearest = nearest_beat(programme, found)
+    nearest = nearest or nearest_beat(programme, found)
     near = programme.physical(nearest.scaled)
 
     def report(done: int, total: int) -> None:
@@ -359,7 +375,10 @@ def without_orbit(
         if raised is not None:
             return _below(programme, *raised)
     plain = Transcription(plainly(problem), options) if programme.has_epigraph else programme
-    changes = least_changes(plain, near, nearest, threads, report) if advise and not nearest.closes else []
+    changes: list[LeastChange] = []
+    flying: tuple[Relaxation, ...] = ()
+    if advise and not nearest.closes:
+        changes, flying = least_changes(plain, near, nearest, threads, report)
     # If a negligible change suffices, the local searches missed an orbit.
     negligible = options.diagnosis.negligible_change
     leads = [near] * nearest.closes + [least.unknowns for least in changes if least.share <= negligible]
@@ -371,15 +390,21 @@ def without_orbit(
         return _uncertified(closing, len(found))
     if nearest.closes:
         return certified(programme.uncorrected(), nearest.scaled), _no_optimum("almost closed", len(found))
-    flying = certified_changes(plain, changes)
+    held = holds_frequency(problem)
+    flying = flying if held else certified_changes(plain, changes)
+    which = "single changes that give an orbit, each the least" if held else _SMALLEST
     message = (
         f"no orbit within the bounds from {starts_in_words(len(found))}: {words_of(programme, nearest.deficits)}"
     )
     if flying:
-        message += f"; the smallest single changes that give an orbit: {', or '.join(r.text for r in flying)}"
+        message += f"; {which}: {', or '.join(r.text for r in flying)}"
     elif advise:
         message += "; no single change of a bound, a limit, the mass, the speed or the shoulder gave an orbit"
-    without = certified_without_terms(plain, near, threads) if advise else ()
+    others = [words for name, words in FIRST.items() if held and advise and all(r.name != name for r in flying)]
+    message += f"; no {' or '.join(others)} alone gives one" if others else ""
+    # Problems without a term need compiled programs of their own.
+    known = not advise or (held and len(flying) == options.diagnosis.reported)
+    without = () if known else certified_without_terms(plain, near, threads)
     message = "; ".join([message, *(term.text for term in without)])
     ending = Ending(Status.INFEASIBLE, message, nearest.deficits, (*flying, *without))
     return certified(programme.uncorrected(), nearest.scaled), ending

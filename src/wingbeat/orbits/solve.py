@@ -16,7 +16,8 @@ import numpy as np
 
 from wingbeat._base import FaultList, cf, for_people
 from wingbeat._workers.tuning import core_count
-from wingbeat.orbits.changes import possible_changes
+from wingbeat.orbits.changes import holds_frequency, possible_changes
+from wingbeat.orbits.deficit import is_clear, nearest_beat
 from wingbeat.orbits.diagnosis import Ending, certified_changes, least_change, unexplained, without_orbit
 from wingbeat.orbits.nlp.newton_kkt import Corrected, certified, first_certified
 from wingbeat.orbits.nlp.transcription import Candidate, Transcription, as_candidate, load_programs, search
@@ -105,6 +106,11 @@ def find_orbit(
     best, ending = first_certified(programme, found), None
     if best is None and settings.explain and problem.within_plausible:
         best, ending = beyond_limits(programme, unlimited, len(found), threads, settings.advise)
+    nearest = None
+    if best is None and settings.explain and settings.most_starts is None and ends_early(problem, found):
+        close = nearest_beat(programme, found)
+        if is_clear(close, options.diagnosis):
+            nearest, most = close, starts
     for led in _where_limits_hold(programme, starts, seed, threads) if best is None else ():
         found += led
         if (best := first_certified(programme, led)) is not None:
@@ -118,7 +124,7 @@ def find_orbit(
             break
     searches = len(found)
     if best is None and settings.explain:
-        best, ending = without_orbit(programme, found, threads, settings.advise, progress)
+        best, ending = without_orbit(programme, found, threads, settings.advise, progress, nearest)
     elif best is None:
         best, ending = unexplained(found)
     solution = solution_of(best, programme, begun, found, searches, seed, ending)
@@ -142,6 +148,11 @@ def find_orbit(
         return solution
     objective = freed.programme.objective(freed.scaled) * freed.programme.problem.minimise.scale
     return dataclasses.replace(solution, free_objective=objective)
+
+
+def ends_early(problem: OrbitProblem, found: list[Candidate]) -> bool:
+    """Return whether the closest wingbeat may tell that more starts at a given frequency find no orbit."""
+    return holds_frequency(problem) and not problem.subject_to and not any(end.closed for end in found)
 
 
 def _where_limits_hold(programme: Transcription, starts: int, seed: int, threads: int) -> Iterator[list[Candidate]]:

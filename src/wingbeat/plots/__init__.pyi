@@ -3,6 +3,7 @@
 from .draw_curve import curve_page as curve_page
 from .draw_experiments import film_page as film_page
 from .draw_experiments import fit_page as fit_page
+from .draw_frequencies import frequency_page as frequency_page
 from .draw_glide import glide_page as glide_page
 from .draw_influences import pareto_page as pareto_page
 from .draw_influences import terms_page as terms_page

@@ -5,12 +5,13 @@ from __future__ import annotations
 import itertools
 import json
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, axis_label, climb_text, heading, in_words, plain, readable_limit
+from wingbeat._base import FaultList, axis_label, climb_text, heading, in_words, over_of, plain, readable_limit
 from wingbeat._base.style import (
     ALARM,
     BLUE,
@@ -39,7 +40,7 @@ _PANEL, _LEGEND, _OWN = 62.0, 36.0, 8.0  # mm; the last for the legend of measur
 _LETTERS = 62  # of a line of the legend
 _MOST_LIMITS = 1  # for whose words the title has room
 _MOST_EMPTY = 0.35  # share of the axis that may lie below the slowest speed
-_BEST, _OTHER, _SPEEDS = BLUE, "0.6", VERMILION
+_OTHER, _SPEEDS = "0.6", VERMILION
 _BREAK: dict[str, Any] = {"color": "0.3", "linewidth": 0.5, "linestyle": (0, (2, 2)), "zorder": 1}
 # Of published laws and points: enough that no two on a page look alike.
 _DASHES = ((0, (1, 1)), (0, (3, 1, 1, 1)), (0, (6, 1.5)), (0, (2, 2.5)), (0, (6, 1, 1, 1, 1, 1)))
@@ -71,6 +72,8 @@ def curve_page(
     faults = FaultList()
     if dataset.attrs.get("wingbeat_kind") != "curve" or any(name not in dataset for name in _NEEDED):
         faults.add("dataset", dataset.attrs.get("wingbeat_kind"), "is no curve of wingbeat", "give curve.dataset")
+    elif over_of(dataset.attrs) != "speed":
+        faults.add("dataset", over_of(dataset.attrs), "is what the curve runs over", "use frequency_page")
     faults.raise_if_any()
     about, speed, line = dataset.attrs, dataset["speed"].values, best_line(dataset)
     power_limit = json.loads(about["inputs"])["power_limit"]
@@ -102,7 +105,7 @@ def curve_page(
             top = 0.0
             if name in dataset:
                 at_limit = np.array([limited in limits for limits in set_by_limits_along(dataset)])
-                top = max(_draw_optima(axes, dataset, name, at_limit), _draw_published(axes, published, name))
+                top = max(draw_optima(axes, dataset, name, at_limit), _draw_published(axes, published, name))
             if measured is not None:
                 drawn = [_draw_measured(axes, measured, one) for one, place in places.items() if place == name]
                 top = max(top, *drawn, 0.0)
@@ -124,19 +127,26 @@ def curve_page(
     return figure
 
 
-def _draw_optima(axes: Axes, dataset: xr.Dataset, name: str, at_limit: np.ndarray) -> float:
+def draw_optima(
+    axes: Axes,
+    dataset: xr.Dataset,
+    name: str,
+    at_limit: np.ndarray,
+    label: str = "best wingbeat",
+    look: Mapping[str, Any] = MappingProxyType({"color": BLUE}),
+) -> float:
     """Draw the best orbits with their breaks and gaps, and other optima; return the height that the best need."""
-    speed, values = dataset["speed"].values, dataset[name].values
+    over = over_of(dataset.attrs)
+    speed, values = dataset[over].values, dataset[name].values
     top = 1.15 * np.nanmax(values[:, 0]) if np.isfinite(values[:, 0]).any() else 1.0
-    label = "best wingbeat"
     marks = [mark for mark in json.loads(dataset.attrs["marks"]) if mark["kind"] == "branch"]
-    torn = np.flatnonzero(np.isin(speed, [mark["lower_speed"] for mark in marks])) + 1
+    torn = np.flatnonzero(np.isin(speed, [mark[f"lower_{over}"] for mark in marks])) + 1
     for part in np.split(np.arange(len(speed)), torn):
-        axes.plot(speed[part], values[part, 0], "o-", color=_BEST, markersize=2.5, label=label, zorder=3)
+        axes.plot(speed[part], values[part, 0], **{"marker": "o", "markersize": 2.5, **look}, label=label, zorder=3)
         label = "_"
     if at_limit.any():
-        look = {"markersize": 3, "markerfacecolor": "w", "label": "set by a limit, not predicted", "zorder": 3}
-        axes.plot(speed[at_limit], values[at_limit, 0], "o", color=_BEST, **look)
+        hollow = {"markersize": 3, "markerfacecolor": "w", "label": "set by a limit, not predicted", "zorder": 3}
+        axes.plot(speed[at_limit], values[at_limit, 0], "o", color=look["color"], **hollow)
     label = "other wingbeats that the search found"
     for i, below, above in np.argwhere(dataset["continued"].values > 0):
         ends = values[i, below], values[i + 1, above]
@@ -145,7 +155,7 @@ def _draw_optima(axes: Axes, dataset: xr.Dataset, name: str, at_limit: np.ndarra
             label = "_"
     label = "another kind of wingbeat takes over"
     for mark in marks:
-        axes.axvline(0.5 * (mark["lower_speed"] + mark["upper_speed"]), label=label, **_BREAK)
+        axes.axvline(0.5 * (mark[f"lower_{over}"] + mark[f"upper_{over}"]), label=label, **_BREAK)
         label = "_"
     gaps = speed[dataset["status"].values != "converged"]
     if gaps.size:  # at the foot

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import SHAPE, STATE_NAMES, harmonic_place, is_number
+from wingbeat._base import SHAPE, STATE_NAMES, harmonic_place, is_number, over_of
 from wingbeat._jax.arrays import own_settings
 from wingbeat.aero import BladeElement, SuFan
 from wingbeat.animal.kinematics import LAWS, PARAMETER_NAMES, Wingbeat, parameter
@@ -210,7 +210,8 @@ def species_of(inputs: dict[str, Any]) -> Species:
     """Return the species of inputs that set up a problem, and nothing but what a problem has."""
     # The air loads are left out, for a model of them may take a second; `Orbit.problem` sets them up.
     known = [one for one in inputs["constraints"] if not one["quantity"].startswith(OWN)]
-    least = "frequency" if inputs["objective"].startswith(OWN) else inputs["objective"]
+    plain_objective = "frequency" if "frequency" in inputs["free"] else "mean_positive_power"
+    least = plain_objective if inputs["objective"].startswith(OWN) else inputs["objective"]
     plain = inputs | {"aero": aero_inputs(BladeElement(SuFan())), "objective": least, "constraints": known}
     problem = problem_from(plain)
     again = inputs_of(problem, inputs["starts"], inputs["seed"])
@@ -243,47 +244,62 @@ _ALWAYS = (
 def check_curve(dataset: xr.Dataset, inputs: dict[str, Any]) -> None:
     """Check that points, marks and inputs are those of one curve."""
     columns = {str(name): variable.values for name, variable in dataset.variables.items()}
-    species, about = species_of(inputs | {"speed": inputs["speed"][0]}), dataset.attrs
+    about = dataset.attrs
+    over = over_of(about)
+    species = species_of(inputs | ({"speed": inputs["speed"][0]} if over == "speed" else {}))
+    demand(over == "speed" or float(about["speed"]) == inputs["speed"], "speed is not that of the inputs")
+    demand(over == "speed" or "frequency" not in inputs["free"], "frequency is free over frequency")
     for name in REPEATED_BY_A_CURVE:
         own = from_json(about[name]) if isinstance(about[name], str) else float(about[name])
         demand(own == inputs[name], f"{name} is not that of the inputs")
     demand(about["species"] == species.name, "species is not that of the inputs")
     demand(inputs["objective"] in (about["objective"], f"{OWN} {about['objective']}"), "objective is another")
     demand(inputs["power_limit"] is None or inputs["power_limit"] > 0, "power_limit is not positive")
-    speeds = columns["speed"]
-    demand(speeds.tolist() == inputs["speed"], "speed is not that of the inputs")
-    demand(bool((np.diff(speeds) > 0).all()), "speed does not increase")
+    values = columns[over]
+    demand(values.tolist() == inputs[over], f"{over} is not that of the inputs")
+    demand(bool((np.diff(values) > 0).all()), f"{over} does not increase")
     demand(columns["optimum"].tolist() == list(range(columns["optimum"].size)), "optimum does not count from 0")
-    demand(columns["continued"].shape[0] == speeds.size - 1, "continued has not one item for each pair of speeds")
+    demand(columns["continued"].shape[0] == values.size - 1, "continued has not one item for each pair of points")
     for name in ("marks", "constraints"):
         demand(all(isinstance(one, str | dict) for one in json.loads(about[name])), f"{name} is of another form")
     demand(all(isinstance(one, str) for one in json.loads(about["warnings"])), "warnings are of another form")
     for mark in json.loads(about["marks"]):
-        demand({*mark} == {"kind", "lower_speed", "upper_speed", "what"}, "a mark is of another form")
-        demand({mark["lower_speed"], mark["upper_speed"]} <= {*speeds.tolist()}, "a mark is at none of the speeds")
+        ends = [f"{side}_{over}" for side in ("lower", "upper")]
+        demand({*mark} == {"kind", *ends, "what"}, "a mark is of another form")
+        demand({mark[end] for end in ends} <= {*values.tolist()}, "a mark is at none of the points")
         demand(isinstance(mark["kind"], str) and isinstance(mark["what"], str), "a mark is of another form")
     found = columns["family"] >= 0
     for i, status in enumerate(columns["status"].tolist()):
         converged = Status(status) is Status.CONVERGED
         demand(converged == bool(found[i, 0]), "status does not fit the optima")
         demand(not converged or columns["distinct_optima"][i] >= found[i].sum(), "distinct_optima is too small")
-        _check_point(columns, i, found[i], species, inputs, str(about["objective"]))
+        given = {over: float(values[i])} | ({"speed": inputs["speed"]} if over == "frequency" else {})
+        _check_point(columns, i, found[i], species, inputs, str(about["objective"]), given)
 
 
 def _check_point(
-    columns: dict[str, np.ndarray], i: int, found: np.ndarray, species: Species, inputs: dict[str, Any], least: str
+    columns: dict[str, np.ndarray],
+    i: int,
+    found: np.ndarray,
+    species: Species,
+    inputs: dict[str, Any],
+    least: str,
+    given: dict[str, float],
 ) -> None:
-    """Check the optima at one speed: the numbers of those that there are, and nothing in place of the others."""
+    """Check the optima at one point: the numbers of those that there are, and nothing in place of the others.
+
+    `given` has the speed, and over frequency the frequency.
+    """
     numbers = {name: v[i] for name, v in columns.items() if v.ndim == 2 and v.dtype.kind == "f"}
     for name, values in numbers.items():
         demand(not np.isfinite(values[~found]).any(), f"{name} has values where there is no optimum")
-    demand(bool((np.diff(numbers["objective_value"][found]) >= 0).all()), "the optima of a speed are not in order")
-    speed = float(columns["speed"][i])
+    demand(bool((np.diff(numbers["objective_value"][found]) >= 0).all()), "the optima of a point are not in order")
+    speed = given["speed"]
     weight = species.vehicle.mass * species.air.gravity
     options = inputs.get("options", {}).get("certificate", {})
     tolerance = options.get("closure_tolerance", DEFAULTS.certificate.closure_tolerance)
     for k in np.flatnonzero(found).tolist():
-        own = {name: float(v[k]) for name, v in numbers.items()}
+        own = given | {name: float(v[k]) for name, v in numbers.items()}
         derived = flight_numbers(species.vehicle, species.air, speed, own["frequency"], own["flap_amplitude"])
         derived["cost_of_transport"] = own["mean_positive_power"] / (weight * speed) if weight * speed else None
         for name, value in derived.items():
@@ -296,10 +312,19 @@ def _check_point(
         demand(worst <= tolerance, f"an optimum does not close to {worst:.2g}")
         listed = filter(None, str(columns["active_bounds"][i, k]).split(", "))
         check_limits({name: own[name] for name in {*PARAMETER_NAMES} & {*own}}, listed, inputs, STATE_NAMES)
+        if "muscle_work_per_mass" in own:
+            power = own["muscle_work_per_mass"] * own["frequency"]
+            same("muscle_power_per_mass", own["muscle_power_per_mass"], power)
         demand(own["mean_power"] <= own["mean_positive_power"] <= max(own["peak_power"], 0.0), "powers contradict")
         for name in PARAMETER_NAMES:
             stock = inputs["stock_wingbeat"].get(name)
-            if name in own and harmonic_place(name) is None and name not in inputs["free"] and stock is not None:
+            if (
+                name in own
+                and name not in given
+                and harmonic_place(name) is None
+                and name not in inputs["free"]
+                and stock is not None
+            ):
                 demand(own[name] == stock, f"{name} is not free, but differs from the species' own")
         outside = {*filter(None, str(columns["outside_ranges"][i, k]).split(", "))}
         values = {**own, "positive_power_per_mass": own["mean_positive_power"] / species.vehicle.mass}

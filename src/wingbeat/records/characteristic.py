@@ -1,4 +1,4 @@
-"""Characteristic speeds of a curve: where the minimised quantity is least, and where to solve to find that."""
+"""Characteristic speeds or frequencies of a curve: where the minimised quantity is least, what muscle allows."""
 
 from __future__ import annotations
 
@@ -6,18 +6,23 @@ import itertools
 import json
 import math
 import re
+import tomllib
 from collections.abc import Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base import PRECISION
+from wingbeat._base import PRECISION, over_of
+from wingbeat.records.inputs import species_from
 
 if TYPE_CHECKING:
     import xarray as xr
 
 # Speeds are `within_2_percent` if their value exceeds the minimum by at most this share.
 _FLAT = 0.02
+# Over frequency, power is flatter than over speed, and what varies an animal's frequency is not power.
+_FLAT_IN_FREQUENCY = 0.05
 # Another minimum within this share of the least is practically as good: warnings of orbits use the same share.
 _RIVAL = 0.01
 # Points on each side of the lowest that show how much optima scatter about a smooth curve.
@@ -25,11 +30,11 @@ _WINDOW = 3
 
 
 class BestLine(NamedTuple):
-    """The best orbits along speed, shape (K,)."""
+    """The best orbits along speed, or frequency, shape (K,)."""
 
     quantity: str  # name of the minimised quantity
     is_power: bool  # whether it is a mean power, which divided by speed is least at the speed of maximum range
-    speed: np.ndarray  # increasing [m/s]
+    speed: np.ndarray  # increasing [m/s], or the frequency [Hz]
     value: np.ndarray  # the minimised quantity, not-a-number in gaps
     joined: np.ndarray  # whether each point and the next belong to one branch, shape (K - 1,)
     limits: Sequence[frozenset[str]]  # names of the bounds and limits that each orbit has reached
@@ -268,24 +273,79 @@ def _crossing(line: BestLine, limit: float) -> dict[str, Any] | None:
     return {"status": status, "speed": at, "interval": interval, "value": limit}
 
 
-def with_characteristic_speeds(dataset: xr.Dataset, power_limit: float | None) -> xr.Dataset:
-    """Return the data set of a curve with the speeds that follow from it as an attribute."""
-    found = characteristic_speeds(best_line(dataset), power_limit)
+def with_characteristic(dataset: xr.Dataset, inputs: dict[str, Any]) -> xr.Dataset:
+    """Return the data set of a curve with the speeds or frequencies that follow from it as an attribute."""
+    if over_of(dataset.attrs) == "frequency":
+        return dataset.assign_attrs(
+            characteristic_frequencies=json.dumps(_characteristic_frequencies(dataset, inputs))
+        )
+    found = characteristic_speeds(best_line(dataset), inputs["power_limit"])
     return dataset.assign_attrs(characteristic_speeds=json.dumps(found))
 
 
+# Work per beat and mass of flight muscle that was measured, with sources; see the file.
+_WORK = Path(__file__).with_name("work_per_beat.toml")
+
+
+def _characteristic_frequencies(dataset: xr.Dataset, inputs: dict[str, Any]) -> dict[str, Any]:
+    """Return what a curve over frequency says of the frequency, as in `Curve.characteristic_frequencies`."""
+    line = best_line(dataset)
+    least, k = None, _lowest(line)
+    if k is not None:
+        value = float(line.value[k])
+        near = _ranges(line, line.value, -math.inf, value + _FLAT_IN_FREQUENCY * abs(value))
+        least = {"frequency": float(line.speed[k]), "value": value, "within_5_percent": near}
+    own = species_from(inputs).own_frequency(float(inputs["speed"]))
+    found: dict[str, Any] = {
+        "own": {"value": own.value, "range": list(own.range), "basis": own.basis, "source": own.source},
+        "least": least,
+    }
+    if "peak_activation" not in dataset:
+        return found
+    activation, work = (dataset[name].values[:, 0] for name in ("peak_activation", "muscle_work_per_mass"))
+    bands = tomllib.loads(_WORK.read_text(encoding="utf-8"))["bands"]
+    return found | {
+        "activation": {"limit": 1.0, "ranges": _ranges(line, activation, -math.inf, 1.0)},
+        "work_per_beat": [band | {"ranges": _ranges(line, work, band["low"], band["high"])} for band in bands],
+    }
+
+
+def _ranges(line: BestLine, value: np.ndarray, low: float, high: float) -> list[list[float]]:
+    """Return where along a line a value is within limits; it is straight between the points of a branch."""
+    found: list[list[float]] = []
+
+    def add(first: float, last: float) -> None:
+        if found and found[-1][1] >= first:
+            found[-1][1] = last
+        else:
+            found.append([first, last])
+
+    for k, here in enumerate(line.speed.tolist()):
+        if low <= value[k] <= high:
+            add(here, here)
+        if not (line.reaches(k, 1) and np.isfinite(value[k : k + 2]).all()) or value[k] == value[k + 1]:
+            continue
+        first, last = sorted((limit - value[k]) / (value[k + 1] - value[k]) for limit in (low, high))
+        if first <= 1.0 and last >= 0.0:
+            step = float(line.speed[k + 1]) - here
+            add(here + max(first, 0.0) * step, here + min(last, 1.0) * step)
+    return found
+
+
 def best_line(dataset: xr.Dataset) -> BestLine:
-    """Return the best orbits of a curve along speed, and the other families of optima."""
+    """Return the best orbits of a curve, and the other families of optima."""
+    over = over_of(dataset.attrs)
     values, family = dataset["objective_value"].values, dataset["family"].values
     others = []
     for one in range(int(family.max(initial=-1)) + 1):  # each has at most one optimum at each speed
         rows = np.where(family == one, values, np.nan)
         others.append(np.where(np.isfinite(rows).any(axis=1), np.nansum(rows, axis=1), np.nan))
     names = [str(text).split(", ") for text in dataset["active_bounds"].values[:, 0]]
-    marks = [(m["kind"], m["lower_speed"], m["upper_speed"]) for m in json.loads(dataset.attrs["marks"])]
+    ends = [f"{side}_{over}" for side in ("lower", "upper")]
+    marks = [(m["kind"], m[ends[0]], m[ends[1]]) for m in json.loads(dataset.attrs["marks"])]
     objective, unit = dataset.attrs["objective"], dataset["objective_value"].attrs["units"]
     limits = [frozenset(re.split("[<>]=", name)[0] for name in row if name) for row in names]
-    line = objective, unit, dataset["speed"].values, values[:, 0], marks, limits
+    line = objective, unit, dataset[over].values, values[:, 0], marks, limits
     return line_of(*line, others=np.array(others).reshape(-1, len(values)))
 
 

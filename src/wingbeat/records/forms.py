@@ -8,7 +8,18 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._base import KIND, NOMENCLATURE, SERIES, SERIES_WHERE_ON, SHAPE, STATE_NAMES, control_in, is_number
+from wingbeat._base import (
+    KIND,
+    NOMENCLATURE,
+    OVER,
+    SERIES,
+    SERIES_WHERE_ON,
+    SHAPE,
+    STATE_NAMES,
+    control_in,
+    is_number,
+    over_of,
+)
 from wingbeat.animal.species.file_schema import KINDS
 from wingbeat.records.judgements import is_judgement, statements
 
@@ -17,7 +28,6 @@ if TYPE_CHECKING:
 
 Dims = tuple[str, ...]
 _STRIP, _VECTOR = ("phase", "station"), ("phase", "station", "axis")
-_POINTS = ("speed", "optimum")
 # Dimensions of the series of a flight; a series that is not listed has one number per phase.
 SERIES_DIMS: dict[str, Dims] = {
     **{name: (name,) for name in ("station", "axis", "corner")},
@@ -55,42 +65,47 @@ _FLOWN: Any = (
     None,
     {"axis": 3, "corner": 4},
 )
-_CURVE = {
-    "speed": _Variable(("speed",)),
-    "optimum": _Variable(("optimum",), _WHOLE),
-    "family": _Variable(_POINTS, _WHOLE),
-    "continued": _Variable(("interval", "optimum", "optimum_above"), _WHOLE),
-    **dict.fromkeys(("active_bounds", "outside_ranges"), _Variable(_POINTS, _TEXTS)),
-    **dict.fromkeys(("status", "message", "warnings"), _Variable(("speed",), _TEXTS)),
-    **dict.fromkeys(("starts", "distinct_optima", "refined"), _Variable(("speed",), _WHOLE)),
-    **dict.fromkeys(
-        ("objective_value", "mean_power", "mean_positive_power", "peak_power", "frequency", "flap_amplitude"),
-        _Variable(_POINTS),
-    ),
-}
+
+
+def _curve(over: str, others: tuple[str, ...], attributes: dict[str, type]) -> _Form:
+    """Return the form of a curve over speed or frequency, with its other numbers and attributes."""
+    points: Dims = over, "optimum"
+    needed = {
+        over: _Variable((over,)),
+        "optimum": _Variable(("optimum",), _WHOLE),
+        "family": _Variable(points, _WHOLE),
+        "continued": _Variable(("interval", "optimum", "optimum_above"), _WHOLE),
+        **dict.fromkeys(("active_bounds", "outside_ranges"), _Variable(points, _TEXTS)),
+        **dict.fromkeys(("status", "message", "warnings"), _Variable((over,), _TEXTS)),
+        **dict.fromkeys(("starts", "distinct_optima", "refined"), _Variable((over,), _WHOLE)),
+        **dict.fromkeys(
+            ("objective_value", "mean_power", "mean_positive_power", "peak_power", "flap_amplitude", *others),
+            _Variable(points),
+        ),
+    }
+    attributes = {
+        **dict.fromkeys(("vehicle", "aero", "air", "inputs"), dict),
+        **dict.fromkeys(("constraints", "marks", "warnings"), list),
+        **dict.fromkeys(("species", "objective", "version", "inputs_hash"), str),
+        **dict.fromkeys(("climb", "solve_seconds"), float),
+        **attributes,
+    }
+    return _Form(attributes, needed, {}, points, {})
+
+
 _RECORDED = ("status", "message", "species", "objective", "version")
 # An orbit's other attributes are those of its record; `storage.parse_attributes` knows their types.
 FORMS = {
     "orbit": _Form({"inputs": dict, **dict.fromkeys((*_RECORDED, "inputs_hash"), str)}, *_FLOWN),
     "flight": _Form({"vehicle": dict, "air": dict, "wingbeat": dict, "version": str}, *_FLOWN),
-    "curve": _Form(
-        {
-            **dict.fromkeys(("vehicle", "aero", "air", "inputs"), dict),
-            **dict.fromkeys(("constraints", "marks", "warnings"), list),
-            **dict.fromkeys(("species", "objective", "version", "inputs_hash"), str),
-            **dict.fromkeys(("climb", "solve_seconds"), float),
-        },
-        _CURVE,
-        {},
-        _POINTS,
-        {},
-    ),
+    "curve": _curve("speed", ("frequency",), {}),
 }
+_OVER_FREQUENCY = _curve("frequency", (), {OVER: str, "speed": float})
 
 
 def check_form(dataset: xr.Dataset) -> None:
     """Check types and dimensions of all attributes and variables of an orbit, a flight or a curve."""
-    form = FORMS[dataset.attrs[KIND]]
+    form = FORMS[dataset.attrs[KIND]] if over_of(dataset.attrs) == "speed" else _OVER_FREQUENCY
     faults = [f"{name} is missing" for name in form.needed if name not in dataset.variables]
     known = form.needed | form.others
     for name, variable in dataset.variables.items():

@@ -19,7 +19,7 @@ import numpy as np
 
 from wingbeat._base import KIND, FaultList, FileError, system_reason, write_atomically
 from wingbeat.records.agreement import check_curve, check_flight, check_orbit
-from wingbeat.records.characteristic import with_characteristic_speeds
+from wingbeat.records.characteristic import with_characteristic
 from wingbeat.records.forms import FORMS, check_form, from_json, inputs_hash, parse_attributes, said_of
 from wingbeat.records.tables import csv_text, mat_bytes, results_of
 
@@ -309,7 +309,7 @@ def _agreeing(dataset: xr.Dataset, kind: str) -> xr.Dataset:
         if dataset.attrs["inputs_hash"] != inputs_hash(inputs):
             raise ValueError("the inputs do not match their hash")
         check_curve(dataset, inputs)
-        return with_characteristic_speeds(dataset, inputs["power_limit"])
+        return with_characteristic(dataset, inputs)
     record, inputs = parse_attributes(dataset.attrs)
     check_orbit(record, inputs, dataset)
     return dataset.assign_attrs(said_of(record))

@@ -15,13 +15,13 @@ import itertools
 import json
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import KIND, SHAPE, InvalidInputError, cf, is_number, plain_unit
+from wingbeat._base import KIND, SHAPE, InvalidInputError, cf, is_number, over_of, plain_unit
 from wingbeat.orbits.problem.quantities import named_objective, named_quantity
 
 if TYPE_CHECKING:
@@ -85,15 +85,18 @@ def result_unit(dataset: xr.Dataset, results: dict[str, Any], path: str, value: 
     return cf(plain_unit(path))
 
 
-# The coordinate along which each kind of result has its rows.
-_ROWS = {"orbit": "phase", "flight": "phase", "torque-driven flight": "time"}
-_ROWS |= {"curve": "speed", "glide": "angle_of_attack"}
+# The coordinate along which each kind of result has its rows; of a curve, the attribute `over` names it.
+_ROWS = {"orbit": "phase", "flight": "phase", "torque-driven flight": "time", "glide": "angle_of_attack"}
+
+
+def _rows(about: Mapping[str, Any]) -> str:
+    return _ROWS.get(about[KIND]) or over_of(about)
 
 
 def csv_text(dataset: xr.Dataset, results: dict[str, Any]) -> str:
     """Return the text of a CSV file."""
     kind = results["wingbeat_kind"]
-    along = _ROWS[kind]
+    along = _rows(results)
     columns = list(_columns(dataset, along))
     out = io.StringIO()
     out.write(f"# {kind}, written by the package wingbeat; SI units, angles in radians; ")
@@ -116,7 +119,7 @@ def frame_of(dataset: xr.Dataset) -> pd.DataFrame:
     """Return the rows and columns of the CSV file as a table of pandas."""
     import pandas as pd
 
-    return pd.DataFrame({name: values for name, _, _, values in _columns(dataset, _ROWS[dataset.attrs[KIND]])})
+    return pd.DataFrame({name: values for name, _, _, values in _columns(dataset, _rows(dataset.attrs))})
 
 
 def _columns(dataset: xr.Dataset, along: str) -> Iterator[tuple[str, str, str, Any]]:
@@ -137,8 +140,8 @@ def _columns(dataset: xr.Dataset, along: str) -> Iterator[tuple[str, str, str, A
 
 def _end(dataset: xr.Dataset, dim: str, index: int) -> tuple[str, str]:
     """Return the endings of a column's name and meaning for one index along a dimension; indices start at 1."""
-    if dim == "optimum":  # most readers want the best optimum of each speed, so its column has the plain name
-        return (f"{dim}_{index + 1}", f"number {index + 1} of the optima at this speed") if index else ("", "")
+    if dim == "optimum":  # most readers want the best optimum of each row, so its column has the plain name
+        return (f"{dim}_{index + 1}", f"number {index + 1} of the optima in this row") if index else ("", "")
     label = dataset[dim].values[index]
     if isinstance(label, str):
         return label.replace(" ", "_"), str(label)

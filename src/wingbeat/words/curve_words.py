@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 from wingbeat._base import (
     Block,
@@ -17,12 +18,13 @@ from wingbeat._base import (
     find,
     for_people,
     in_words,
+    over_of,
     plain_unit,
     written,
     written_range,
 )
 from wingbeat.records.judgements import called, set_by_limit
-from wingbeat.words.orbit_words import DEFAULT_AIR, air_in_words
+from wingbeat.words.orbit_words import DEFAULT_AIR, FREQUENCY_BASES, air_in_words
 
 # Of characteristic speeds that do not say it by their name.
 _LABELS = {
@@ -36,38 +38,66 @@ _AGAINST = {
     "metabolic_power": ", beside the estimate for the whole animal",
 }
 _HEADINGS = ("U\n[m/s]", "f\n[Hz]", "P+\n[W]", "CoT\n[-]", "flap\n[deg]", "optima", "at the limit of")
+_OVER_FREQUENCY = ("f\n[Hz]", "P+\n[W]", "flap\n[deg]", "optima", "at the limit of")
+_OF_MUSCLE = ("activation\n[-]", "work\n[J/kg]")  # of a curve over frequency, before the optima
 _NEAR = 0.02  # share of a speed within which the lowest computed point stands for the minimum
 _MINIMISED_AT = 3  # column of the minimised quantity, after the power
 
 
+class Along(NamedTuple):
+    """What a curve runs over, in words."""
+
+    name: str
+    plural: str
+    unit: str
+
+
+_PLURAL = {"speed": "speeds", "frequency": "frequencies"}
+
+
+def along_of(record: dict[str, Any]) -> Along:
+    """Return what the curve of a record runs over."""
+    name = over_of(record)
+    return Along(name, _PLURAL[name], plain_unit(name))
+
+
 def curve_report(record: dict[str, Any]) -> Report:
-    """Return a row for each speed, changes of the best orbit between them, characteristic speeds and warnings."""
-    points = record["points"]
+    """Return a row for each speed, changes of the best orbit between them, characteristic speeds and warnings.
+
+    A curve over frequency has a row for each frequency, and says what is known of the frequency.
+    """
+    points, along = record["points"], along_of(record)
     animal, minimised = record["species"] + climb_text(record["climb"]), in_words(record["objective"])
     certified = len(points) - len(record["gaps"])
     headings: list[str] = list(_HEADINGS)
     factor, unit = _unit(record["objective"])
     other = record["objective"] not in ("frequency", "mean_positive_power")  # which have columns of their own
+    if along.name == "frequency":
+        animal += f" at {record['speed']:g} m/s"
+        headings = list(_OVER_FREQUENCY)
+        if "activation" in record["characteristic_frequencies"]:
+            headings[3:3] = _OF_MUSCLE
     if other:
-        headings.insert(_MINIMISED_AT, f"minimised\n[{unit or '-'}]")
-    rows = tuple(Row(_row(point, factor if other else None)) for point in points)
+        headings.insert(_MINIMISED_AT - (along.name == "frequency"), f"minimised\n[{unit or '-'}]")
+    row = _row if along.name == "speed" else functools.partial(_frequency_row, cells=len(headings))
+    rows = tuple(Row(row(point, factor if other else None)) for point in points)
     blocks: list[Block] = [
-        Line(f"{animal}, minimum {minimised}: {certified} of {len(points)} speeds certified"),
+        Line(f"{animal}, minimum {minimised}: {certified} of {len(points)} {along.plural} certified"),
         *([Line(f"air: {air_in_words(record['air'])}")] if record["air"] != DEFAULT_AIR else []),
         Table(rows, tuple(headings), "r" * (len(headings) - 1) + "l"),
         *([Line("* added to find the characteristic speeds")] if any(point["refined"] for point in points) else []),
-        *_limited(record),
-        *_implausible(points),
+        *_limited(record, along),
+        *_implausible(points, along),
         Line(""),
-        Line("changes from one speed to the next", tone="title"),
+        Line(f"changes from one {along.name} to the next", tone="title"),
     ]
     for mark in record["marks"]:
-        where = f"{mark['lower_speed']:g} to {mark['upper_speed']:g} m/s"
+        where = f"{mark[f'lower_{along.name}']:g} to {mark[f'upper_{along.name}']:g} {along.unit}"
         text = f"  {mark['kind']}, {where}: {mark['what']}"
         blocks.append(Line(text, tone="" if mark["kind"] == "bounds" else "warning"))
     if not record["marks"]:
         blocks.append(Line("  one branch, always at the same bounds"))
-    blocks += _characteristic(record)
+    blocks += _characteristic(record) if along.name == "speed" else _of_frequency(record)
     if record.get("measured"):
         blocks += _measured(record["measured"])
     if record["warnings"]:
@@ -112,21 +142,21 @@ def _measured(beside: dict[str, Any]) -> list[Block]:
     return [*blocks, *([Notes(tuple(beside["notes"]))] if beside["notes"] else [])]
 
 
-def _implausible(points: list[dict[str, Any]]) -> list[Block]:
-    """Say at which speeds the best orbit is outside which plausible ranges; nothing if no speed has an orbit."""
-    judged = [(point["speed"], point["optima"][0]["outside_ranges"]) for point in points if point["optima"]]
+def _implausible(points: list[dict[str, Any]], along: Along) -> list[Block]:
+    """Say where the best orbit is outside which plausible ranges; nothing if no point has an orbit."""
+    judged = [(point[along.name], point["optima"][0]["outside_ranges"]) for point in points if point["optima"]]
     if not judged:
         return []
     lines: list[Block] = [Line(""), Line("outside plausible ranges", tone="title")]
     for names, group in itertools.groupby(judged, key=lambda one: one[1]):
-        speeds = [speed for speed, _ in group]
+        where = f"{span_in_words([value for value, _ in group])} {along.unit}"
         if names:
-            lines.append(Line(f"  at {span_in_words(speeds)} m/s: {str(names).replace('_', ' ')}", tone="warning"))
-    return lines if len(lines) > 2 else [*lines, Line("  at no speed")]
+            lines.append(Line(f"  at {where}: {str(names).replace('_', ' ')}", tone="warning"))
+    return lines if len(lines) > 2 else [*lines, Line(f"  at no {along.name}")]
 
 
-def _limited(record: dict[str, Any]) -> list[Block]:
-    """Say at which speeds limits have set which numbers of the best orbit, which are then no predictions."""
+def _limited(record: dict[str, Any], along: Along) -> list[Block]:
+    """Say where limits have set which numbers of the best orbit, which are then no predictions."""
     spans: dict[tuple[str, str], list[list[float]]] = {}
     for place, point in enumerate(record["points"]):
         if not point["optima"]:
@@ -137,13 +167,13 @@ def _limited(record: dict[str, Any]) -> list[Block]:
         for name, what in found.items():
             own = what.by == (name,)  # also of a limit along the path, whose value the curve does not hold
             runs = spans.setdefault((called(name), "set by the limit" if own else what.words), [])
-            if not runs or runs[-1][-1] != record["points"][place - 1]["speed"]:
+            if not runs or runs[-1][-1] != record["points"][place - 1][along.name]:
                 runs.append([])
-            runs[-1].append(point["speed"])
+            runs[-1].append(point[along.name])
     if not spans:
         return []
     told = [
-        Line(f"  {name} {words} at {' and '.join(map(span_in_words, runs))} m/s")
+        Line(f"  {name} {words} at {' and '.join(map(span_in_words, runs))} {along.unit}")
         for (name, words), runs in spans.items()
     ]
     return [Line(""), Line("set by limits, so not predicted", tone="title"), *told]
@@ -152,6 +182,53 @@ def _limited(record: dict[str, Any]) -> list[Block]:
 def span_in_words(speeds: list[float]) -> str:
     """Return the first and the last of some speeds."""
     return f"{speeds[0]:g}" if len(speeds) == 1 else f"{speeds[0]:g} to {speeds[-1]:g}"
+
+
+def _of_frequency(record: dict[str, Any]) -> list[Block]:
+    """Say what is known of the frequency: the animal's own, where the objective is least, what muscle allows."""
+    known, least = record["characteristic_frequencies"], record["characteristic_frequencies"]["least"]
+    objective = in_words(record["objective"])
+    lines: list[Block] = [
+        Line("frequency", tone="title"),
+        Line(f"  the animal's own: {own_in_words(known['own'])}"),
+    ]
+    if least is not None:
+        factor, unit = _unit(record["objective"])
+        value = written(factor * least["value"], unit=unit)
+        near = least["within_5_percent"]
+        text = f"  least {objective}: {least['frequency']:g} Hz, {value}; within 5 % of it {ranges_in_words(near)}"
+        ends = [point["frequency"] for point in (record["points"][0], record["points"][-1])]
+        if reached := [f"{end:g}" for end in ends if any(end in span for span in near)]:
+            text += f"; the curve ends at {' and '.join(reached)} Hz"
+        lines.append(Line(text))
+    if "activation" in known:
+        lines.append(Line(f"  activation at most 1: {ranges_in_words(known['activation']['ranges'])}"))
+        lines.append(Line("  work per beat of the flight muscle, as measured:"))
+    for band in known.get("work_per_beat", ()):
+        where = ranges_in_words(band["ranges"])
+        lines.append(Line(f"    {band['name']}, {work_in_words(band)}: {where}"))
+    return lines
+
+
+def own_in_words(own: dict[str, Any]) -> str:
+    """Return the animal's own frequency, with its band and where it comes from."""
+    low, high = own["range"]
+    band = written_range(low, high, "Hz", own["value"]) if low < high else written(own["value"], unit="Hz")
+    return f"{band}, {FREQUENCY_BASES[own['basis']]}"
+
+
+def work_in_words(band: dict[str, Any]) -> str:
+    """Return a measured work per beat, or its range."""
+    low, high = band["low"], band["high"]
+    return f"{low:g} J/kg" if low == high else f"{low:g} to {high:g} J/kg"
+
+
+def ranges_in_words(ranges: list[list[float]]) -> str:
+    """Return ranges of frequency."""
+    if not ranges:
+        return "at no frequency"
+    spans = [f"at {low:.3g}" if low == high else f"from {low:.3g} to {high:.3g}" for low, high in ranges]
+    return f"{' and '.join(spans)} Hz"
 
 
 def _characteristic(record: dict[str, Any]) -> list[Block]:
@@ -213,6 +290,24 @@ def _row(point: dict[str, Any], factor: float | None) -> tuple[str, ...]:
         *minimised,
         "-" if cost is None else f"{cost:.3g}",
         f"{math.degrees(best['flap_amplitude']):.3g}",
+        f"{point['distinct_optima']}",
+        best["active_bounds"] or "nothing",
+    )
+
+
+def _frequency_row(point: dict[str, Any], factor: float | None, cells: int) -> tuple[str, ...]:
+    """Return the cells of a frequency; with a factor to its unit, also the minimised quantity."""
+    shown = f"{point['frequency']:g}"
+    if not point["optima"]:
+        return (shown, *[""] * (cells - 3), "0", f"{point['status']}: {point['message']}")
+    best = point["optima"][0]
+    muscle = [best[name] for name in ("peak_activation", "muscle_work_per_mass") if name in best]
+    return (
+        shown,
+        f"{best['mean_positive_power']:.4g}",
+        *(() if factor is None else (f"{best['objective_value'] * factor:.4g}",)),
+        f"{math.degrees(best['flap_amplitude']):.3g}",
+        *(f"{value:.3g}" for value in muscle),
         f"{point['distinct_optima']}",
         best["active_bounds"] or "nothing",
     )

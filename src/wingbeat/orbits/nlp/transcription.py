@@ -42,6 +42,15 @@ class Point(NamedTuple):
     outputs_jacobian: np.ndarray
 
 
+class _Flight(NamedTuple):
+    """A flight, and its point; `read` says whether the point has the outputs, which take longer than the flight."""
+
+    unknowns: np.ndarray
+    flown: Flown
+    point: Point
+    read: bool
+
+
 class Transcription(Programme):
     """Closure, inequalities and objective of a problem as functions of scaled unknowns; flights are cached.
 
@@ -82,7 +91,8 @@ class Transcription(Programme):
         # all 14 without it. Optima of outputs lie between two samples and need the smooth peak.
         self._peak = highest_sample if self.outputs is None else peak_weights
         self.path_limits = (*_PITCH_LIMITS, *self._stroke.names)
-        self._points: dict[bytes, Point] = {}
+        self._limits_outputs = self.has_epigraph or bool(problem.subject_to)
+        self._flights: dict[bytes, _Flight] = {}
         self._anchor, self._correction = self._no_correction
         # Times of the certifier for this programme and those corrected from it [s].
         self.certifying: list[float] = []
@@ -96,7 +106,7 @@ class Transcription(Programme):
     def uncorrected(self) -> Transcription:
         """Return a copy without the correction, for a parallel local search; the copy keeps the cached flights."""
         other = self._corrected(*self._no_correction)
-        other._points, other.certifying = dict(self._points), []
+        other._flights, other.certifying = dict(self._flights), []
         other.steps = None if self.steps is None else []
         return other
 
@@ -119,21 +129,27 @@ class Transcription(Programme):
         scaled[-1] = self._outputs(scaled)[: self._minimised].max()
         return scaled
 
-    def point(self, scaled: np.ndarray) -> Point:
-        """Return values and derivatives of the flight from one point."""
+    def point(self, scaled: np.ndarray, read: bool = True) -> Point:
+        """Return values and derivatives of the flight from one point; without `read`, outputs may be missing."""
         key = scaled[: self.unknowns.lower.size].tobytes()
-        if key not in self._points:
-            if len(self._points) == _REMEMBERED:
-                del self._points[next(iter(self._points))]
-            self._points[key] = self._fly(self.physical(scaled), self._blocks)
-        return self._points[key]
+        if key not in self._flights:
+            if len(self._flights) == _REMEMBERED:
+                del self._flights[next(iter(self._flights))]
+            self._flights[key] = self._fly(self.physical(scaled), self._blocks, read)
+        flight = self._flights[key]
+        if read and not flight.read:
+            with np.errstate(over="ignore", invalid="ignore"):
+                point = self._cut(flight.flown, flight.unknowns, self._blocks, read)
+            flight = self._flights[key] = flight._replace(point=point, read=True)
+        return flight.point
 
-    def _fly(self, unknowns: np.ndarray, blocks: int) -> Point:
+    def _fly(self, unknowns: np.ndarray, blocks: int, read: bool = True) -> _Flight:
         # A diverging flight may overflow here; `_cut` limits its numbers.
         with np.errstate(over="ignore", invalid="ignore"):
-            return self._cut(self.fly(unknowns[4:], unknowns[:4], blocks), unknowns, blocks)
+            flown = self.fly(unknowns[4:], unknowns[:4], blocks)
+            return _Flight(unknowns, flown, self._cut(flown, unknowns, blocks, read), read)
 
-    def _cut(self, flown: Flown, unknowns: np.ndarray, blocks: int) -> Point:
+    def _cut(self, flown: Flown, unknowns: np.ndarray, blocks: int, read: bool) -> Point:
         problem, scale = self.problem, self.unknowns.scale
         frequency = problem.frequency(unknowns)
         closure = problem.closure(flown.end, unknowns, frequency) / CLOSURE_SCALE
@@ -141,7 +157,7 @@ class Transcription(Programme):
         pitch, pitch_jacobian = flown.path[:, 0], flown.path_jacobian[:, 0] * scale
         tame = abs(closure.sum()) + abs(jacobian.sum()) + abs(pitch.sum()) + abs(pitch_jacobian.sum()) < _OVERFLOW
         outputs, outputs_jacobian = np.zeros(0), np.zeros((0, scale.size))
-        if self.outputs is not None:
+        if self.outputs is not None and read:
             count = self.outputs.count
             undefined = np.full(count, np.nan), np.zeros((count, scale.size))
             outputs, outputs_jacobian = self._read(self.outputs, unknowns, flown, blocks) if tame else undefined
@@ -187,11 +203,11 @@ class Transcription(Programme):
     def closure(self, scaled: np.ndarray) -> np.ndarray:
         """Return the corrected closure, shape (6,), scaled."""
         by = self._correction
-        return self.point(scaled).closure - by.closure + by.closure_jacobian @ (scaled - self._anchor)
+        return self.point(scaled, read=False).closure - by.closure + by.closure_jacobian @ (scaled - self._anchor)
 
     def closure_jacobian(self, scaled: np.ndarray) -> np.ndarray:
         """Return the derivative of the corrected closure, shape (6, n)."""
-        return self.point(scaled).closure_jacobian + self._correction.closure_jacobian
+        return self.point(scaled, read=False).closure_jacobian + self._correction.closure_jacobian
 
     def _outputs(self, scaled: np.ndarray) -> np.ndarray:
         by = self._correction
@@ -199,8 +215,8 @@ class Transcription(Programme):
 
     def inequalities(self, scaled: np.ndarray) -> np.ndarray:
         """Return the margins of `path_limits`, of constraints, and of peaks below the epigraph variable."""
-        path = self.point(scaled).path - self._correction.path
-        if self.outputs is None:
+        path = self.point(scaled, self._limits_outputs).path - self._correction.path
+        if self.outputs is None or not self._limits_outputs:
             return path
         outputs = self._outputs(scaled)
         constraints = self.outputs.limits - outputs[self._minimised :]
@@ -214,8 +230,8 @@ class Transcription(Programme):
 
     def inequalities_jacobian(self, scaled: np.ndarray) -> np.ndarray:
         """Return the derivative of the inequalities, shape (inequalities, n)."""
-        point = self.point(scaled)
-        if self.outputs is None:
+        point = self.point(scaled, self._limits_outputs)
+        if self.outputs is None or not self._limits_outputs:
             return point.path_jacobian
         outputs = point.outputs_jacobian + self._correction.outputs_jacobian
         below = np.zeros_like(outputs[: self._minimised if self.has_epigraph else 0])
@@ -232,7 +248,7 @@ class Transcription(Programme):
 
     def linearised_at(self, scaled: np.ndarray, blocks: int) -> Transcription:
         """Return the programme, corrected to a flight with more blocks. Theory: equation ``defect-correction``."""
-        here, fine = self.point(scaled), self._fly(self.physical(scaled), blocks)
+        here, fine = self.point(scaled), self._fly(self.physical(scaled), blocks).point
         offsets = {n: getattr(here, n) - getattr(fine, n) for n in ("closure", "path", "outputs")}
         slopes = {n: getattr(fine, n) - getattr(here, n) for n in ("closure_jacobian", "outputs_jacobian")}
         return self._corrected(scaled.copy(), self._correction._replace(**offsets, **slopes))

@@ -280,3 +280,14 @@ def test_each_optimum_says_which_plausible_ranges_it_leaves(curve):
             low = -math.inf if known.low is None else known.low
             assert ("strouhal" in best["outside_ranges"].split(", ")) is not (low <= best["strouhal"] <= high)
             assert best["outside_ranges"]  # the paper's bat is always outside one
+
+
+@pytest.mark.slow
+def test_a_curve_whose_frequency_changes_with_speed_is_loaded_again(tmp_path):
+    """The pigeon's own frequency falls from 7.85 Hz at 4 m/s to 6.15 Hz at 12; a check took that for damage."""
+    pigeon = wb.load_species("pigeon")
+    problem = wb.models.animal(pigeon).problem(pigeon, speed=4.0)
+    curve = wb.solve_curve(problem, [4.0, 12.0], starts=2)
+    curve.save(tmp_path / "pigeon.nc")
+    loaded = wb.load_curve(tmp_path / "pigeon.nc")
+    assert loaded.dataset["frequency"].values[:, 0].tolist() == [7.85, 6.15]

@@ -269,12 +269,14 @@ def check_curve(dataset: xr.Dataset, inputs: dict[str, Any]) -> None:
         demand({mark[end] for end in ends} <= {*values.tolist()}, "a mark is at none of the points")
         demand(isinstance(mark["kind"], str) and isinstance(mark["what"], str), "a mark is of another form")
     found = columns["family"] >= 0
+    own_frequency = over == "speed" and "model" in inputs and origin_from(inputs["model"]).own_frequency
     for i, status in enumerate(columns["status"].tolist()):
         converged = Status(status) is Status.CONVERGED
         demand(converged == bool(found[i, 0]), "status does not fit the optima")
         demand(not converged or columns["distinct_optima"][i] >= found[i].sum(), "distinct_optima is too small")
         given = {over: float(values[i])} | ({"speed": inputs["speed"]} if over == "frequency" else {})
-        _check_point(columns, i, found[i], species, inputs, str(about["objective"]), given)
+        flown = species.at_own_frequency(given["speed"]) if own_frequency else species
+        _check_point(columns, i, found[i], flown, inputs, str(about["objective"]), given)
 
 
 def _check_point(
@@ -317,7 +319,7 @@ def _check_point(
             same("muscle_power_per_mass", own["muscle_power_per_mass"], power)
         demand(own["mean_power"] <= own["mean_positive_power"] <= max(own["peak_power"], 0.0), "powers contradict")
         for name in PARAMETER_NAMES:
-            stock = inputs["stock_wingbeat"].get(name)
+            stock = parameter(species.wingbeat, name) if name in inputs["stock_wingbeat"] else None
             if (
                 name in own
                 and name not in given

@@ -19,7 +19,7 @@ import numpy as np
 import wingbeat as wb
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat.mechanics.flight_model import body_rates, motion_table
-from wingbeat.orbits.flight.period import STEPS, _march, _tabulate, fly_part
+from wingbeat.orbits.flight.period import STEPS, fly_part, march, tabulated
 from wingbeat.orbits.starts import start_point
 
 BASELINE = Path(__file__).with_name("operations.json")
@@ -75,8 +75,8 @@ def measure() -> dict[str, dict[str, int]]:
     table = motion_table(model, beat, jnp.asarray(0.3))
 
     def value(start: Any) -> Any:
-        (rows, step), like = _tabulate(model, beat, 0.0, 1.0)
-        return _march(model, rows, like, step, start)
+        (rows, step), like = tabulated(model, beat, 0.0, 1.0)
+        return march(model, rows, like, step, start)
 
     def flight(values: Any, start: Any) -> Any:
         static = {"free": problem.free, "components": 1, "stroke": True}

@@ -13,8 +13,8 @@ import wingbeat as wb
 from tests.helpers.places import ROOT
 from wingbeat._jax.config import jax, jnp
 from wingbeat.aero import FamilyCoefficients, TableCoefficients, load_coefficients
-from wingbeat.aero.blade_element import strip_forces
 from wingbeat.aero.family import at_reynolds, depends_on_reynolds
+from wingbeat.aero.strip_forces import strip_forces
 from wingbeat.cli.app import main
 
 OWN = Path(__file__).parent / "polars"

@@ -10,8 +10,9 @@ import wingbeat as wb
 from tests.helpers.programs import compiled
 from wingbeat._base import InvalidInputError
 from wingbeat._jax.arrays import jax
-from wingbeat.aero.blade_element import BladeElement, strip_forces
+from wingbeat.aero.blade_element import BladeElement
 from wingbeat.aero.derived_kernels import UpstrokeKernel, count_arm_strips
+from wingbeat.aero.strip_forces import strip_forces
 from wingbeat.records.inputs import inputs_of, problem_from
 
 # Speeds along and across the chord [m/s]: six strips at five times, air from below and from above.

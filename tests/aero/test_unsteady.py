@@ -7,8 +7,8 @@ import pytest
 
 import wingbeat as wb
 from wingbeat._jax.arrays import jnp
-from wingbeat.aero.blade_element import strip_forces, with_turning
 from wingbeat.aero.closed_forms import added_inertia, added_mass, damping_couple, rotation_force, rotation_lift
+from wingbeat.aero.strip_forces import strip_forces, with_turning
 
 DENSITY, CHORD, SPEED = 1.225, 0.112, 10.0
 HALF = 0.5 * CHORD

@@ -204,7 +204,7 @@ def test_a_wing_with_no_speed_along_its_span_feels_no_difference():
 
 
 def test_a_strip_that_moves_along_its_span_alone_has_no_load():
-    from wingbeat.aero.blade_element import strip_forces
+    from wingbeat.aero.strip_forces import strip_forces
 
     kernel = wb.aero.SuFan().kernel()
 

@@ -35,6 +35,7 @@ NO_ARRAY = {
     "given",
     "kernel",
     "like",
+    "model",
     "numbers",
     "stages",
     "torques",
@@ -205,7 +206,7 @@ def test_every_kernel_gets_and_gives_the_shapes_it_says(flown, calls):
         traced(f"wingbeat.orbits.flight.beat.{kernel}", np.zeros((33, 7)))
 
     for name in (
-        "wingbeat.aero.blade_element.strip_forces",
+        "wingbeat.aero.strip_forces.strip_forces",
         "wingbeat.animal.kinematics.with_harmonics",
         "wingbeat.animal.kinematics.unpack",
         "wingbeat.mechanics.flight_model.accelerations",

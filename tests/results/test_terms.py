@@ -109,5 +109,5 @@ def test_what_cannot_be_traced_is_refused(asked, said, capsys):
 
 
 def test_a_share_of_no_term_is_refused():
-    with pytest.raises(wb.InvalidInputError, match="has no effect without unsteady terms or inflow"):
+    with pytest.raises(wb.InvalidInputError, match="has no effect without unsteady terms, wake or inflow"):
         wb.aero.BladeElement("su-fan", share=0.5)

@@ -52,6 +52,14 @@ Sums = Float[Any, "sums *phases"]
 
 # (body_pitch, u, w, pitch_rate), their rates, and the body's acceleration (x'', z'', psi'').
 PitchState = Float[Any, "4 *phases"]
+# The same, and with the lag of the wake two states of each strip after it: first z_1 of all strips, then z_2.
+FlightState = Float[Any, "states *phases"]
+WakeStates = Float[Any, "2 strips *phases"]
+# Numbers of the lag of the wake: of its two states; of both sides of a polar, or of each strip's.
+PairOfNumbers = Float[Any, "2"]
+StallNumbers = Float[Any, "2 ..."]
+# Derivatives of the body's acceleration by the downwash of each strip's wake.
+ByStripWake = Float[Any, "3 strips lanes"]
 BodyAcceleration = Float[Any, "3 *phases"]
 # (x, z, body_pitch, flap, wing_pitch), their rates, and generalised forces.
 Coordinates = Float[Any, "*phases 5"]

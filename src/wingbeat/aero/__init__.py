@@ -35,6 +35,7 @@ from wingbeat.aero.library import (
 from wingbeat.aero.model_file import load_model
 from wingbeat.aero.polar_models import load_table
 from wingbeat.aero.table import TableCoefficients
+from wingbeat.aero.wake import WAKES
 
 __all__ = [
     "AIRSPEEDS",
@@ -43,6 +44,7 @@ __all__ = [
     "INFLOWS",
     "LIBRARY",
     "UNSTEADY",
+    "WAKES",
     "WING_ESTIMATES",
     "BladeElement",
     "Byl",

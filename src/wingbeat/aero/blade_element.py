@@ -1,16 +1,9 @@
-"""Blade elements: from the velocity of each strip to its lift and drag.
-
-Su et al. 2023 (doi 10.48550/arXiv.2302.09602): ``dL = 1/2 rho V^2 c dr C_L(alpha)`` normal to the velocity of the
-strip, ``dD`` against it. Angle of attack and directions are measured in the plane of chord and normal. V is either
-the speed in that plane or the whole airspeed of the segment, including its part along the span; the words of Su et
-al. describe the latter.
-"""
+"""Which air loads: coefficients, strips, and the terms that blade elements add, checked together."""
 
 from __future__ import annotations
 
 import contextlib
 import functools
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from os import PathLike
@@ -20,20 +13,19 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from wingbeat._base import Fault, FaultList, InvalidInputError, suggest
-from wingbeat._jax.arrays import atan2, elementwise_jvp, jnp
-from wingbeat.aero.closed_forms import INFLOWS, UNSTEADY, damping_couple, rotation_force
+from wingbeat.aero.closed_forms import INFLOWS, UNSTEADY
 from wingbeat.aero.coefficient_model import CoefficientModel, check_curve
 from wingbeat.aero.derived_kernels import ArmHandKernel, UpstrokeKernel, count_arm_strips, sectional_kernel
-from wingbeat.aero.family import at_reynolds, depends_on_reynolds
+from wingbeat.aero.family import FamilyCoefficients
 from wingbeat.aero.formula_models import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.function import FunctionCoefficients
 from wingbeat.aero.library import LIBRARY
 from wingbeat.aero.model_file import load_model
 from wingbeat.aero.polar_formats import POLAR_SUFFIXES
 from wingbeat.aero.polar_models import load_table
+from wingbeat.aero.wake import WAKES, WakeLag, check_finite_wing, jones_numbers, stall_numbers
 
 if TYPE_CHECKING:
-    from wingbeat._jax.arrays import Angles, PerStrip, PerStripBroadcast, Phases, Scalar
     from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
 
 
@@ -149,7 +141,8 @@ class SpanPart(NamedTuple):
 FORCE_POINTS = ("quarter-chord", "centre-of-pressure")
 AIRSPEEDS = ("planar", "full")
 # What the choices of `BladeElement` may be, for every door that asks for them: words, and limits of numbers.
-ELEMENT_WORDS = {"force_point": FORCE_POINTS, "airspeed": AIRSPEEDS, "unsteady": UNSTEADY, "inflow": INFLOWS}
+ELEMENT_WORDS = {"force_point": FORCE_POINTS, "airspeed": AIRSPEEDS, "unsteady": UNSTEADY, "wake": WAKES}
+ELEMENT_WORDS |= {"inflow": INFLOWS}
 ELEMENT_LIMITS: dict[str, dict[str, Any]] = {
     "induced_factor": {"at_least": 0},
     **{name: {"at_least": 0, "at_most": 1} for name in ("share", "hand_from", "upstroke_factor")},
@@ -171,6 +164,9 @@ class BladeElement:
         speed.
     unsteady : "thin-aerofoil" adds rotation, added mass and the couples of a thin aerofoil
         (`wingbeat.aero.closed_forms`); "none", as in Su et al., leaves them out.
+    wake : "jones-section" adds the lag of the wake of a section, "jones-finite" that of a wing of the vehicle's
+        aspect ratio (`wingbeat.aero.wake`); "none" leaves it out. The lag is that of a straight wake, so the
+        coefficients must state the aspect ratio of the wing on which they were measured.
     inflow : "momentum" adds the induced flow of wings that carry the weight (`wingbeat.aero.closed_forms`) and uses
         sectional coefficients. Coefficients of a finite wing are converted to sectional ones. "none" leaves the
         induced flow out.
@@ -183,15 +179,15 @@ class BladeElement:
         from above. It is below 1 if feathers separate and let air through. In slow flight, the wake of a pigeon
         contains vortices of the downstroke alone (Spedding, Rayner and Pennycuick 1984, doi 10.1242/jeb.111.1.81),
         as a factor near 0 predicts. No source measured a value.
-    share : factor from 0 to 1 by which the unsteady terms and the induced factor are multiplied. Real air has a
+    share : factor from 0 to 1 by which unsteady terms, lag and induced factor are multiplied. Real air has a
         share of 1; orbits at smaller shares show what the terms do (`trace_terms`).
 
     Raises
     ------
     InvalidInputError : strips not a whole number from 1 to 1000, an unknown force point, airspeed or term, a
         negative induced factor, a share outside 0 to 1 or one that no term uses, a centre of pressure with a model
-        that has none, inflow with a model without an aspect ratio, a `hand_from` outside 0 to 1 or without a hand,
-        an upstroke factor outside 0 to 1; inputs that `coefficients_of` refuses.
+        that has none, inflow or a lag with a model without an aspect ratio, a `hand_from` outside 0 to 1 or without
+        a hand, an upstroke factor outside 0 to 1; inputs that `coefficients_of` refuses.
     FileError : the file of a model is missing or cannot be read.
 
     >>> from wingbeat.aero import SuFan
@@ -204,6 +200,7 @@ class BladeElement:
     force_point: str = "quarter-chord"
     airspeed: str = "planar"
     unsteady: str = "none"
+    wake: str = "none"
     inflow: str = "none"
     induced_factor: float = 1.2
     hand: Any = "none"
@@ -227,9 +224,9 @@ class BladeElement:
             faults.choice(f"aero.{name}", getattr(self, name), words)
         check_number("induced_factor", fix="1 is an ideal disc")
         check_number("share", fix="1 applies each term in full")
-        if self.share != 1 and self.unsteady == self.inflow == "none":
-            rule = "has no effect without unsteady terms or inflow"
-            faults.add("aero.share", self.share, rule, "set unsteady or inflow, or leave share out")
+        if self.share != 1 and self.unsteady == self.wake == self.inflow == "none":
+            rule = "has no effect without unsteady terms, wake or inflow"
+            faults.add("aero.share", self.share, rule, "set unsteady, wake or inflow, or leave share out")
         check_number("hand_from", fix="a fraction of the span")
         if self.hand == "none" and self.hand_from != type(self).hand_from:
             rule = "has no effect without a hand"
@@ -239,6 +236,16 @@ class BladeElement:
         for _, coefficients, _ in self.parts:
             if self.inflow != "none":
                 sectional_kernel(coefficients)  # refuses a model that it cannot make sectional
+            if self.wake != "none" and coefficients.aspect_ratio is None:
+                rule = "needs a polar that was measured in straight flow and states its aspect ratio"
+                rule += f"; {coefficients.name} states none"
+                fix = (
+                    "leave the wake out: a revolving wing keeps its leading-edge vortex and sheds no straight wake"
+                )
+                faults.add("aero.wake", self.wake, rule, fix)
+            if self.wake != "none" and isinstance(coefficients, FamilyCoefficients):
+                rule = f"needs one polar, and {coefficients.name} depends on the Reynolds number"
+                faults.add("aero.wake", self.wake, rule, "give the polar of one Reynolds number")
             if self.force_point == "centre-of-pressure" and not coefficients.has_centre_of_pressure:
                 rule = f"needs a centre of pressure, and {coefficients.name} has none"
                 fix = "use quarter-chord, or a model that has one"
@@ -258,10 +265,34 @@ class BladeElement:
 
     def kernel(self) -> Kernel:
         """Return the kernel of the strips' coefficients; with inflow, these are sectional coefficients."""
-        own = sectional_kernel if self.inflow != "none" else lambda model: model.kernel()
-        arm, *hand = (own(part.coefficients) for part in self.parts)
+        arm, *hand = (self._kernel_of(part) for part in self.parts)
         whole = ArmHandKernel(arm, hand[0], self.parts[0].strips.stop) if hand else arm
-        return whole if self.upstroke_factor == 1 else UpstrokeKernel(whole, self.upstroke_factor)
+        return self._in_upstroke(whole)
+
+    def _kernel_of(self, part: SpanPart) -> Kernel:
+        return part.coefficients.kernel() if self.inflow == "none" else sectional_kernel(part.coefficients)
+
+    def _in_upstroke(self, kernel: Kernel) -> Kernel:
+        return kernel if self.upstroke_factor == 1 else UpstrokeKernel(kernel, self.upstroke_factor)
+
+    def wake_lag(self, aspect_ratio: float) -> WakeLag | None:
+        """Return the numbers of the lag of the wake for wings of an aspect ratio; None without it."""
+        if self.wake == "none":
+            return None
+        faults = FaultList()
+        check_finite_wing(faults, self.wake, aspect_ratio)
+        faults.raise_if_any()
+        shares, rates = jones_numbers(self.wake, aspect_ratio)
+        stall, per_lift = self.stall_numbers()
+        if self.hand == "none":
+            stall, per_lift = stall[:, 0], per_lift[:, 0]
+        return WakeLag(self.share * np.array(shares), np.array(rates), stall, per_lift)
+
+    def stall_numbers(self) -> np.ndarray:
+        """Return for each strip what `wingbeat.aero.wake.stall_numbers` does, shape (2, 2, strips)."""
+        found = [np.array(stall_numbers(self._in_upstroke(self._kernel_of(part)))) for part in self.parts]
+        counts = [part.strips.stop - part.strips.start for part in self.parts]
+        return np.repeat(np.stack(found, axis=-1), counts, axis=-1)
 
 
 # The choices of the air loads besides the coefficients, in the order of the constructor; `share` is for studies of
@@ -272,98 +303,3 @@ OF_ELEMENTS = tuple(field.name for field in fields(BladeElement) if field.name n
 def blade_element_of(aero: Any) -> BladeElement:
     """Return the model of the air loads for ``aero``: a `BladeElement`, or what `coefficients_of` takes."""
     return aero if isinstance(aero, BladeElement) else BladeElement(aero)
-
-
-class StripForces(NamedTuple):
-    """Air load of each strip of one wing: the forces [N], and the speed and angle that determine them, as arrays.
-
-    `chordwise` and `normal` are along the two axes in which the speeds were given, of the pitched or the unpitched
-    chord.
-    """
-
-    chordwise: PerStrip
-    normal: PerStrip
-    alpha: PerStrip
-    speed: PerStrip  # the airspeed V that determines the loads
-    lift: PerStrip  # from the coefficients alone
-    drag: PerStrip
-    couple: PerStrip | None = None  # [N m], leading edge up; None without unsteady loads of turning strips
-
-
-def strip_forces(
-    kernel: Kernel,
-    density: Scalar,
-    area: PerStrip,
-    chord_speed: PerStrip,
-    normal_speed: PerStrip,
-    pitch: PerStrip,
-    span_speed: PerStrip | None = None,
-    chord_over_viscosity: PerStrip | None = None,
-) -> StripForces:
-    """Return the air loads of strips of given areas [m2] moving at given speeds along two axes [m/s].
-
-    The chord is pitched by `pitch` from the first axis towards the second, so ``alpha = pitch - gamma`` where
-    ``gamma = atan2(v_n, v_c)`` is the direction of the motion. If a speed along the span is given, V is the
-    magnitude of all three components. A strip that moves only along its span has no angle of attack and no load.
-    `chord_over_viscosity` [s/m] is used by coefficients that depend on the Reynolds number, ``V c / viscosity``.
-
-    Theory: equations ``angle-of-attack``, ``lift-drag`` and ``strip-force``.
-    """
-    along_span = () if span_speed is None else (span_speed,)
-    which = (kernel, chord_over_viscosity) if depends_on_reynolds(kernel) else (kernel,)
-    unit = _unit_forces(which, chord_speed, normal_speed, pitch, *along_span)
-    pressure_area = 0.5 * density * area
-    forces = {name: pressure_area * getattr(unit, name) for name in ("chordwise", "normal", "lift", "drag")}
-    return unit._replace(**forces)
-
-
-def with_turning(
-    forces: StripForces,
-    density: Scalar,
-    chord: PerStripBroadcast,
-    width: Phases,
-    turning: PerStrip,
-    chord_speed: PerStrip,
-    normal_speed: PerStrip,
-) -> StripForces:
-    """Return the loads with those of a turning chord added: rotational force, and couple against the turning."""
-    along, across = rotation_force(density, chord, width, turning, chord_speed, normal_speed)
-    return forces._replace(
-        chordwise=forces.chordwise + along,
-        normal=forces.normal + across,
-        couple=damping_couple(density, chord, width, turning, forces.speed),
-    )
-
-
-@elementwise_jvp
-def _coefficients(kernel: Kernel, alpha: Angles, *reynolds: Angles) -> tuple[Angles, Angles]:
-    return (at_reynolds(kernel, *reynolds) if reynolds else kernel).lift_drag(alpha)
-
-
-@elementwise_jvp
-def _unit_forces(
-    which: tuple[Any, ...], chord_speed: PerStrip, normal_speed: PerStrip, pitch: PerStrip, *span_speed: PerStrip
-) -> StripForces:
-    """Return the loads of strips for which ``density * area / 2`` is one."""
-    squared = chord_speed * chord_speed + normal_speed * normal_speed
-    # The square root has no derivative at rest; there the loads vanish with the speed.
-    moving = squared > 0.0
-    speed = jnp.where(moving, jnp.sqrt(jnp.where(moving, squared, 1.0)), 0.0)
-    angle = pitch - atan2(normal_speed, chord_speed)
-    alpha = angle - 2 * math.pi * jnp.round(angle * (0.5 / math.pi))  # whole turns bring it into [-pi, pi]
-    planar, share = speed, speed  # V^2 over the planar speed; times a velocity in the plane, it is a force
-    if span_speed:
-        whole = squared + span_speed[0] * span_speed[0]
-        share = jnp.where(moving, whole / jnp.where(moving, planar, 1.0), 0.0)
-        speed = jnp.where(moving, jnp.sqrt(jnp.where(moving, whole, 1.0)), 0.0)
-    kernel, *chord_over_viscosity = which
-    c_l, c_d = _coefficients(kernel, alpha, *(speed * one for one in chord_over_viscosity))
-    lift, drag = share * c_l, share * c_d
-    return StripForces(
-        chordwise=-lift * normal_speed - drag * chord_speed,
-        normal=lift * chord_speed - drag * normal_speed,
-        alpha=alpha,
-        speed=speed,
-        lift=lift * planar,
-        drag=drag * planar,
-    )

@@ -111,6 +111,10 @@ class ModelOptions:
     unsteady: Annotated[
         str | None, option("Unsteady terms: none (default), or thin-aerofoil (rotation, added mass and couples).")
     ] = None
+    wake: Annotated[
+        str | None,
+        option("Lag of the wake: none (default), jones-section, or jones-finite (of a wing of finite span)."),
+    ] = None
     inflow: Annotated[
         str | None,
         option("Induced flow: none (default), or momentum (for coefficients whose aspect ratio is known)."),

@@ -66,7 +66,7 @@ def uncertainty(
     faults.raise_if_any()
     named = map(named_objective, _DEFAULT if quantities is None else quantities)
     known = list({quantity.name: quantity for quantity in named}.values())  # each once
-    if unknown := check_quantities(known, problem.aero.strips, problem.vehicle.drive):
+    if unknown := check_quantities(known, problem.aero, problem.vehicle.drive):
         raise InvalidInputError(unknown)
     with progress_bar(f"{problem.species.name} at {speed:g} m/s") as progress:
         orbit = solve_orbit(problem, seed=seed, progress=progress)

@@ -21,6 +21,7 @@ from wingbeat._jax.exported import jit_soon
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, is_unsteady
 from wingbeat.mechanics.flights import integrate
+from wingbeat.mechanics.strip_air import refuse_without_wake
 from wingbeat.mechanics.wing_points import (
     AirForces,
     WingPoints,
@@ -158,6 +159,7 @@ def _over_axes(
     function: Callable[..., Any], model: FlightModel, wingbeat: Wingbeat, time: Phases, *vectors: Any
 ) -> Any:
     """Apply a function of q, q', time and perhaps q'' to arrays with any leading axes."""
+    refuse_without_wake(model)
     moment, *rows = (jnp.asarray(a, dtype=float) for a in (time, *vectors))
     axes = jnp.broadcast_shapes(moment.shape, *(row.shape[:-1] for row in rows))
     flat = [jnp.broadcast_to(row, (*axes, 5)).reshape(-1, 5) for row in rows]
@@ -290,6 +292,7 @@ def fly_torque_driven(
     args: Any = None,
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Fly as `simulate_torque_driven` does; return times (K,), q and q' (K, 5)."""
+    refuse_without_wake(model)
     faults = FaultList()
     q, q_dot, when = (np.asarray(a, dtype=float) for a in (coordinates, rates, times))
     for name, value in (("coordinates", q), ("rates", q_dot)):

@@ -18,6 +18,7 @@ from wingbeat.mechanics.flight_model import (
     motion_table,
 )
 from wingbeat.mechanics.hinge_torques import hinge_loads, hinge_motion
+from wingbeat.mechanics.strip_air import refuse_without_wake
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude
 from wingbeat.mechanics.wing_points import air_forces_on, point_motion
 from wingbeat.mechanics.wing_shape import air_chord, dot, from_world, strips_of, time_rates, to_world
@@ -65,6 +66,7 @@ class Loads(NamedTuple):
     momentum : x and z [kg m/s], shape (..., 2).
     angular_momentum : about the centre of mass, nose-up positive [kg m2/s].
     kinetic_energy, potential_energy : [J].
+    wake_downwash : by which the shed wake moves the air at the strips [m/s], shape (..., N); None without the lag.
     """
 
     flap: Phases
@@ -101,10 +103,13 @@ class Loads(NamedTuple):
     angular_momentum: Phases
     kinetic_energy: Phases
     potential_energy: Phases
+    wake_downwash: PhasesStrips | None = None
 
 
 @exported
-def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) -> Loads:
+def flight_loads(
+    model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases, wake: PhasesStrips | None = None
+) -> Loads:
     """Evaluate a flight with prescribed wings: loads, body accelerations, hinge torques and powers.
 
     Theory: equations ``energies`` and ``energy-identity``.
@@ -115,6 +120,8 @@ def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Ph
     wingbeat : the prescribed wingbeat.
     state : body state, fields of shape (...) or one for all phases [m, rad, m/s, rad/s].
     phase : phases, shape (...).
+    wake : with the lag of the wake, the states of each strip's wake [m/s], shape (..., 2 N), as a `Certificate` has
+        them.
 
     Returns
     -------
@@ -127,8 +134,13 @@ def flight_loads(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Ph
     (5, 10)
     """
     phase = jnp.asarray(phase, dtype=float)
+    refuse_without_wake(model, wake)
     fields = State(*(jnp.broadcast_to(jnp.asarray(f, dtype=float), phase.shape).ravel() for f in state))
-    found = jax.vmap(lambda at: _loads(model, wingbeat, *at))((fields, phase.ravel()))
+    if wake is None:
+        found = jax.vmap(lambda at: _loads(model, wingbeat, *at))((fields, phase.ravel()))
+    else:
+        states = jnp.asarray(wake).reshape(phase.size, -1)
+        found = jax.vmap(lambda at: _loads(model, wingbeat, *at[:2], wake=at[2]))((fields, phase.ravel(), states))
     return jax.tree_util.tree_map(lambda a: a.reshape(*phase.shape, *a.shape[1:]), found)
 
 
@@ -145,6 +157,7 @@ def carried_loads(
     model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases, acceleration: PhasesAcceleration
 ) -> tuple[Loads, MissingLoads]:
     """Evaluate a flight with prescribed body motion: `flight_loads`, and the loads missing for that motion."""
+    refuse_without_wake(model)
 
     def at(here: tuple[State, Phases, PhasesAcceleration]) -> tuple[Loads, MissingLoads]:
         body, when, given = here
@@ -158,14 +171,21 @@ def carried_loads(
 
 
 def _loads(
-    model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases, given: PhasesAcceleration | None = None
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    state: State,
+    phase: Phases,
+    given: PhasesAcceleration | None = None,
+    wake: PerStrip | None = None,
 ) -> Loads:
     """Return the loads at one phase, of a body that flies freely or has a given acceleration."""
     flap, pitch = flap_angle(wingbeat, phase), pitch_angle(wingbeat, phase)
     sweep = sweep_angle(wingbeat, phase)
     pitch_state = jnp.stack([state.body_pitch, state.u, state.w, state.pitch_rate])
+    if wake is not None:
+        pitch_state = jnp.concatenate([pitch_state, wake])
     motion, moved = motion_table(model, wingbeat, phase), hinge_motion(model, wingbeat, phase)
-    body = body_rates(model, motion, pitch_state)[1:] if given is None else given
+    body = body_rates(model, motion, pitch_state)[1:4] if given is None else given
     hinges = hinge_loads(model, motion, moved, pitch_state, body)
     q = jnp.stack([state.x, state.z, state.body_pitch, flap, pitch])
     q_dot = jnp.stack([state.u, state.w, state.pitch_rate, moved.flap_rate, moved.pitch_rate])
@@ -178,7 +198,7 @@ def _loads(
             for law in (flap_angle, pitch_angle)
         )
         q_acceleration = jnp.concatenate([body, jnp.stack([flap_acceleration, pitch_acceleration])])
-    air = air_forces_on(model, wingbeat, q, q_dot, time, points, q_acceleration)
+    air = air_forces_on(model, wingbeat, q, q_dot, time, points, q_acceleration, wake)
     strips = strips_of(model.vehicle.wing, model.strips)
     whole = _whole_body(model, q, q_dot, points.position.mass, points.velocity.mass, strips.mass)
     return Loads(
@@ -203,6 +223,7 @@ def _loads(
         air_power=air.power,
         **{f"{name}_power": watts for name, watts in air.spent._asdict().items()},
         **whole,
+        wake_downwash=air.wake_downwash,
     )
 
 

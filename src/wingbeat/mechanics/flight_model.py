@@ -17,32 +17,42 @@ import numpy as np
 from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat._jax.arrays import (
     at_default,
-    computed_once,
-    cos,
     elementwise_jvp,
     fusion_barrier,
+    jax,
     jnp,
     register_record,
-    sin,
     unchecked,
 )
-from wingbeat.aero.blade_element import BladeElement, StripForces, blade_element_of, strip_forces
-from wingbeat.aero.closed_forms import (
-    body_drag,
-    check_descent,
-    crossflow_force,
-    disc_area,
-    induced_flow,
-    tail_force,
-)
-from wingbeat.aero.family import at_reynolds, depends_on_reynolds
+from wingbeat.aero.blade_element import BladeElement, blade_element_of
+from wingbeat.aero.closed_forms import body_drag, check_descent, disc_area, induced_flow
+from wingbeat.aero.strip_forces import StripForces
+from wingbeat.aero.wake import WakeLag, wake_rates
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.animal.vehicle import Air, Vehicle
+from wingbeat.mechanics.strip_air import (
+    StripWake,
+    body_air,
+    loads_of_strips,
+    strip_loads_in_wake,
+    strip_moments,
+    strips_in_wake,
+    wake_states,
+)
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude, wing_motion
 from wingbeat.mechanics.wing_shape import dot, from_world, quarter_turn, sum_over_strips, to_world
 
 if TYPE_CHECKING:
-    from wingbeat._jax.arrays import BodyAcceleration, Component, Pair, PerStrip, Phases, PitchState, Scalar, Triple
+    from wingbeat._jax.arrays import (
+        BodyAcceleration,
+        Component,
+        FlightState,
+        Pair,
+        PerStrip,
+        Phases,
+        Scalar,
+        Triple,
+    )
     from wingbeat.aero.coefficient_model import Kernel
 
 
@@ -96,6 +106,7 @@ class FlightModel:
     unsteady : share of the unsteady terms: 1 for all, 0 for none.
     induced_factor : induced power divided by that of an ideal disc, a ratio; None without inflow.
     induced_flow : induced velocity of the air at the wings, forward and up [m/s]; None without inflow.
+    wake : numbers of the lag of the wake; None without it.
 
     Raises
     ------
@@ -116,6 +127,7 @@ class FlightModel:
     unsteady: float = 0.0
     induced_factor: float | None = None
     induced_flow: tuple[float, float] | None = None
+    wake: WakeLag | None = None
 
     def __init__(
         self, vehicle: Vehicle, aero: Any, air: Air | None = None, velocity: tuple[float, float] | None = None
@@ -131,6 +143,7 @@ class FlightModel:
             "unsteady": 0.0 if loads.unsteady == "none" else loads.share,
             "induced_factor": None if loads.inflow == "none" else loads.share * loads.induced_factor,
             "induced_flow": _checked_flow(vehicle, loads, air, velocity),
+            "wake": loads.wake_lag(vehicle.wing.aspect_ratio),
         }
         for name, value in fields.items():
             object.__setattr__(self, name, value)
@@ -175,9 +188,8 @@ def flow_at(vehicle: Vehicle, air: Air, factor: Scalar, velocity: Pair, xp: Any 
 
 def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Phases, vector: int = 1) -> WingMotion:
     """Tabulate the wing's motion at phases; the number of strips is padded to a multiple of `vector`."""
-    return wing_motion(
-        model.vehicle, wingbeat, phase, model.strips, vector, model.full_airspeed, is_unsteady(model)
-    )
+    terms = model.full_airspeed, is_unsteady(model), model.wake is not None
+    return wing_motion(model.vehicle, wingbeat, phase, model.strips, vector, *terms)
 
 
 def is_unsteady(model: FlightModel) -> bool:
@@ -192,38 +204,21 @@ class BodyLoads(NamedTuple):
     moment: Phases  # about the body's centre of mass, nose-up positive [N m]
 
 
-def strip_loads(model: FlightModel, motion: WingMotion, velocity: Pair, pitch_rate: Phases) -> StripForces:
-    """Return the quasi-steady loads on the strips of one wing, along chord and normal of the unpitched strip.
-
-    `velocity` is that of the body relative to the air at the wings, in stroke axes. The velocity of the quarter
-    chord determines the angle of attack, wherever the force acts.
-
-    Theory: equations ``strip-velocity`` and ``strip-velocity-stroke``.
-    """
-    forward_speed, up_speed = velocity[0] - pitch_rate * motion.above, velocity[1] + pitch_rate * motion.ahead
-    normal_speed = up_speed * motion.flap_cosine + motion.flapping_speed
-    chord_speed = forward_speed
-    if motion.unpitched is not None:
-        chord_speed = dot(motion.unpitched, (forward_speed, up_speed)) + motion.sweeping_speed
-    span_speed = None
-    if motion.span is not None:
-        span_speed = dot(motion.span, (forward_speed, up_speed)) + motion.spanwise_speed
-    speeds, kernel = (chord_speed, normal_speed, motion.pitch, span_speed), model.kernel
-    if depends_on_reynolds(kernel):
-        scale = motion.area / motion.width / model.air.viscosity
-        return strip_forces(kernel, model.air.density, motion.area, *speeds, scale)
-    return strip_forces(kernel, model.air.density, motion.area, *speeds)
-
-
-def strip_moments(model: FlightModel, motion: WingMotion, strips: StripForces) -> PerStrip:
-    """Return the moments of loads at the centre of pressure about the quarter chords, leading edge up [N m]."""
-    across = strips.normal * cos(motion.pitch) - strips.chordwise * sin(motion.pitch)
-    return pressure_offset(model, strips, motion.area / motion.width) * across
-
-
-def wing_loads(model: FlightModel, motion: WingMotion, velocity: Pair, pitch_rate: Phases) -> BodyLoads:
+def wing_loads(
+    model: FlightModel, motion: WingMotion, velocity: Pair, pitch_rate: Phases, wake: StripWake | None = None
+) -> BodyLoads:
     """Return the air loads on both wings of a body that does not accelerate. Theory: equation ``wing-loads``."""
-    strips = strip_loads(model, motion, velocity, pitch_rate)
+    strips = loads_of_strips(model, motion, velocity, pitch_rate, wake)
+    forward, up, moment = (2.0 * sum_over_strips(a) for a in strip_parts(model, motion, strips))
+    if motion.unsteady is not None:
+        through_air = *velocity, pitch_rate
+        more = [one.load(unsteady_density(model), through_air, None, strips.speed) for one in motion.unsteady]
+        forward, up, moment = forward + more[0], up + more[1], moment + more[2]
+    return BodyLoads((forward, up), moment)
+
+
+def strip_parts(model: FlightModel, motion: WingMotion, strips: StripForces) -> tuple[PerStrip, PerStrip, PerStrip]:
+    """Return the parts of the strips of one wing in the force forward and up, and in the moment on the body."""
     forward, up = strips.chordwise, strips.normal * motion.flap_cosine
     across = motion.flap_cosine  # share of a moment about the span that pitches the body
     if motion.unpitched is not None:
@@ -232,53 +227,7 @@ def wing_loads(model: FlightModel, motion: WingMotion, velocity: Pair, pitch_rat
     moment = motion.ahead * up - motion.above * forward
     if model.at_centre_of_pressure:
         moment = moment + strip_moments(model, motion, strips) * across
-    forward, up, moment = (2.0 * sum_over_strips(a) for a in (forward, up, moment))
-    if motion.unsteady is not None:
-        through_air = *velocity, pitch_rate
-        more = [one.load(unsteady_density(model), through_air, None, strips.speed) for one in motion.unsteady]
-        forward, up, moment = forward + more[0], up + more[1], moment + more[2]
-    return BodyLoads((forward, up), moment)
-
-
-def pressure_offset(model: FlightModel, strips: StripForces, chord: PerStrip) -> PerStrip:
-    """Return how far the centre of pressure is ahead of the quarter chord [m]. Theory: equation ``force-point``."""
-    kernel = model.kernel
-    if depends_on_reynolds(kernel):
-        kernel = at_reynolds(kernel, model.air.reynolds(strips.speed, chord))
-    return chord * (0.25 - kernel.centre_of_pressure(strips.alpha))
-
-
-def body_air(
-    vehicle: Vehicle,
-    density: Scalar,
-    velocity: Pair,
-    pitch_rate: Phases,
-    axes: Phases | Scalar = 0.0,
-    tilt: Phases | Scalar | None = None,
-) -> tuple[Pair, Phases | None]:
-    """Return force and moment of the air on the body and its tail; without a tail the moment is None.
-
-    `axes` is the nose-up pitch of the velocity's axes relative to body axes; `tilt` is added to the tail's
-    incidence. The flow that the wings induce does not reach the tail.
-
-    Theory: equation ``tail-velocity``.
-    """
-    drag, tail = body_drag(vehicle.body.drag_area, density, velocity, jnp), vehicle.tail
-    if not at_default(vehicle.body, "crossflow_area"):
-        normal = fusion_barrier((sin(axes), cos(axes)))
-        more = crossflow_force(vehicle.body.crossflow_area, density, normal, velocity, jnp)
-        drag = drag[0] + more[0], drag[1] + more[1]
-    if tail is None:
-        return drag, None
-    # Behind the barriers, geometry and force are computed once for all directions of a derivative. A flight with a
-    # tail then takes 1.15 times as long as one with no tail. Without the barriers it takes 1.5 times as long.
-    incidence = (tail.incidence if tilt is None else tail.incidence + tilt) - axes
-    (ahead, above), normal = from_world(axes, -tail.arm, tail.height), (-sin(incidence), cos(incidence))
-    (ahead, above), normal = fusion_barrier(((ahead, above), normal))
-    there = velocity[0] - pitch_rate * above, velocity[1] + pitch_rate * ahead
-    force = tail_force(density, tail.area, tail.lift_slope, tail.drag_coefficient, normal, there, jnp)
-    forward, up = computed_once(force)
-    return (drag[0] + forward, drag[1] + up), ahead * up - above * forward
+    return forward, up, moment
 
 
 @elementwise_jvp
@@ -289,8 +238,19 @@ def _air_loads(
 
     The velocity is relative to the air at the wings; `body` is that relative to the undisturbed air, if it differs.
     """
-    model, motion = model_and_motion
-    wings = wing_loads(model, motion, (forward, up), pitch_rate)
+    return _loads_at(*model_and_motion, (forward, up), pitch_rate, body)
+
+
+def _loads_at(
+    model: FlightModel,
+    motion: WingMotion,
+    velocity: Pair,
+    pitch_rate: Phases,
+    body: Pair | tuple[()],
+    wake: StripWake | None = None,
+) -> BodyLoads:
+    forward, up = velocity
+    wings = wing_loads(model, motion, (forward, up), pitch_rate, wake)
     turned = model.vehicle.tail is not None or not at_default(model.vehicle.body, "crossflow_area")
     axes = stroke_attitude(model.vehicle.wing, motion, 0.0) if turned else 0.0
     around = body or (forward, up)
@@ -315,11 +275,15 @@ def air_loads(
     w: Phases,
     pitch_rate: Phases,
     acceleration: BodyAcceleration | None = None,
+    wake: StripWake | None = None,
 ) -> BodyLoads:
     """Return the air loads on the whole vehicle in stroke axes; without `acceleration`, without added mass."""
     velocity = velocity_at_wings(model, attitude, u, w)
     body = () if model.induced_flow is None else from_world(attitude, u, w)
-    loads = _air_loads((model, motion), *velocity, pitch_rate, *body)
+    if wake is None:
+        loads = _air_loads((model, motion), *velocity, pitch_rate, *body)
+    else:
+        loads = _loads_at(model, motion, velocity, pitch_rate, body, wake)
     if motion.unsteady is None or acceleration is None:
         return loads
     rates = (*from_world(attitude, acceleration[0], acceleration[1]), acceleration[2])
@@ -405,14 +369,66 @@ def _solve_symmetric(rows: tuple[tuple[Phases, ...], ...], right: Triple) -> Tri
     )
 
 
-def body_rates(model: FlightModel, motion: WingMotion, pitch_state: PitchState) -> PitchState:
-    """Return d/dt of (body_pitch, u, w, pitch_rate), shape (4, ...). Theory: equation ``state-rates``."""
-    body_pitch, u, w, pitch_rate = pitch_state
+def _pitch_state(model: FlightModel, state: FlightState) -> FlightState:
+    return state if model.wake is None else state[:4]
+
+
+def wake_of(model: FlightModel, motion: WingMotion, state: FlightState) -> StripWake | None:
+    """Return the air that the wake of the strips moves, from the state of a flight; None without the lag."""
+    if model.wake is None:
+        return None
+    body_pitch, u, w, pitch_rate = _pitch_state(model, state)
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
+    velocity = velocity_at_wings(model, attitude, u, w)
+    return strips_in_wake(model, motion, velocity, pitch_rate, wake_states(model, state))
+
+
+def body_rates(model: FlightModel, motion: WingMotion, state: FlightState) -> FlightState:
+    """Return d/dt of (body_pitch, u, w, pitch_rate) and of the wake. Theory: equation ``state-rates``."""
+    body_pitch, u, w, pitch_rate = _pitch_state(model, state)
+    attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
+    wake = wake_of(model, motion, state)
     # Without inflow, the air loads depend on the pitch state through three numbers only: the velocity in stroke
     # axes and the pitch rate. So three derivatives of the loads give those by all four parts of the state.
-    loads = air_loads(model, motion, attitude, u, w, pitch_rate)
+    loads = air_loads(model, motion, attitude, u, w, pitch_rate, wake=wake)
     ax, az, pitch_acceleration = accelerations(
         model.vehicle, model.air.gravity, motion, loads, attitude, pitch_rate, unsteady_density(model)
     )
-    return jnp.stack([pitch_rate, ax, az, pitch_acceleration])
+    rates = jnp.stack([pitch_rate, ax, az, pitch_acceleration])
+    if wake is None:
+        return rates
+    lag = wake_rates(model.wake.rates, wake.pace, wake.shed, wake_states(model, state))
+    return jnp.concatenate([rates, *lag])
+
+
+def rates_by_wake(model: FlightModel, motion: WingMotion, state: FlightState) -> tuple[Any, PerStrip]:
+    """Return the derivatives of (u', w', pitch_rate') by the downwash of each strip's wake, and all paces."""
+    wake = wake_of(model, motion, state)
+    assert wake is not None
+    attitude = stroke_attitude(model.vehicle.wing, motion, state[0])
+
+    # The strips do not act on one another, so one derivative in all their directions has those by each.
+    def parts(more: Any) -> tuple[Any, Any]:
+        met = wake._replace(normal_speed=wake.normal_speed + more, downwash=wake.downwash + more)
+        strips = strip_loads_in_wake(model, motion, met)
+        return jnp.stack(strip_parts(model, motion, strips)), strips.speed
+
+    nothing = jnp.zeros_like(wake.shed)
+    loads, speed = jax.jvp(parts, (nothing,), (jnp.ones_like(nothing),))[1]
+    loads = 2.0 * loads
+    if motion.unsteady is not None:
+        dampings = [(one.damping, one.damping_by_spin) for one in motion.unsteady]
+        damped = [0.0 * speed if own is None else speed * (own + state[3] * spin) for own, spin in dampings]
+        loads = loads - unsteady_density(model) * jnp.stack(damped)
+
+    def accelerated(forward: Any, up: Any, moment: Any) -> Any:
+        pushed = BodyLoads((forward, up), moment)
+        found = accelerations(
+            model.vehicle, model.air.gravity, motion, pushed, attitude, state[3], unsteady_density(model)
+        )
+        return jnp.stack(found)
+
+    zero, one = jnp.zeros_like(attitude), jnp.ones_like(attitude)
+    seeds = [tuple(one if i == j else zero for j in range(3)) for i in range(3)]
+    by_load = fusion_barrier([jax.jvp(accelerated, (zero, zero, zero), seed)[1] for seed in seeds])
+    return sum(by[:, None] * load for by, load in zip(by_load, loads, strict=True)), wake.pace

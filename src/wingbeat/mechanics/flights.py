@@ -17,6 +17,7 @@ from wingbeat._jax.exported import exported
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
+from wingbeat.mechanics.strip_air import refuse_without_wake
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import (
@@ -48,7 +49,8 @@ _VECTOR = 8
 
 def state_rates(model: FlightModel, wingbeat: Wingbeat, phase: Scalar, state: StateVector) -> StateVector:
     """Return d/dt of (x, z, body_pitch, u, w, pitch_rate) at a phase. Theory: equation ``state-rates``."""
-    motion = motion_table(model, wingbeat, phase, _VECTOR)
+    # Padded strips would have states of their wake, too.
+    motion = motion_table(model, wingbeat, phase, _VECTOR if model.wake is None else 1)
     return jnp.concatenate([state[3:5], body_rates(model, motion, state[2:])])
 
 
@@ -90,7 +92,7 @@ class Steps(NamedTuple):
     """Where an integrator stepped."""
 
     phase: np.ndarray  # shape (M,)
-    states: np.ndarray  # shape (M, 6), in the order and units of `State`
+    states: np.ndarray  # shape (M, 6), in the order and units of `State`; then those of the wake
 
 
 @exported
@@ -140,12 +142,16 @@ def fly_through(
     phases: np.ndarray,
     rtol: float = RTOL,
     air: np.ndarray | None = None,
+    wake: tuple[np.ndarray, ...] = (),
 ) -> tuple[np.ndarray, Steps]:
     """Fly `state`, at phase 0, to phases that increase from 0; `air` is its velocity at the `air_phases`.
 
-    Returns the states, shape (K, 6), NaN after the integrator gave up, and the integrator's steps.
+    With the lag of the wake, `wake` holds the states of the wake at phase 0, shape (2 strips,).
+
+    Returns the states, shape (K, 6), and after them those of the wake, NaN after the integrator gave up, and the
+    integrator's steps.
     """
-    given = model, wingbeat, np.array(state, dtype=float), phases, rtol
+    given = model, wingbeat, np.concatenate([np.array(state, dtype=float), *wake]), phases, rtol
     states, at, there = _fly(*given) if air is None else _fly_in_wind(*given, air)
     count = int(np.isfinite(at).sum())
     # Copies, because a view of any part would keep the whole result of the program in memory.
@@ -272,6 +278,7 @@ def fly_beats(
     controller: Controller | None = None,
 ) -> FlownBeats:
     """Fly several beats with prescribed wings, ``beats * samples + 1`` samples in all; None is still air."""
+    refuse_without_wake(model)
     one_beat, current, begun = np.linspace(0.0, 1.0, samples + 1), state, 0.0
     pieces, wingbeats, airs = [np.array([state], dtype=float)], [], []
     for beat in range(beats):

@@ -14,14 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
-from wingbeat.mechanics.flight_model import (
-    FlightModel,
-    is_unsteady,
-    strip_loads,
-    strip_moments,
-    unsteady_density,
-    velocity_at_wings,
-)
+from wingbeat.mechanics.flight_model import FlightModel, is_unsteady, unsteady_density, velocity_at_wings, wake_of
+from wingbeat.mechanics.strip_air import loads_of_strips, strip_moments
 from wingbeat.mechanics.wing_motion import (
     StripSpeeds,
     UnsteadyLoad,
@@ -181,11 +175,12 @@ def hinge_loads(
     Theory: equations ``generalised-force``, ``hinge-torques``, ``hinge-power``, ``actuator-power`` and
     ``power-parts``.
     """
-    body_pitch, u, w, pitch_rate = pitch_state
+    wake = wake_of(model, motion, pitch_state)
+    body_pitch, u, w, pitch_rate = pitch_state if wake is None else pitch_state[:4]
     ax, az, pitch_acceleration = body_acceleration
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
     velocity = velocity_at_wings(model, attitude, u, w)
-    strips = strip_loads(model, motion, velocity, pitch_rate)
+    strips = loads_of_strips(model, motion, velocity, pitch_rate, wake)
     moments = strip_moments(model, motion, strips) if model.at_centre_of_pressure else 0.0
     apparent = from_world(attitude, ax, az + model.air.gravity)
     accelerates = (*from_world(attitude, ax, az), pitch_acceleration) if is_unsteady(model) else None

@@ -75,6 +75,16 @@ class WingMotion(NamedTuple):
     spanwise_speed: PerStrip | None = None
     unsteady: tuple[UnsteadyLoad, UnsteadyLoad, UnsteadyLoad] | None = None  # on the body, forward, up and nose-up
     tail_tilt: Phases | None = None  # added to the tail's incidence [rad]; None if 0
+    chords: ChordMotion | None = None  # None unless loads depend on the wake
+
+
+class ChordMotion(NamedTuple):
+    """Directions and turning rates of the strips' chords."""
+
+    cosine: PerStrip  # of the pitch
+    sine: PerStrip
+    turning: PerStrip | None  # by the wing's own motion [rad/s]; None unless strips shed what their turning sets
+    turning_by_spin: PerStrip | None  # by that of the body, per pitch rate
 
 
 def stroke_attitude(wing: Wing, motion: WingMotion, body_pitch: Phases) -> Phases:
@@ -91,6 +101,7 @@ def wing_motion(
     vector: int = 1,
     along_span: bool = False,
     unsteady: bool = False,
+    wake: bool = False,
 ) -> WingMotion:
     """Tabulate the wing's motion at given phases in one pass; the strips are padded to a multiple of `vector`.
 
@@ -119,12 +130,16 @@ def wing_motion(
     chord = air_chord(wingbeat, strips.chord, phase)
     swept = shape.sweep_sine is not None
     steady, tilt = at_default(wingbeat, "stroke_plane_tilt"), tail_tilt(vehicle, wingbeat)
-    span = loads = None
+    span = loads = chords = moved = None
     if along_span:
         x, y, z = (jnp.broadcast_to(part, shape.pitch.shape) for part in shape.spanwise)
         span = x, y, z
     if unsteady:
-        loads = unsteady_loads_on_body(strip_motion(shape, shape_rate, shape_second, chord), chord, width)
+        moved = strip_motion(shape, shape_rate, shape_second, chord)
+        loads = unsteady_loads_on_body(moved, chord, width)
+    if wake:
+        turns = (None, None) if moved is None else (moved.speeds[3].turn, moved.speeds[2].turn)
+        chords = ChordMotion(shape.pitch_cosine, shape.pitch_sine, *turns)
     return WingMotion(
         ahead=shape.ahead if swept else shape.ahead[0],
         above=shape.above,
@@ -146,6 +161,7 @@ def wing_motion(
         spanwise_speed=None if span is None else dot(shape_rate.quarter_chord, span),
         unsteady=loads,
         tail_tilt=None if tilt is None else jnp.broadcast_to(tilt, phase.shape),
+        chords=chords,
     )
 
 

@@ -12,19 +12,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported
-from wingbeat.aero.blade_element import StripForces, strip_forces, with_turning
 from wingbeat.aero.closed_forms import added_inertia, added_mass
 from wingbeat.aero.family import depends_on_reynolds
+from wingbeat.aero.strip_forces import StripForces, strip_forces, with_turning
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
 from wingbeat.animal.vehicle import Vehicle
-from wingbeat.mechanics.flight_model import (
-    FlightModel,
-    State,
-    body_air,
-    is_unsteady,
-    pressure_offset,
-    unsteady_density,
-)
+from wingbeat.mechanics.flight_model import FlightModel, State, is_unsteady, unsteady_density
+from wingbeat.mechanics.strip_air import body_air, pressure_offset, wake_at
 from wingbeat.mechanics.wing_shape import (
     Strips,
     air_chord,
@@ -186,7 +180,8 @@ class AirPower(NamedTuple):
     profile: Phases
     induced: Phases  # spent on the induced flow v, ``-F . v`` with the force F of the wings; 0 without inflow
     parasite: Phases  # against the loads of body and tail
-    unsteady: Phases  # against rotation, added mass and couples; the air returns the part due to added mass
+    # Against rotation, added mass, couples and the lag of the wake; the air returns the part due to added mass.
+    unsteady: Phases
 
 
 class AirForces(NamedTuple):
@@ -202,6 +197,7 @@ class AirForces(NamedTuple):
     strip_velocity : velocity of each quarter chord in the world [m/s], shape (..., N, 3).
     added_mass : inertia of the air, which is the negative derivative of f_aero with respect to q'', shape
         (..., 5, 5) [kg, kg m, kg m2]; zero without unsteady terms.
+    wake_downwash : by which the shed wake moves the air at the strips [m/s], shape (..., N); None without the lag.
     """
 
     generalised: Coordinates
@@ -211,6 +207,7 @@ class AirForces(NamedTuple):
     strip_force: StripVectors
     strip_velocity: StripVectors
     added_mass: CoordinateMatrix
+    wake_downwash: PerStrip | None = None
 
 
 class _AirResistance(NamedTuple):
@@ -273,8 +270,11 @@ def air_forces_on(
     time: Phases,
     motion: PointMotion,
     q_acceleration: Coordinates | None = None,
+    wake: PerStrip | None = None,
 ) -> AirForces:
     """Return the air loads from the motion of the wing points at one instant; without q'', without added mass.
+
+    `wake` are the states of the wake, shape (2 N,).
 
     Theory: equations ``strip-velocity``, ``generalised-air-loads`` and ``air-power``.
     """
@@ -291,6 +291,11 @@ def air_forces_on(
     span_speed = None
     if model.full_airspeed:
         span_speed = jnp.sum(through_air * jnp.cross(points.normal, points.chordwise), axis=-1)
+    met = None
+    if wake is not None:
+        turning = jnp.sum(points.normal * motion.velocity.chordwise, axis=-1) if is_unsteady(model) else None
+        met = wake_at(model, chord, (chord_speed, normal_speed, span_speed), turning, wake.reshape(2, -1))
+        normal_speed = met.normal_speed
     speeds, kernel = (chord_speed, normal_speed, jnp.zeros_like(chord), span_speed), model.kernel
     scale = (chord / model.air.viscosity,) if depends_on_reynolds(kernel) else ()
     forces = strip_forces(kernel, model.air.density, width * chord, *speeds, *scale)
@@ -321,19 +326,25 @@ def air_forces_on(
     against_steady, against_unsteady = (
         zero if wind is None else -2.0 * jnp.sum(one * wind) for one in (force, unsteady.force)
     )
+    whole, power = generalised + unsteady.generalised, steady_power + own_power + unsteady.power
+    spent = AirPower(
+        profile=-steady_power - against_steady,
+        induced=against_steady + against_unsteady,
+        parasite=-own_power,
+        unsteady=-unsteady.power - against_unsteady,
+    )
+    if met is not None:
+        against_wake = 2.0 * jnp.sum(forces.normal * met.downwash)
+        spent = spent._replace(profile=spent.profile - against_wake, unsteady=spent.unsteady + against_wake)
     return AirForces(
-        generalised + unsteady.generalised,
-        steady_power + own_power + unsteady.power,
-        AirPower(
-            profile=-steady_power - against_steady,
-            induced=against_steady + against_unsteady,
-            parasite=-own_power,
-            unsteady=-unsteady.power - against_unsteady,
-        ),
+        whole,
+        power,
+        spent,
         forces,
         force + unsteady.force,
         velocity,
         unsteady.added_mass,
+        None if met is None else met.downwash,
     )
 
 

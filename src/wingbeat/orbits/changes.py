@@ -19,9 +19,10 @@ from wingbeat.orbits.problem.quantities import FASTEST, FASTEST_CLIMB, Constrain
 if TYPE_CHECKING:
     from wingbeat.orbits.problem.problem import OrbitProblem
 
-INFLOW, UNSTEADY, UPSTROKE, HAND, TAIL = "inflow", "unsteady", "upstroke_factor", "hand", "tail"
-TERMS = (INFLOW, UNSTEADY, UPSTROKE, HAND, TAIL)
-_OFF = {INFLOW: "none", UNSTEADY: "none", UPSTROKE: 1.0, HAND: "none"}
+INFLOW, UNSTEADY, WAKE, UPSTROKE, HAND, TAIL = "inflow", "unsteady", "wake", "upstroke_factor", "hand", "tail"
+TERMS = (INFLOW, UNSTEADY, WAKE, UPSTROKE, HAND, TAIL)
+_SHARED = (UNSTEADY, WAKE)  # scaled by one share
+_OFF = {INFLOW: "none", UNSTEADY: "none", WAKE: "none", UPSTROKE: 1.0, HAND: "none"}
 
 
 def terms_on(problem: OrbitProblem) -> tuple[str, ...]:
@@ -49,13 +50,13 @@ def without_term(problem: OrbitProblem, name: str) -> OrbitProblem:
         problem.aero,
         **{name: _OFF[name]},
         **({"hand_from": BladeElement.hand_from} if name == HAND else {}),
-        **({"share": 1.0} if {INFLOW, UNSTEADY} & set(terms_on(problem)) == {name} else {}),
+        **({"share": 1.0} if {INFLOW, UNSTEADY, WAKE} & set(terms_on(problem)) == {name} else {}),
     )
     return dataclasses.replace(problem, aero=aero)
 
 
 def with_trace_of(problem: OrbitProblem, name: str, trace: float) -> OrbitProblem | None:
-    """Return the problem with one of its terms scaled to the share `trace`; None if the term is the hand.
+    """Return the problem with one of its terms scaled to the share `trace`; None if it has no share of its own.
 
     The compiled programs of the full problem also run this one.
     """
@@ -64,13 +65,13 @@ def with_trace_of(problem: OrbitProblem, name: str, trace: float) -> OrbitProble
         tail = problem.vehicle.tail
         assert tail is not None
         return with_number(problem, ("species", "vehicle", "tail", "area"), trace * tail.area)
-    if name == HAND:
+    if name == HAND or (name in _SHARED and {*_SHARED} <= {*terms_on(problem)}):
         return None
     if name == UPSTROKE:
         changed = {UPSTROKE: 1.0 - trace}
     elif name == INFLOW:
         changed = {"induced_factor": trace * aero.induced_factor}
-    else:  # the share of the unsteady terms multiplies the induced factor, too
+    else:  # the share of unsteady terms and lag multiplies the induced factor, too
         changed = {"share": trace, "induced_factor": aero.share * aero.induced_factor / trace}
     return dataclasses.replace(problem, aero=dataclasses.replace(aero, **changed))
 
@@ -89,6 +90,8 @@ def words_without(problem: OrbitProblem, name: str, frequency: float) -> str:
         return f"without momentum inflow {closes}: {why}"
     if name == UNSTEADY:
         return f"without the unsteady terms {closes}: rotation, added mass and couples make the difference"
+    if name == WAKE:
+        return f"without the lag of the wake {closes}"
     if name == UPSTROKE:
         return f"with upstroke_factor 1 in place of {problem.aero.upstroke_factor:g}, {closes}"
     if name == HAND:
@@ -167,7 +170,7 @@ class Relaxation:
     name : the number that changes, as in `Change`, or the term that is removed, one of `terms.TERMS`.
     sign : as in `Change`; ``=`` if a term is removed.
     old, new : the number before and after the change [`unit`]; for a term that can only be on or off (inflow,
-        unsteady, hand) they are 1 and 0.
+        unsteady, wake, hand) they are 1 and 0.
     unit : of `old` and `new`: SI, angles in radians.
     text : the change in words, angles in degrees.
 

@@ -27,6 +27,7 @@ _NUMBERS = (
     "objective_value",
     *("mean_power", "mean_positive_power", "peak_power", "mean_actuator_power", "peak_actuator_power"),
     *("cost_of_transport", "body_pitch_range", "strouhal", "reduced_frequency", "reynolds", "optimality"),
+    "detached_share",
 )
 
 _OF_MUSCLE = (

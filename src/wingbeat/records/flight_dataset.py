@@ -23,9 +23,16 @@ if TYPE_CHECKING:
 _BLOCK = 257
 
 
-def evaluate(model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray) -> Loads:
-    """Return the loads along sampled states, shape (K, 6), as NumPy arrays."""
-    return Loads(*_along(flight_loads, model, wingbeat, phase, states))
+def evaluate(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    phase: np.ndarray,
+    states: np.ndarray,
+    wake: np.ndarray | None = None,
+) -> Loads:
+    """Return the loads along sampled states, shape (K, 6), and those of the wake, as NumPy arrays."""
+    more = () if wake is None else (wake,)
+    return Loads(*_along(flight_loads, model, wingbeat, phase, states, *more))
 
 
 def evaluate_carried(
@@ -48,13 +55,14 @@ def _along(
     phase: np.ndarray,
     states: np.ndarray,
     *more: np.ndarray,
-) -> list[np.ndarray]:
+) -> list[Any]:
     """Evaluate in blocks of equal length, because JAX compiles anew for each length; the last block is padded."""
     found = []
     for first in range(0, len(phase), _BLOCK):
         here = np.minimum(np.arange(first, first + _BLOCK), len(phase) - 1)
         found.append(function(model, wingbeat, State(*states[here].T), phase[here], *(a[here] for a in more)))
-    return [np.concatenate(values)[: len(phase)] for values in zip(*found, strict=True)]
+    series = zip(*found, strict=True)
+    return [None if values[0] is None else np.concatenate(values)[: len(phase)] for values in series]
 
 
 def flight_attributes(

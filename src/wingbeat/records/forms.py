@@ -32,7 +32,7 @@ _STRIP, _VECTOR = ("phase", "station"), ("phase", "station", "axis")
 SERIES_DIMS: dict[str, Dims] = {
     **{name: (name,) for name in ("station", "axis", "corner")},
     **dict.fromkeys(("strip_position", "strip_velocity", "strip_force"), _VECTOR),
-    **dict.fromkeys(("strip_speed", "strip_reynolds", "alpha", "lift", "drag"), _STRIP),
+    **dict.fromkeys(("strip_speed", "strip_reynolds", "alpha", "lift", "drag", "wake_downwash"), _STRIP),
     "strip_corner": ("phase", "station", "corner", "axis"),
 }
 _TEXTS, _WHOLE, _REAL = "OUT", "iu", "f"

@@ -62,6 +62,8 @@ def aero_record(aero: BladeElement) -> dict[str, Any]:
     named |= {name: getattr(aero, name) for name in ("strips", "force_point", "airspeed")}
     # Terms that Su et al. do not have are left out if they are off.
     terms: dict[str, Any] = {} if aero.unsteady == "none" else {"unsteady": aero.unsteady}
+    if aero.wake != "none":
+        terms["wake"] = aero.wake
     if aero.inflow != "none":
         terms |= {"inflow": aero.inflow, "induced_factor": aero.induced_factor}
     if terms and aero.share != 1:

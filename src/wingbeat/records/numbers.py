@@ -9,7 +9,10 @@ import numpy as np
 
 from wingbeat._base import KIND, FaultList
 from wingbeat._base.datasets import at_station
-from wingbeat.animal.vehicle import Air, Vehicle
+from wingbeat.aero import BladeElement
+from wingbeat.aero.wake import is_stalled
+from wingbeat.animal.vehicle import Air, Vehicle, Wing
+from wingbeat.mechanics.wing_shape import strips_of
 from wingbeat.orbits.flight.beat import Beat, best_spring, mean_positive
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.problem.quantity import drive_numbers
@@ -136,6 +139,13 @@ def beat_numbers(
         alpha = at_station(beat.alpha, station)  # effective, interpolated between strips
         found[name] = [float(alpha.min()), float(alpha.max())]
     return found
+
+
+def detached_share(aero: BladeElement, wing: Wing, beat: Beat) -> float:
+    """Return the share of the beat in which the angle of attack is beyond that of largest lift, by wing area."""
+    areas = strips_of(wing, aero.strips).chord
+    detached = is_stalled(aero.stall_numbers()[0], beat.alpha)
+    return beat_mean(np.asarray(detached @ (areas / areas.sum()), dtype=float))
 
 
 # Judged numbers that are not in a record, and which quantities of a beat they are.

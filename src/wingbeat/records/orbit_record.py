@@ -9,6 +9,7 @@ import numpy as np
 
 from wingbeat._base import NOMENCLATURE, __version__
 from wingbeat.aero import CamberedCoefficients, CoefficientModel, FamilyCoefficients
+from wingbeat.aero.wake import ATTACHED_SHARE
 from wingbeat.animal.kinematics import ANGLES, Wingbeat
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.mechanics.flight_model import State
@@ -21,7 +22,7 @@ from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.starts import is_at_lower_bound
 from wingbeat.records.inputs import aero_record, vehicle_record, wingbeat_record
 from wingbeat.records.judgements import judged
-from wingbeat.records.numbers import beat_numbers, judged_values
+from wingbeat.records.numbers import beat_numbers, detached_share, judged_values
 from wingbeat.records.tables import finite_or_none
 
 
@@ -50,6 +51,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "initial_state": dict(zip(State._fields, certificate.states[0].tolist(), strict=True)),
         "active_bounds": list(solution.active_bounds),
         "closure": dict(solution.closure),
+        **({} if certificate.wake is None else {"wake_closure": certificate.wake_miss}),
         "failed_balance": [{**vars(s), "unit": s.unit} for s in solution.deficits],
         "relaxations": [dict(vars(r)) for r in solution.relaxations],
         "optimality": solution.optimality,
@@ -57,6 +59,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "distinct_optima": solution.distinct_optima,
         "starts_at_best": solution.starts_at_best,
         **beat_numbers(*flight, beat, wingbeat.frequency, wingbeat.flap_amplitude),
+        "detached_share": detached_share(problem.aero, problem.vehicle.wing, beat),
         "floquet_multipliers": [[float(m.real), float(m.imag)] for m in solution.multipliers],
         "stable": bool(np.abs(solution.multipliers).max() < 1.0) if solution.status is Status.CONVERGED else None,
         **price,
@@ -85,6 +88,8 @@ _STROKE_SAMPLES, _ACROSS, _PAST = 256, 1e-4, 1e-3
 # Reduced frequency above which the lag of the wake matters: Theodorsen's function falls there to 0.69 of steady
 # lift, and at 1 to 0.55.
 _LAG = 0.3
+# Terms of attached flow, and the choices that add them.
+_ATTACHED = {"rotation and added mass": "unsteady", "the lag of the wake": "wake"}
 # Optima whose objectives differ by less than this share are practically equal.
 _RIVAL = 0.01
 
@@ -102,7 +107,7 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
                 f"the model has no induced flow: it understates power at {speed:.1f} m/s, which is below "
                 f"{_SLOW * induced:.1f} m/s, three times the induced velocity of hover"
             )
-    if aero.unsteady != "none":
+    if aero.unsteady != "none" and aero.wake == "none":
         flaps = math.pi * solution.wingbeat.frequency * vehicle.wing.mean_chord
         reduced = flaps / problem.speed if problem.speed else math.inf
         if reduced > _LAG:
@@ -110,6 +115,14 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
             notes.append(
                 "the unsteady terms leave out the lag of the wake, which matters above a reduced frequency of "
                 f"{_LAG:g} ({here}): the lift from alpha is overstated"
+            )
+    if aero.unsteady != "none" or aero.wake != "none":
+        detached = detached_share(aero, vehicle.wing, beat)
+        if detached > 1.0 - ATTACHED_SHARE:
+            terms = " and ".join(name for name, on in _ATTACHED.items() if getattr(aero, on) != "none")
+            notes.append(
+                f"the flow is detached for {100 * detached:.0f} % of the beat: {terms} are terms of attached flow, "
+                f"and beyond {100 * (1 - ATTACHED_SHARE):.0f} % they may make the loads worse"
             )
     for part in aero.parts:
         where = "" if aero.hand == "none" else f" of the {part.name}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import json
 import math
@@ -141,7 +142,8 @@ def glide_polar(
     faults.raise_if_any()
     loads = blade_element_of(SuFan() if aero is None else aero)
     # This velocity is replaced: each glide sets the inflow for a velocity of its own.
-    model = FlightModel(species.vehicle, loads, species.air, velocity=(1.0, 0.0))
+    # The wake of steady flight is at rest.
+    model = FlightModel(species.vehicle, dataclasses.replace(loads, wake="none"), species.air, velocity=(1.0, 0.0))
     either_way = -0.5 * math.pi, 0.5 * math.pi
     mean = species.bounds.get("flap_mean", either_way)
     tilt = species.bounds.get("tail_tilt", either_way)

@@ -229,7 +229,7 @@ class Orbit(Saveable, Reported):
             certificate = certify(problem.model, wingbeat, np.array(self.initial_state)[2:])
         flight = problem.model, wingbeat, certificate.phase, certificate.states
         attributes = orbit_attributes(self._record, self._inputs) | shape_attribute(problem.species)
-        return flight_dataset(*flight, evaluate(*flight), attributes)
+        return flight_dataset(*flight, evaluate(*flight, certificate.wake), attributes)
 
     @functools.cached_property
     def multipliers(self) -> Multipliers:

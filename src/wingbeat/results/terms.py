@@ -95,7 +95,7 @@ def trace_terms(
 
     Parameters
     ----------
-    problem : with ``unsteady`` or ``inflow`` in its air loads, or both; they grow together. With ``inflow``, the
+    problem : with ``unsteady``, ``wake`` or ``inflow`` in its air loads; they grow together. With ``inflow``, the
         sections' coefficients apply even at share 0, where there is no induced flow.
     shares : at least two, increasing, from 0 (none) to 1 (all).
     starts : number of starts at the first and the last share; each share in between gets a third as many.
@@ -116,9 +116,9 @@ def trace_terms(
     """
     check_search(starts, seed)
     faults = FaultList()
-    if problem.aero.unsteady == problem.aero.inflow == "none":
-        fix = "give the air loads unsteady='thin-aerofoil' or inflow='momentum'"
-        faults.add("problem.aero", "unsteady none, inflow none", "has no term to trace", fix)
+    if problem.aero.unsteady == problem.aero.wake == problem.aero.inflow == "none":
+        fix = "give the air loads unsteady='thin-aerofoil', wake='jones-section' or inflow='momentum'"
+        faults.add("problem.aero", "unsteady, wake and inflow none", "has no term to trace", fix)
     values = list(shares)
     good = all([faults.number(f"shares[{i}]", s, at_least=0, at_most=1) for i, s in enumerate(values)])
     if not 2 <= len(values) <= _MOST:

@@ -26,7 +26,7 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.plots.draw_stability import stability_page
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.stability.inputs import Compensation, compensation, smooth_ones
-from wingbeat.stability.options import FLIGHT_STATE, LINEAR, LinearOptions, check_inputs
+from wingbeat.stability.options import FLIGHT_STATE, LINEAR, LinearOptions, check_inputs, check_no_wake
 from wingbeat.stability.reports import linear_report, mode_report
 
 if TYPE_CHECKING:
@@ -346,6 +346,7 @@ def linearise(
     """
     faults = FaultList()
     check_certified(faults, orbit.status, "linearise a certified orbit")
+    check_no_wake(faults, orbit.problem.aero.wake)
     problem, beat = orbit.problem, orbit.wingbeat
     if inputs is not None:
         check_inputs(faults, inputs, problem.vehicle)

@@ -24,7 +24,7 @@ from wingbeat.orbits.options import check_certified
 from wingbeat.plots.draw_stability import survey_page
 from wingbeat.stability.beat_feedback import Feedback, feedback
 from wingbeat.stability.inputs import Compensation, Smoother, parameters_of, smoother
-from wingbeat.stability.options import FLIGHT_STATE, MANY, MOST_DELAY, ManyOptions, noise_of
+from wingbeat.stability.options import FLIGHT_STATE, MANY, MOST_DELAY, ManyOptions, check_no_wake, noise_of
 from wingbeat.stability.reports import survey_report
 from wingbeat.stability.segment_feedback import SegmentFeedback, bump_parameters
 
@@ -198,6 +198,7 @@ def simulate_many(
     faults.whole("beats", beats, 1, 10_000)
     faults.whole("late", late, 0, MOST_DELAY)
     check_certified(faults, orbit.status, "fly a certified orbit")
+    check_no_wake(faults, orbit.problem.aero.wake)
     if not isinstance(winds, Sequence) or not winds:
         faults.add("winds", winds, "must be a list of at least one wind", "for example [wb.winds.CosineGust(w=2)]")
     else:

@@ -232,6 +232,12 @@ def check_inputs(faults: FaultList, inputs: Any, vehicle: Vehicle | None = None)
         faults.add("inputs", "tail_tilt", rule, "leave it out, or give a tail")
 
 
+def check_no_wake(faults: FaultList, wake: str) -> None:
+    """Note the lag of the wake."""
+    if wake != "none":
+        faults.add("aero.wake", wake, "has states that stability does not know", "solve the orbit without the wake")
+
+
 def check_delay(faults: FaultList, delay: int) -> None:
     """Note a delay of feedback that is no whole number from 0 to `MOST_DELAY`."""
     faults.whole("delay", delay, 0, MOST_DELAY, "commands act in the same beat (0), in the next (1) and so on")

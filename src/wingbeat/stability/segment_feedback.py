@@ -19,7 +19,7 @@ from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import air_at, air_phases, check_wind, fly_through
 from wingbeat.orbits.flight.period import flier
 from wingbeat.orbits.options import check_certified
-from wingbeat.stability.options import FEEDBACK, FLIGHT_STATE, FeedbackOptions
+from wingbeat.stability.options import FEEDBACK, FLIGHT_STATE, FeedbackOptions, check_no_wake
 from wingbeat.stability.riccati import multipliers_over, periodic_linear_quadratic
 
 if TYPE_CHECKING:
@@ -157,6 +157,7 @@ def feedback_in_beat(orbit: Orbit, segments: int = 4, *, options: FeedbackOption
     """
     faults = FaultList()
     check_certified(faults, orbit.status, "hold a certified orbit")
+    check_no_wake(faults, orbit.problem.aero.wake)
     faults.whole("segments", segments, 2, HIGHEST_ORDER, "4 for example")
     faults.raise_if_any()
     phases, path, by_state, by_bumps = _segment_maps(orbit, segments, options.linear.blocks)

@@ -105,6 +105,7 @@ class StudyForm(BaseModel):
     force_point: _Texts = _key([BladeElement.force_point], "where on the chord the air load acts")
     airspeed: _Texts = _key([BladeElement.airspeed], "airspeed that determines the loads of a strip")
     unsteady: _Texts = _key([BladeElement.unsteady], "unsteady terms of the air loads")
+    wake: _Texts = _key([BladeElement.wake], "lag of the wake")
     inflow: _Texts = _key([BladeElement.inflow], "induced flow")
     induced_factor: _Numbers = _key(
         [BladeElement.induced_factor], "ratio of induced power to that of an ideal disc"

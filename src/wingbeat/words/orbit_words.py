@@ -115,7 +115,7 @@ def flight_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
     """Return the numbers of the flight as a whole."""
     names = ("strouhal", "reduced_frequency", "reynolds", "alpha_quarter_span", "alpha_three_quarter_span")
     rows = []
-    for name in [name for name in (*names, "body_pitch_range") if name in record]:
+    for name in [name for name in (*names, "body_pitch_range", "detached_share") if name in record]:
         if name.startswith("alpha"):
             factor, unit = for_people(NOMENCLATURE[name].unit)
             low, high = record[name]

@@ -13,18 +13,15 @@ The rule never sees a measured force. It follows from what is known of the flow,
    revolving wing. The rule then prefers a model of revolving wings of the same kind (`feathered-revolving`),
    because a revolving wing stalls later and its polar includes the induced flow.
 4. Above a reduced frequency of 0.1 the flow is unsteady (Leishman 2006, Principles of Helicopter Aerodynamics,
-   section 8.2, draws the line between 0.05 and 0.2). The rule adds rotation and added mass.
+   section 8.2, draws the line between 0.05 and 0.2). The rule adds rotation and added mass, which are terms of
+   attached flow, if for nine tenths of the beat, weighted by area, the angle of attack is below the angle of the
+   polar's largest lift. Only the motion determines this angle of attack.
 5. Changes of lift leave a wake behind. Above a reduced frequency of 0.1 this wake is near enough to reduce the
    changes of lift: by 15 % at a reduced frequency of 0.1, and by 38 % at 0.5 (Theodorsen 1935, NACA Report 496).
    Theodorsen assumes a straight wake that stays behind the flyer, and a wing whose lift rises with its angle of
-   attack. So the rule adds the lag of the wake if three conditions are met:
-
-   - the model states an aspect ratio, as models measured in straight flow do;
-   - the speed is at least twice the induced speed of hover;
-   - for nine tenths of the beat, weighted by area, the angle of attack is below the angle of the polar's largest
-     lift. Only the motion determines this angle of attack.
-
-   The theory has no upper limit of the reduced frequency.
+   attack. So the rule adds the lag of the wake to rotation and added mass if the model states an aspect ratio, as
+   models measured in straight flow do, and the speed is at least twice the induced speed of hover. The theory has
+   no upper limit of the reduced frequency.
 6. The polar of a finite wing includes an induced flow of W/(2 rho A U). Momentum theory gives the same value in
    fast flight and another one in slow flight. In slow flight the rule therefore adds momentum inflow if the model
    states its aspect ratio.
@@ -39,10 +36,10 @@ import numpy as np
 
 from wingbeat.aero.closed_forms import disc_area
 from wingbeat.aero.coefficient_model import CoefficientModel
+from wingbeat.aero.wake import ATTACHED_SHARE, is_stalled, largest_lift_angles
 from wingbeat_evidence.measured_motion.ladder import THIN_AEROFOIL_WAKE, UNSTEADY_STEPS, Rung
 from wingbeat_evidence.measured_motion.strip_case import StripCase
 from wingbeat_evidence.measured_motion.strip_motion import StripMotion, semi_span
-from wingbeat_evidence.measured_motion.wake import is_stalled
 
 # Dynamic viscosity of air at 15 to 20 degrees Celsius [kg/(m s)].
 _VISCOSITY = 1.8e-5
@@ -50,7 +47,6 @@ _INSECT_MASS, _INSECT_REYNOLDS = 2.5e-3, 7e3
 _VORTEX_STAYS_BELOW = 1e4
 _UNSTEADY_ABOVE = 0.1
 _SLOW = 2.0
-_ATTACHED_SHARE = 0.9
 _REVOLVING, _PLATE = "dickinson", "su-fan"
 
 
@@ -131,9 +127,9 @@ def attached_share(case: StripCase, motion: StripMotion, model: CoefficientModel
     motion : of its strips through still air, from `strip_motion`.
     model : its polar determines the angles of largest lift, above and below zero.
     """
-    alpha = np.arctan2(-motion.normal_speed, motion.chord_speed)
+    alpha, stall = np.arctan2(-motion.normal_speed, motion.chord_speed), largest_lift_angles(model.kernel())
     areas = case.area / case.area.sum(axis=1, keepdims=True)
-    return float(case.mean((areas * ~is_stalled(model.kernel(), alpha)).sum(axis=1)))
+    return float(case.mean((areas * ~is_stalled(stall, alpha)).sum(axis=1)))
 
 
 def model_distance(regime: Regime, model: CoefficientModel, wanted: str) -> tuple[float, float]:
@@ -160,10 +156,10 @@ def wanted_unsteady(regime: Regime, model: CoefficientModel, attached: float) ->
     model : the coefficient model.
     attached : share of the beat with attached flow, from `attached_share`.
     """
-    if regime.reduced_frequency <= _UNSTEADY_ABOVE:
+    if regime.reduced_frequency <= _UNSTEADY_ABOVE or attached < ATTACHED_SHARE:
         return "none"
     straight = regime.slowness >= _SLOW and model.aspect_ratio is not None
-    return THIN_AEROFOIL_WAKE if straight and attached >= _ATTACHED_SHARE else "thin-aerofoil"
+    return THIN_AEROFOIL_WAKE if straight else "thin-aerofoil"
 
 
 def preference(regime: Regime, rung: Rung, wanted: str, attached: float) -> tuple[float, ...]:
@@ -250,10 +246,13 @@ def reason(regime: Regime, rung: Rung, wanted: str, attached: float) -> str:
 
 def _unsteady_reason(regime: Regime, model: CoefficientModel, attached: float) -> str:
     terms = wanted_unsteady(regime, model, attached)
+    share = f"the flow is attached for {math.floor(100 * attached)} % of the beat"
+    if terms == "none" and regime.reduced_frequency > _UNSTEADY_ABOVE:
+        least = f"less than the {100 * ATTACHED_SHARE:g} % that terms of attached flow need"
+        return f"It adds no unsteady terms, because {share}, {least}"
     if terms == "none":
         return f"It adds no unsteady terms, because the reduced frequency is at most {_UNSTEADY_ABOVE:g}"
     above = f"because the reduced frequency is above {_UNSTEADY_ABOVE:g}"
     if terms == "thin-aerofoil":
-        return f"It adds rotation and added mass, {above}"
-    share = f"the flow is attached for {math.floor(100 * attached)} % of the beat"
+        return f"It adds rotation and added mass, {above} and {share}"
     return f"It adds rotation, added mass and the lag of the wake, {above} and {share}"

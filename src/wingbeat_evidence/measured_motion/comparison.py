@@ -211,6 +211,6 @@ def validate(
 
 
 def _row(case: StripCase, motion: StripMotion, moving: StripMotion, rung: Rung, best: bool) -> ValidationRow:
-    loads = strip_loads(case, motion, moving, rung.aero, rung.has_wake)
+    loads = strip_loads(case, motion, moving, rung.aero)
     fx, fz = score(case, "fx", loads.fx), score(case, "fz", loads.fz)
     return ValidationRow(rung.aero, rung.unsteady, best, fx, fz, float(case.mean(loads.power)), loads)

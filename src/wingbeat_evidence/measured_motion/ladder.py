@@ -19,23 +19,18 @@ from wingbeat.aero import (
 from wingbeat.aero.blade_element import load_coefficients
 
 THIN_AEROFOIL_WAKE = "thin-aerofoil-wake"
-# A flight has no lag of the wake: the two states of each strip are not in the equations of motion.
 UNSTEADY_STEPS = (*UNSTEADY, THIN_AEROFOIL_WAKE)
 
 
 class Rung(NamedTuple):
-    """One coefficient model with a choice of terms.
-
-    `aero` are the air loads without the lag of the wake, which `has_wake` adds to the unsteady terms.
-    """
+    """One coefficient model with a choice of terms."""
 
     aero: BladeElement
-    has_wake: bool = False
 
     @property
     def unsteady(self) -> str:
         """Name of the unsteady terms, one of `UNSTEADY_STEPS`."""
-        return THIN_AEROFOIL_WAKE if self.has_wake else self.aero.unsteady
+        return self.aero.unsteady if self.aero.wake == "none" else THIN_AEROFOIL_WAKE
 
 
 def ladder(
@@ -96,13 +91,8 @@ def ladder(
 def _rung(model: CoefficientModel, step: str, flow: str, induced_factor: float) -> Rung:
     if step != THIN_AEROFOIL_WAKE:
         return Rung(BladeElement(model, unsteady=step, inflow=flow, induced_factor=induced_factor))
-    if model.aspect_ratio is None:
-        rule = "needs a polar that was measured in straight flow and states its aspect ratio"
-        rule += f"; {model.name} states none"
-        fix = "use thin-aerofoil: a revolving wing keeps its leading-edge vortex and sheds no straight wake"
-        raise InvalidInputError([Fault("unsteady", step, rule, fix)])
-    aero = BladeElement(model, unsteady="thin-aerofoil", inflow=flow, induced_factor=induced_factor)
-    return Rung(aero, has_wake=True)
+    terms: dict[str, Any] = {"unsteady": "thin-aerofoil", "wake": "jones-section", "inflow": flow}
+    return Rung(BladeElement(model, induced_factor=induced_factor, **terms))
 
 
 def _model(given: Any, extension: str | None) -> CoefficientModel:

@@ -32,11 +32,12 @@ docstring of `wingbeat_evidence.read_strip_case` describes its files. `--json` p
    ([Usherwood and Ellington 2002](https://doi.org/10.1242/jeb.205.11.1565)), and the polar includes induced flow.
 3. Above, the model named after the kind of wing, else the plate, `su-fan`. In slow flight (below twice the induced
    speed of hover) it prefers a model measured on revolving wings of the same kind.
-4. Above a reduced frequency of 0.1, rotation and added mass (Leishman 2006: flow is unsteady from 0.05 to 0.2).
-5. Above it also the lag of the wake where its theory holds (a straight wake, Theodorsen 1935, NACA Report 496):
-   the polar was measured in straight flow and states an aspect ratio, the speed is at least twice the induced
-   speed of hover, and the flow is attached (angle of attack below that of the polar's largest lift) for 90 % of
-   the beat, averaged over the wing area.
+4. Above a reduced frequency of 0.1 (Leishman 2006: flow is unsteady from 0.05 to 0.2), rotation and added mass, if
+   the flow is attached (angle of attack below that of the polar's largest lift) for 90 % of the beat, averaged over
+   the wing area.
+5. With them the lag of the wake where its theory holds (a straight wake, Theodorsen 1935, NACA Report 496): the
+   polar was measured in straight flow and states an aspect ratio, and the speed is at least twice the induced speed
+   of hover.
 6. In slow flight, momentum inflow if the model states its aspect ratio.
 
 ## Recommended rows

@@ -9,12 +9,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._jax.arrays import in_own_settings, jax, jnp
-from wingbeat.aero.blade_element import BladeElement, StripForces, strip_forces, with_turning
+from wingbeat.aero.blade_element import BladeElement
 from wingbeat.aero.closed_forms import added_inertia, added_mass, disc_area, induced_flow
 from wingbeat.aero.coefficient_model import Kernel
+from wingbeat.aero.strip_forces import StripForces, strip_forces, with_turning
 from wingbeat_evidence.measured_motion.strip_case import StripCase
 from wingbeat_evidence.measured_motion.strip_motion import StripMotion, semi_span
-from wingbeat_evidence.measured_motion.wake import shed_downwash, wake_downwash
+from wingbeat_evidence.measured_motion.wake import sampled_wake, strip_downwash
 
 Array = NDArray[np.float64]
 
@@ -51,9 +52,7 @@ def momentum_inflow(case: StripCase, factor: float) -> tuple[float, float]:
 
 
 @in_own_settings
-def strip_loads(
-    case: StripCase, motion: StripMotion, moving: StripMotion, aero: BladeElement, has_wake: bool = False
-) -> StripLoads:
+def strip_loads(case: StripCase, motion: StripMotion, moving: StripMotion, aero: BladeElement) -> StripLoads:
     """Return the air loads of the wings of a case.
 
     Parameters
@@ -62,10 +61,9 @@ def strip_loads(
     motion : motion of the strips through still air, from `strip_motion`.
     moving : motion of the strips through the air at the wings; with inflow, from `StripMotion.in_moving_air`.
     aero : coefficients and terms; its number of strips and its force point are not used.
-    has_wake : whether to include the lag of the wake.
     """
     turns, kernel = aero.unsteady != "none", aero.kernel()
-    met = _in_wake(case, moving, kernel) if has_wake else moving
+    met = moving if aero.wake == "none" else _in_wake(case, moving, kernel)
     numbers = (motion.chord, motion.width, met.chord_speed, met.normal_speed, motion.turning)
     loads = (_turning if turns else _steady)(kernel, case.density, case.area, *numbers)
     chordwise, normal = np.asarray(loads.chordwise), np.asarray(loads.normal)
@@ -92,8 +90,8 @@ def _in_wake(case: StripCase, moving: StripMotion, kernel: Kernel) -> StripMotio
     if case.period is not None:
         steps = np.append(steps, max(case.period - (case.times[-1] - case.times[0]), 0.0))
     travelled = 0.5 * (speed + following)[: len(steps)] * steps[:, None]
-    shed = shed_downwash(kernel, moving.chord, moving.chord_speed, moving.normal_speed, moving.turning)
-    wake = wake_downwash(shed, travelled, case.period is not None)
+    shed = strip_downwash(kernel, moving.chord, moving.chord_speed, moving.normal_speed, moving.turning)
+    wake = sampled_wake(shed, travelled, case.period is not None)
     # In air that moves down, the strip moves up relative to the air.
     return replace(moving, normal_speed=moving.normal_speed + wake)
 

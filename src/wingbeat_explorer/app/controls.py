@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from wingbeat._base import NOMENCLATURE, InvalidInputError, for_people
-from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, INFLOWS, LIBRARY, UNSTEADY
+from wingbeat.aero import AIRSPEEDS, EXTENSIONS, FORCE_POINTS, INFLOWS, LIBRARY, UNSTEADY, WAKES
 from wingbeat.aero.blade_element import OF_ELEMENTS
 from wingbeat.aero.completion import VITERNA
 from wingbeat.animal.species.reading import species_names
@@ -39,6 +39,7 @@ _AIR_LOADS = (
     ("force_point", "Force acts at", FORCE_POINTS),
     ("airspeed", "Airspeed", AIRSPEEDS),
     ("unsteady", "Unsteady terms", UNSTEADY),
+    ("wake", "Lag of the wake", WAKES),
     ("inflow", "Induced flow", INFLOWS),
     ("induced_factor", "Induced factor", None),
     ("hand", "Model of the hand", ("none", *LIBRARY)),

@@ -80,8 +80,8 @@ class Scenario:
     free_frequency : whether it is searched for in place of the model's own choice; bounds of it say the same.
     aero_file : text of the visitor's own coefficients, empty for those of the library; `aero` is the file's name.
         It stays in the session and in saved states: links have the name alone.
-    aero, extension, blend_width_deg, strips, force_point, airspeed, unsteady, inflow, induced_factor, hand,
-        hand_from, upstroke_factor : the air loads, as on the command line.
+    aero, extension, blend_width_deg, strips, force_point, airspeed, unsteady, wake, inflow, induced_factor,
+        hand, hand_from, upstroke_factor : the air loads, as on the command line.
     minimise : name of the quantity to minimise.
     limits : limits on quantities, texts as for ``--subject-to``.
     bounds : bounds of free parameters in place of the species' own. Species keep ``tail_tilt`` fixed; bounds make
@@ -108,6 +108,7 @@ class Scenario:
     force_point: Word = BladeElement.force_point
     airspeed: Word = BladeElement.airspeed
     unsteady: Word = BladeElement.unsteady
+    wake: Word = BladeElement.wake
     inflow: Word = BladeElement.inflow
     induced_factor: Finite = BladeElement.induced_factor
     hand: Word = BladeElement.hand

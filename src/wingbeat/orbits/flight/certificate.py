@@ -17,7 +17,9 @@ from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, parameter
 from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
 from wingbeat.mechanics.flights import RTOL, Steps, fly_through
-from wingbeat.orbits.flight.period import ALONG, PLACES, WEIGHTS, Flown, flier
+from wingbeat.orbits.flight.lagged import WakeStart
+from wingbeat.orbits.flight.march import ALONG, PLACES, WEIGHTS
+from wingbeat.orbits.flight.period import Flown, flier
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import Stretches, StretchMaps, StretchStates
@@ -36,6 +38,7 @@ class Certificate:
     phase : phases of the samples, shape (K,).
     states : (x, z, body_pitch, u, w, pitch_rate) there, shape (K, 6) [m, m, rad, m/s, m/s, rad/s].
     steps : the integrator's steps.
+    wake : with the lag of the wake, the states of each strip's wake there, shape (K, 2 strips) [m/s]; else None.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -47,6 +50,7 @@ class Certificate:
     phase: np.ndarray
     states: np.ndarray
     steps: Steps
+    wake: np.ndarray | None = None
 
     @property
     def end(self) -> np.ndarray:
@@ -58,11 +62,30 @@ class Certificate:
         """Body pitch along the path [rad]."""
         return self.states[:, 2]
 
+    @property
+    def path(self) -> np.ndarray:
+        """All states but the position, shape (K, 4), or with those of the wake (K, 4 + 2 strips)."""
+        states = self.states[:, 2:]
+        return states if self.wake is None else np.hstack([states, self.wake])
+
+    @property
+    def wake_miss(self) -> float | None:
+        """Largest change of a state of the wake over the period [m/s]; None without the lag."""
+        return None if self.wake is None else float(np.abs(self.wake[-1] - self.wake[0]).max())
+
 
 def certify(
-    model: FlightModel, wingbeat: Wingbeat, pitch_state: np.ndarray, rtol: float = RTOL, *, rough: bool = False
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    pitch_state: np.ndarray,
+    rtol: float = RTOL,
+    *,
+    rough: bool = False,
+    near: WakeStart | None = None,
 ) -> Certificate:
     """Fly one period from x = z = 0 and the given (body_pitch, u, w, pitch_rate).
+
+    With the lag of the wake, the period is flown again until the states of the wake repeat, too.
 
     Theory: equation ``certificate``.
 
@@ -72,6 +95,7 @@ def certify(
     pitch_state : initial pitch state, shape (4,) [rad, m/s, m/s, rad/s].
     rtol : relative tolerance of the flight.
     rough : whether to sample the path at only a few phases, which takes half the time.
+    near : where to look for the states of the wake; the search knows it, and it saves flights.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -83,7 +107,40 @@ def certify(
     # both kinds of flight.
     phase = np.minimum(np.linspace(0.0, SAMPLES / _ROUGH_SAMPLES if rough else 1.0, SAMPLES + 1), 1.0)
     start = State(0.0, 0.0, *pitch_state)
-    return Certificate(phase, *fly_through(model, wingbeat, start, phase, rtol))
+    if model.wake is None:
+        return Certificate(phase, *fly_through(model, wingbeat, start, phase, rtol))
+
+    def from_wake(wake: np.ndarray) -> tuple[np.ndarray, Steps]:
+        return fly_through(model, wingbeat, start, phase, rtol, wake=(wake,))
+
+    states, steps = _repeating(from_wake, near, 2 * model.strips, _ROUGHLY if rough else _REPEATS)
+    return Certificate(phase, states[:, :6], steps, states[:, 6:])
+
+
+# The states of the wake repeat within this [m/s], or the flights are as many.
+_REPEATS, _ROUGHLY, _FLIGHTS = 1e-9, 1e-6, 20
+
+
+def _repeating(
+    fly: Callable[[np.ndarray], tuple[np.ndarray, Steps]], near: WakeStart | None, size: int, tolerance: float
+) -> tuple[np.ndarray, Steps]:
+    """Fly until the states of the wake repeat, by Broyden's method for the inverse; return the last flight."""
+    wake, inverse = np.zeros(size), np.eye(size)
+    if near is not None:
+        wake, inverse = near.states, np.linalg.inv(np.eye(size) - near.slopes)
+    states, steps = fly(wake)
+    for _ in range(_FLIGHTS):
+        miss = states[-1, 6:] - wake
+        if not np.abs(miss).max() > tolerance:  # or not a number
+            break
+        step = inverse @ miss
+        wake = wake + step
+        states, steps = fly(wake)
+        change = miss - (states[-1, 6:] - wake)
+        back = inverse @ change
+        if np.isfinite(back).all() and step @ back:
+            inverse = inverse + np.outer(step - back, step @ inverse) / (step @ back)
+    return states, steps
 
 
 # Number of steps in each step of the certifier, whose steps are short at the kinks of the loads. With two, the
@@ -122,9 +179,10 @@ def _state_maps(
         (_, _, change), _ = jax.lax.scan(stage, (state, nothing, nothing), stages)
         return state + seconds * change, None
 
-    beside = jnp.concatenate([jnp.zeros((1, 4)), jnp.diag(_BESIDE)])
+    apart = np.concatenate([_BESIDE, np.full(path.shape[1] - len(_BESIDE), _BESIDE[1])])
+    beside = jnp.concatenate([jnp.zeros((1, len(apart))), jnp.diag(apart)])
     there, _ = jax.lax.scan(step, path.T + beside[..., None], jnp.arange(_STEPS))
-    return ((there[1:] - there[0]) / _BESIDE[:, None, None]).transpose(2, 1, 0)
+    return ((there[1:] - there[0]) / apart[:, None, None]).transpose(2, 1, 0)
 
 
 def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarray:
@@ -152,7 +210,7 @@ def multipliers_of(matrix: np.ndarray) -> np.ndarray:
     if not np.isfinite(matrix).all():
         return np.full(4, np.nan + 0j)
     found = np.linalg.eigvals(matrix)
-    return found[np.lexsort((-found.imag, -found.real, -np.round(np.abs(found), 9)))]
+    return found[np.lexsort((-found.imag, -found.real, -np.round(np.abs(found), 9)))][:4]
 
 
 def monodromy(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarray:
@@ -162,7 +220,7 @@ def monodromy(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarra
     """
     phase, path = steps.phase, steps.states[:, 2:]
     if phase[-1] < 1.0:
-        return np.full((4, 4), np.nan)
+        return np.full((path.shape[1], path.shape[1]), np.nan)
     maps_of, count, blocks = _state_maps.bind(model, wingbeat), len(phase) - 1, []
     for first in range(0, count, _LANES):
         # Spare lanes repeat the last stretch.

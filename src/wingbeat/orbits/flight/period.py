@@ -17,7 +17,7 @@ from wingbeat._jax.arrays import fusion_barrier, jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, unpack
 from wingbeat.animal.vehicle import Vehicle
-from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
+from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table, rates_by_wake
 from wingbeat.mechanics.wing_motion import WingMotion, strips_of
 from wingbeat.mechanics.wing_shape import (
     LEADING,
@@ -28,10 +28,13 @@ from wingbeat.mechanics.wing_shape import (
     lateral_corner,
     lateral_corners,
 )
+from wingbeat.orbits.flight.lagged import RepeatingWake, WakeStart, chained
+from wingbeat.orbits.flight.march import ALONG, AT_STAGES, STEPS, WEIGHTS, March, combined, from_rows
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import (
         EndJacobian,
+        FlightState,
         FlownPath,
         Free,
         FreeTangents,
@@ -61,15 +64,6 @@ CLOSURE_SCALE = np.array([0.1, 0.1, 0.1, 1.0, 1.0, 10.0])
 THRUST, LIFT, MOMENT = "thrust", "lift", "pitching moment"
 BALANCES = {THRUST: "u", LIFT: "w", MOMENT: "pitch_rate"}
 PATH_NAMES = ("body_pitch", "flap")  # bounded along the whole path; flap is that of arm and hand
-
-# --- The classical Runge-Kutta method of order 4 as a table, so that its stages are one loop, compiled once. ---
-# Each stage starts from the state at the start of the step, plus the share `ALONG` of the step times the rate of
-# the stage before. The rate of the whole step is the mean of the stages' rates, weighted by `WEIGHTS`.
-# Time of each stage: the start (0), the middle (1) or the end (2) of the step.
-PLACES = np.array([0, 1, 1, 2])
-ALONG = np.array([0.0, 0.5, 0.5, 1.0])
-WEIGHTS = np.array([1.0, 2.0, 2.0, 1.0]) / 6.0
-
 
 # --- How close a stroke comes to its limits: the plane of symmetry, and the range of the shoulder. ---
 # Each row is the least distance from a limit: of the strips' leading and trailing corners in each quarter of the
@@ -143,11 +137,7 @@ def _at_least(value: Callable[[Any], Any], phase: StrokeRows, rows: slice) -> Sa
     return value(jax.lax.stop_gradient(phase))
 
 
-# --- The march. ---
-# One compiled march has this many steps; finer flights chain several marches.
-STEPS = 32
-
-
+# --- The derivative of a flight. ---
 class Flown(NamedTuple):
     """A period flown from x = z = 0, and its derivatives by (body_pitch, u, w, pitch_rate, free parameters).
 
@@ -161,9 +151,10 @@ class Flown(NamedTuple):
     path_jacobian: PathJacobian
     stroke: StrokeRows = None
     stroke_jacobian: StrokeJacobian = None
+    wake: WakeStart | None = None  # at the start, with the lag of the wake
 
 
-def _tabulate(
+def tabulated(
     model: FlightModel, wingbeat: Wingbeat, first: Scalar, last: Scalar
 ) -> tuple[tuple[TableRows, Scalar], WingMotion]:
     """Tabulate the wing at the ends of the steps, then at their middles; return rows, a step [s], the table."""
@@ -175,33 +166,7 @@ def _tabulate(
     return (rows, (last - first) / (wingbeat.frequency * STEPS)), table
 
 
-def _from_rows(rows: TableRows, like: Any) -> WingMotion:
-    """Return a table from its rows; `like` is a table with the same structure."""
-    leaves, tree = jax.tree_util.tree_flatten(like)
-    sizes = np.cumsum([int(np.prod(leaf.shape[:-1])) for leaf in leaves])
-    parts = jnp.split(rows, sizes[:-1])
-    shaped = [part.reshape(*leaf.shape[:-1], *rows.shape[1:]) for part, leaf in zip(parts, leaves, strict=True)]
-    return jax.tree_util.tree_unflatten(tree, shaped)
-
-
-# Indices of the four stages of all steps along the last axis of a table of `_tabulate`.
-_STAGES = [(slice(STEPS), slice(STEPS + 1, None), slice(1, STEPS + 1))[place] for place in PLACES]
-
-
-class March(NamedTuple):
-    """States and rates of all stages, shape (4 components, 4 stages, steps), and the last state (4,)."""
-
-    states: Stages
-    rates: Stages
-    last: PitchState
-
-
-def _combine(stages: Any) -> Any:
-    """Return the weighted mean of the four stages along the first axis."""
-    return sum(weight * stages[i] for i, weight in enumerate(WEIGHTS.tolist()))
-
-
-def _march(model: FlightModel, table: TableRows, like: Any, step: Scalar, start: PitchState) -> March:
+def march(model: FlightModel, table: TableRows, like: Any, step: Scalar, start: FlightState) -> March:
     """Fly the steps in sequence by the classical Runge-Kutta method."""
     stages = jnp.asarray(ALONG), jnp.asarray(WEIGHTS)
 
@@ -209,14 +174,14 @@ def _march(model: FlightModel, table: TableRows, like: Any, step: Scalar, start:
         def stage(carry: tuple[Any, Any], given: Any) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
             (rate, mean), (row, along, weight) = carry, given
             here = state + along * step * rate
-            rate = body_rates(model, _from_rows(row, like), here)
+            rate = body_rates(model, from_rows(row, like), here)
             return (rate, mean + weight * rate), (here, rate)
 
         nothing = jnp.zeros_like(state)
         (_, mean), flown = jax.lax.scan(stage, (nothing, nothing), (rows, *stages))
         return state + step * mean, flown
 
-    rows = jnp.stack([table.T[part] for part in _STAGES], axis=1)
+    rows = jnp.stack([table.T[part] for part in AT_STAGES], axis=1)
     last, (states, rates) = jax.lax.scan(advance, start, rows)
     return March(states.transpose(2, 1, 0), rates.transpose(2, 1, 0), last)
 
@@ -227,16 +192,16 @@ def _stage_tangents(
     """Differentiate the rates of all stages of all steps at once, by state and by free parameter."""
 
     def in_lanes(rows: Any) -> Any:
-        return jnp.concatenate([rows[..., part] for part in _STAGES], axis=-1)
+        return jnp.concatenate([rows[..., part] for part in AT_STAGES], axis=-1)
 
-    lanes, state = _from_rows(in_lanes(table), like), states.reshape(4, -1)
+    lanes, state = from_rows(in_lanes(table), like), states.reshape(4, -1)
 
     def by_state(seed: Any) -> Any:
         tangent = jnp.broadcast_to(seed[:, None], state.shape)
         return jax.jvp(lambda s: body_rates(model, lanes, s), (state,), (tangent,))[1]
 
     def by_free(rows: Any) -> Any:
-        tangent = _from_rows(rows, like)
+        tangent = from_rows(rows, like)
         return jax.jvp(lambda motion: body_rates(model, motion, state), (lanes,), (tangent,))[1]
 
     def to_stages(rows: Any) -> Any:
@@ -269,10 +234,10 @@ def _chain(
         if advance is not None:
             state_tangents.append(first + advance * (step * rate_tangents[i] + lengthen * rates[:, i]))
     step_map = fusion_barrier(
-        first + step * _combine(rate_tangents) + lengthen * _combine(rates.transpose(1, 0, 2))
+        first + step * combined(rate_tangents) + lengthen * combined(rates.transpose(1, 0, 2))
     )
-    mean_speed = _combine(states.transpose(1, 0, 2))[1:3]
-    place_map = fusion_barrier(step * _combine(state_tangents)[:, 1:3] + lengthen * mean_speed)
+    mean_speed = combined(states.transpose(1, 0, 2))[1:3]
+    place_map = fusion_barrier(step * combined(state_tangents)[:, 1:3] + lengthen * mean_speed)
 
     def follow(jacobian: Any, after: Any) -> tuple[Any, Any]:
         return _through(after[:4], jacobian).at[4:].add(after[4:]), jacobian
@@ -308,14 +273,21 @@ def fly_part(
     """
 
     def by_values(at: Any) -> Any:
-        return _tabulate(model, unpack(free, wingbeat, at), first, last)
+        return tabulated(model, unpack(free, wingbeat, at), first, last)
 
     (table, step), along, like = jax.linearize(by_values, values, has_aux=True)
     tangents, step_tangent = jax.vmap(along)(jnp.eye(len(free)))
     table, tangents = fusion_barrier((table, tangents))
-    flight = _march(model, table, like, step, start)
-    by_state, by_free = _stage_tangents(model, table, tangents, like, flight.states)
-    flown = _chain(flight, by_state, by_free, step, step_tangent, components)
+    flight = march(model, table, like, step, start)
+    if model.wake is not None:
+        end, end_jacobian, path_jacobian = chained(
+            (body_rates, rates_by_wake), model, table, tangents, like, flight, step, step_tangent
+        )
+        path = jnp.concatenate([flight.states[:, 0].T, flight.last[None]])
+        flown = Flown(end, path, end_jacobian, path_jacobian)
+    else:
+        by_state, by_free = _stage_tangents(model, table, tangents, like, flight.states)
+        flown = _chain(flight, by_state, by_free, step, step_tangent, components)
     if not stroke:
         return flown
 
@@ -349,16 +321,17 @@ def flier(
             flown = _then(flown, part(values, flown.end[2:], i / blocks, (i + 1) / blocks))
         return flown
 
-    return fly
+    return fly if model.wake is None else RepeatingWake(fly, model.strips, whole_path)
 
 
 def _then(before: Flown, part: Flown) -> Flown:
     """Join two parts that were flown one after the other."""
     chained = before.end_jacobian[2:]
+    states = len(chained)
 
     def from_start(jacobian: Any) -> np.ndarray:
-        whole = np.asarray(jacobian)[..., :4] @ chained
-        whole[..., 4:] += np.asarray(jacobian)[..., 4:]
+        whole = np.asarray(jacobian)[..., :states] @ chained
+        whole[..., states:] += np.asarray(jacobian)[..., states:]
         return whole
 
     end, end_jacobian = np.array(part.end), from_start(part.end_jacobian)

@@ -15,10 +15,11 @@ from wingbeat.mechanics.flight_model import (
     air_loads,
     body_rates,
     motion_table,
-    strip_loads,
     velocity_at_wings,
+    wake_of,
 )
 from wingbeat.mechanics.hinge_torques import HingeMotion, hinge_loads, hinge_motion
+from wingbeat.mechanics.strip_air import loads_of_strips
 from wingbeat.mechanics.wing_motion import WingMotion, strips_of, stroke_attitude
 from wingbeat.mechanics.wing_shape import to_world
 from wingbeat.orbits.flight.beat import BY_STRIP, NUMBERS, Beat
@@ -71,13 +72,14 @@ def _tabulate(model: FlightModel, wingbeat: Wingbeat, phase: Samples) -> _Tables
 
 def _series(model: FlightModel, tables: _Tables, path: PitchState, mean_velocity: Pair) -> Beat:
     motion = tables.motion
-    body = fusion_barrier(body_rates(model, motion, path)[1:])
-    body_pitch, u, w, pitch_rate = path
+    body = fusion_barrier(body_rates(model, motion, path)[1:4])
+    wake = wake_of(model, motion, path)
+    body_pitch, u, w, pitch_rate = path if wake is None else path[:4]
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
-    loads = air_loads(model, motion, attitude, u, w, pitch_rate, body)
+    loads = air_loads(model, motion, attitude, u, w, pitch_rate, body, wake)
     force_x, force_z = to_world(attitude, *loads.force)
     velocity = velocity_at_wings(model, attitude, u, w)
-    strips = strip_loads(model, motion, velocity, pitch_rate)
+    strips = loads_of_strips(model, motion, velocity, pitch_rate, wake)
     hinges = hinge_loads(model, motion, tables.hinges, path, body)
     chord = strips_of(model.vehicle.wing, model.strips).chord
     if tables.chord_ratio is not None:
@@ -139,6 +141,12 @@ def _part(
 
     found, by_table = jax.linearize(lambda table: series(table, path), tables)
     by_path = jax.linearize(lambda at: series(tables, at), path)[1]
+    if model.wake is not None:
+        # The path has more components than there are directions.
+        still = jax.tree_util.tree_map(lambda a: jnp.zeros((4, *a.shape[1:])), table_tangents)
+        whole = jax.tree_util.tree_map(lambda a, b: jnp.concatenate([a, b]), still, table_tangents)
+        along_both = jax.vmap(lambda table, state: jax.tree_util.tree_map(jnp.add, by_table(table), by_path(state)))
+        return found, along_both(whole, tangents)
     own = jax.vmap(by_table)(table_tangents)
     by_state = jax.vmap(by_path)(jnp.broadcast_to(jnp.eye(4)[..., None], (4, 4, len(phase))))
     return found, jax.tree_util.tree_map(lambda own, state: _along_path(own, state, tangents), own, by_state)

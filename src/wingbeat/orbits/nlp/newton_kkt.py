@@ -199,7 +199,7 @@ class Corrected:
         closed = options.certificate.closure_tolerance if closure_tolerance is None else closure_tolerance
         limits = self.programme.certified_inequalities(self.scaled, self.certificate)
         return bool(
-            size(self.residual) <= closed
+            size(np.append(self.residual, self.certificate.wake_miss or 0.0)) <= closed
             and limits.min() >= -options.certificate.limit_tolerance
             and self.optimality <= options.search.optimality_tolerance
         )
@@ -285,7 +285,12 @@ def _fly(programme: Transcription, scaled: np.ndarray, *, rough: bool = False) -
     begun = time.perf_counter()
     wingbeat = programme.problem.wingbeat(physical)
     certificate = certify(
-        programme.model, wingbeat, physical[:4], options.rough_rtol if rough else options.rtol, rough=rough
+        programme.model,
+        wingbeat,
+        physical[:4],
+        options.rough_rtol if rough else options.rtol,
+        rough=rough,
+        near=programme.wake_start(scaled),
     )
     programme.certifying.append(time.perf_counter() - begun)
     return wingbeat, certificate

@@ -12,6 +12,7 @@ import numpy as np
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.orbits.flight.beat import Beat, highest_sample, peak_weights
 from wingbeat.orbits.flight.certificate import Certificate, certify, map_and_changes, monodromy
+from wingbeat.orbits.flight.lagged import WakeStart
 from wingbeat.orbits.flight.period import CLOSURE_SCALE, Flown, StrokeLimits, flier, fly_part
 from wingbeat.orbits.flight.time_series import beat_reader, flown_beat
 from wingbeat.orbits.nlp.levenberg_marquardt import least_squares, multiplier_residual
@@ -142,6 +143,13 @@ class Transcription(Programme):
                 point = self._cut(flight.flown, flight.unknowns, self._blocks, read)
             flight = self._flights[key] = flight._replace(point=point, read=True)
         return flight.point
+
+    def wake_start(self, scaled: np.ndarray) -> WakeStart | None:
+        """Return the states of the wake that repeat in a flight from one point; None without the lag."""
+        if self.model.wake is None:
+            return None
+        unknowns = self.physical(scaled)
+        return self.fly(unknowns[4:], unknowns[:4], self._blocks).wake
 
     def _fly(self, unknowns: np.ndarray, blocks: int, read: bool = True) -> _Flight:
         # A diverging flight may overflow here; `_cut` limits its numbers.
@@ -320,7 +328,7 @@ def load_programs(programme: Transcription, start: np.ndarray) -> None:
 def certified_beat(problem: OrbitProblem, wingbeat: Wingbeat, flown: Certificate) -> Beat:
     """Return the time series of a flight of the certifier, with the vehicle's muscles, motor and springs."""
     velocity = problem.speed, problem.climb
-    beat = flown_beat(problem.model, wingbeat, flown.phase, flown.states[:, 2:], velocity)
+    beat = flown_beat(problem.model, wingbeat, flown.phase, flown.path, velocity)
     return beat._replace(drive=problem.vehicle.drive)
 
 

@@ -55,7 +55,7 @@ def origin_from(record: dict[str, Any]) -> Origin:
     return Origin(record["name"], choices, tuple(record["changed"]), *own)
 
 
-TERMS = ("unsteady", "inflow")
+TERMS = ("unsteady", "wake", "inflow")
 
 
 def place_in_words(species: str | None, speed: float | None, climb: float | None) -> str:

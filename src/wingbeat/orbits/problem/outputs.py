@@ -24,6 +24,7 @@ from wingbeat.orbits.problem.quantity import MapQuantity, Quantity
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import StrokeMatrix
+    from wingbeat.aero import BladeElement
     from wingbeat.orbits.problem.quantities import Constraint
 
 ALL_FIELDS = tuple(name for name in Beat._fields if name != "drive")
@@ -248,7 +249,7 @@ def count_of(function: Callable[[Any], Any], strips: int, drive: Drive, of_map: 
 
 
 def check_quantities(
-    quantities: Sequence[Quantity], strips: int, drive: Drive, minimised: Quantity | None = None
+    quantities: Sequence[Quantity], aero: BladeElement, drive: Drive, minimised: Quantity | None = None
 ) -> list[Fault]:
     """Return the faults of quantities whose functions fail, have the wrong shape, or cannot be minimised."""
     faults = []
@@ -262,10 +263,14 @@ def check_quantities(
             continue
         where = f"quantity {quantity.name}"
         of_map = isinstance(quantity, MapQuantity)
+        if of_map and aero.wake != "none":
+            rule = f"has states of the flight that {quantity.name} does not know"
+            faults.append(Fault("aero.wake", aero.wake, rule, "leave the wake out, or limits of stability"))
+            continue
         said = "MapQuantity" if of_map else "Beat"
         fix = f"write the function in JAX-compatible Python; `{said}` documents the function's argument"
         try:
-            found = given_by(quantity.of, strips, jax.tree.structure(drive), of_map)
+            found = given_by(quantity.of, aero.strips, jax.tree.structure(drive), of_map)
         except Exception as error:  # whatever a user's function raises
             reason = f"fails: {first_line(error)}"
             faults.append(Fault(where, getattr(quantity.of, "__name__", quantity.of), reason, fix))

@@ -137,11 +137,12 @@ class OrbitProblem(Reported):
             self._limit_plausibly(self.subject_to, faults)
         faults.raise_if_any()
         aero = blade_element_of(self.aero)
-        faults.faults.extend(check_quantities(self._quantities(), aero.strips, self.vehicle.drive, self.minimise))
+        faults.faults.extend(check_quantities(self._quantities(), aero, self.vehicle.drive, self.minimise))
         faults.raise_if_any()
         object.__setattr__(self, "aero", aero)
         object.__setattr__(self, "air", self.air or self.species.air)
-        _ = aero.inflow == "none" or self.model  # refuses a descent into its own wake
+        # Refuses a descent into its own wake, and too short a wing.
+        _ = aero.inflow == aero.wake == "none" or self.model
         given: Bounds = dict(self.bounds or {})  # type: ignore[arg-type]
         object.__setattr__(self, "bounds", given)
         free = tuple(self.free or self.species.free)

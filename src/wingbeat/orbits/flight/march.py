@@ -1,0 +1,49 @@
+"""Fixed steps of a period: the method of Runge and Kutta as a table, and rows of the wing's motion."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from wingbeat._jax.arrays import jax, jnp
+
+if TYPE_CHECKING:
+    from wingbeat._jax.arrays import FlightState, Stages, TableRows
+
+# --- The classical Runge-Kutta method of order 4 as a table, so that its stages are one loop, compiled once. ---
+# Each stage starts from the state at the start of the step, plus the share `ALONG` of the step times the rate of
+# the stage before. The rate of the whole step is the mean of the stages' rates, weighted by `WEIGHTS`.
+# Time of each stage: the start (0), the middle (1) or the end (2) of the step.
+PLACES = np.array([0, 1, 1, 2])
+ALONG = np.array([0.0, 0.5, 0.5, 1.0])
+WEIGHTS = np.array([1.0, 2.0, 2.0, 1.0]) / 6.0
+
+# One compiled march has this many steps; finer flights chain several marches.
+STEPS = 32
+
+
+def from_rows(rows: TableRows, like: Any) -> Any:
+    """Return a table from its rows; `like` is a table with the same structure."""
+    leaves, tree = jax.tree_util.tree_flatten(like)
+    sizes = np.cumsum([int(np.prod(leaf.shape[:-1])) for leaf in leaves])
+    parts = jnp.split(rows, sizes[:-1])
+    shaped = [part.reshape(*leaf.shape[:-1], *rows.shape[1:]) for part, leaf in zip(parts, leaves, strict=True)]
+    return jax.tree_util.tree_unflatten(tree, shaped)
+
+
+# Indices of the four stages of all steps along the last axis of a table of `tabulated`.
+AT_STAGES = [(slice(STEPS), slice(STEPS + 1, None), slice(1, STEPS + 1))[place] for place in PLACES]
+
+
+class March(NamedTuple):
+    """States and rates of all stages, shape (4 components, 4 stages, steps), and the last state (4,)."""
+
+    states: Stages
+    rates: Stages
+    last: FlightState
+
+
+def combined(stages: Any) -> Any:
+    """Return the weighted mean of the four stages along the first axis."""
+    return sum(weight * stages[i] for i, weight in enumerate(WEIGHTS.tolist()))

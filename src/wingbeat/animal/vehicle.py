@@ -106,11 +106,6 @@ class Wing:
         faults.raise_if_any()
 
     @property
-    def aspect_ratio(self) -> float:
-        """Span of both wings, spread, over their mean chord."""
-        return 2.0 * self.semi_span / self.mean_chord
-
-    @property
     def mean_chord(self) -> float:
         """Mean of the piecewise linear chord along the span [m]."""
         if not isinstance(self.chord, tuple):

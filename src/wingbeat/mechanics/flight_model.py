@@ -143,7 +143,7 @@ class FlightModel:
             "unsteady": 0.0 if loads.unsteady == "none" else loads.share,
             "induced_factor": None if loads.inflow == "none" else loads.share * loads.induced_factor,
             "induced_flow": _checked_flow(vehicle, loads, air, velocity),
-            "wake": loads.wake_lag(vehicle.wing.aspect_ratio),
+            "wake": loads.wake_lag(2.0 * vehicle.wing.semi_span / vehicle.wing.mean_chord),
         }
         for name, value in fields.items():
             object.__setattr__(self, name, value)

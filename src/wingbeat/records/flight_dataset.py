@@ -97,7 +97,7 @@ def flight_dataset(
     by_name |= {name: np.asarray(law) for name, law in laws.items() if law is not None}
     by_name |= {f"missing_{name}": value for name, value in (missing._asdict() if missing else {}).items()}
     by_name["time"] = phase / wingbeat.frequency
-    by_name |= found._asdict()
+    by_name |= {name: value for name, value in found._asdict().items() if value is not None}
     corners = _along(lambda *given: [strip_corners(*given)], model, wingbeat, phase, states)
     by_name["strip_corner"] = corners[0]
     by_name |= _columns(found.acceleration, "u_rate", "w_rate", "pitch_acceleration")

@@ -26,7 +26,15 @@ RECORD = {
     *("failed_balance", "relaxations"),
     *("peak_power", "mean_positive_power", "mean_actuator_power", "peak_actuator_power", "cost_of_transport"),
     *("body_pitch_range", "strouhal", "reduced_frequency", "reynolds", "alpha_quarter_span"),
-    *("alpha_three_quarter_span", "floquet_multipliers", "stable", "warnings", "solve_seconds", "version"),
+    *(
+        "alpha_three_quarter_span",
+        "detached_share",
+        "floquet_multipliers",
+        "stable",
+        "warnings",
+        "solve_seconds",
+        "version",
+    ),
 }
 PARTS = {
     "vehicle": {"body", "wing"},

@@ -24,7 +24,7 @@ NAMES = {
     "starts_at_best plausibility "
     "mean_power peak_power mean_positive_power mean_actuator_power peak_actuator_power cost_of_transport "
     "body_pitch_range strouhal reduced_frequency reynolds alpha_quarter_span alpha_three_quarter_span "
-    "floquet_multipliers stable warnings solve_seconds version",
+    "detached_share floquet_multipliers stable warnings solve_seconds version",
     "model": "name choices changed",
     "vehicle": "body wing",
     "vehicle.body": "mass pitch_inertia drag_area crossflow_area",

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wingbeat._base import Fault, FaultList, InvalidInputError, written
+from wingbeat._base import Fault, FaultList, InvalidInputError, plain_unit, written
 from wingbeat._base.sheets import (
     SIDE_WORDS,
     SIDES,
@@ -28,7 +28,13 @@ from wingbeat.experiment.periodic import MIN_BEATS, SURE, Array, Clip, clip_rate
 # 100 s at 1000 frames a second: no animal repeats one wingbeat for longer. The fit of so many takes a second.
 MAX_FRAMES = 100_000
 _CLOCKS = {"phase": "", "time": "s", "frame": ""}
-_CONSTANTS = {"frequency": "Hz", "frequency_se": "Hz", "frame_rate": "Hz", "wrist": "", "semi_span": "m"}
+_CONSTANTS = {
+    "frequency": "Hz",
+    "frequency_se": "Hz",
+    "frame_rate": "Hz",
+    "wrist": "",
+    "semi_span": plain_unit("semi_span"),
+}
 _SPELLINGS = {
     **{same_name(name): name for name in (*_CLOCKS, *COLUMNS, *_CONSTANTS)},
     **dict.fromkeys(("frames", "framenumber", "frameno", "frameindex", "fnum"), "frame"),

@@ -206,7 +206,7 @@ def _vehicle(kind: Kind, given: Numbers, mass: float, span: float, area: float) 
         "vehicle.mass": whole,
         "vehicle.body.pitch_inertia": kind.pitch_inertia.number(mass),
         "vehicle.body.drag_area": Number(0.0, drag.unit, drag_source, (0.0, drag.range[1])),
-        "vehicle.body.crossflow_area": Number(0.0, "m2", cross_source, (0.0, cross.range[1])),
+        "vehicle.body.crossflow_area": Number(0.0, cross.unit, cross_source, (0.0, cross.range[1])),
         "vehicle.wing.semi_span": length,
         "vehicle.wing.chord": chord,
         "vehicle.wing.mass": wing_mass,

@@ -127,8 +127,10 @@ def ratios(quantity: str) -> Iterator[tuple[str, Score, tuple[float, float]]]:
     """Yield the animals and comparisons of a quantity; not those with an upper limit, which has no middle."""
     for animal in measured_animals():
         flights = read_measured_flights(animal)
-        kept = json.loads((DATA / "whole_flights" / f"{animal}.json").read_text(encoding="utf-8"))
-        for score in compared(Prediction.of_plain(flights, kept)):
+        file = DATA / "whole_flights" / f"{animal}.json"
+        if not file.exists():  # listed, not flown yet
+            continue
+        for score in compared(Prediction.of_plain(flights, json.loads(file.read_text(encoding="utf-8")))):
             one = score.measurement
             if one.quantity == quantity and one.values[0] > 0 and score.ratio is not None:
                 yield animal, score, score.ratio

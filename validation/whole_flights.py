@@ -1,9 +1,10 @@
 """Fly animals whose flights were measured, and write one page with a figure for each.
 
-    python validation/whole_flights.py [--draws 24] [--processes 1] [ANIMAL ...]
+    python validation/whole_flights.py [--draws 0] [--processes 1] [ANIMAL ...]
 
 Flights are kept in ``data/whole_flights``, one file for each animal. Animals that are named are flown anew, the
-others only where their file is missing; the page is then written from the files.
+others only where their file is missing; the page is then written from the files. Without draws, each flight is
+flown again at both ends of the range of its frequency.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ def flown(animal: str, anew: bool, draws: int, processes: int) -> Prediction:
     measured, file = read_measured_flights(animal), FLOWN / f"{animal}.json"
     if anew or not file.exists():
         begun = time.perf_counter()
-        found = predict_flights(measured, draws=draws, processes=processes)
+        found = predict_flights(measured, draws=draws, processes=processes, frequency_band=True)
         write_atomically(file, json.dumps(found.plain(), indent=1) + "\n")
         print(f"{animal}: flown in {time.perf_counter() - begun:.0f} s", file=sys.stderr, flush=True)
     return Prediction.of_plain(measured, json.loads(file.read_text()))
@@ -39,7 +40,7 @@ def main() -> None:
     """Fly the named animals, and write the page."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("animals", nargs="*", choices=[[], *measured_animals()])
-    parser.add_argument("--draws", type=int, default=24)
+    parser.add_argument("--draws", type=int, default=0)
     parser.add_argument("--processes", type=int, default=1)
     asked = parser.parse_args()
     make_folder(FLOWN)

@@ -16,8 +16,11 @@ AGREES = {
     "flap_amplitude_deg": 1.25,
     "positive_power_per_mass": 2.0,
     "muscle_power_per_mass": 2.0,
+    "muscle_work_per_mass": 2.0,
+    "metabolic_rate": 2.0,
     "net_muscle_efficiency": 2.0,
     "flight_efficiency": 2.0,
+    "peak_activation": 1.0,
     "minimum_power_speed": 3.0,
 }
 
@@ -31,6 +34,7 @@ class Score:
     measurement : as read.
     speeds : the flown speeds to which it applies [m/s]; none for the speed of minimum power.
     predicted : lowest and highest prediction at these speeds; None if none is certified.
+    band : the same over the range of the animal's frequency, or over draws; None if neither was flown.
     ratio : lowest and highest ratio of prediction to the middle of the measured values; None without a prediction,
         or for the speed of minimum power.
     agrees : whether every prediction is within the measured range or differs from the nearer end of this range by
@@ -45,12 +49,14 @@ class Score:
     ratio: tuple[float, float] | None
     agrees: bool | None
     at_edge: bool = False
+    band: tuple[float, float] | None = None
 
 
 def compared(prediction: Prediction) -> list[Score]:
     """Return a score for each measurement that can be compared.
 
-    A measurement of muscle is left out if the model has no muscle.
+    A measurement of muscle is left out if the model has no muscle, and one of frequency if the animal was flown at
+    its own frequency, which is then an input. A measured frequency stays if a law gave that input.
 
     Parameters
     ----------
@@ -59,8 +65,23 @@ def compared(prediction: Prediction) -> list[Score]:
     return [
         _of_curve(prediction, one) if one.speeds is None else _at_speeds(prediction, one, one.speeds)
         for one in prediction.flights.measurements
-        if one.speeds is None or _is_known(prediction, one.quantity)
+        if (one.speeds is None or _is_known(prediction, one.quantity)) and not is_input(prediction, one)
     ]
+
+
+def is_input(prediction: Prediction, one: Measurement) -> bool:
+    """Return whether a measurement is of a frequency that the flights were given.
+
+    Parameters
+    ----------
+    prediction : from `predict_flights`.
+    one : one of its measurements.
+    """
+    if one.quantity != "frequency" or one.speeds is None:
+        return False
+    low, high = one.speeds
+    bases = {row.frequency_basis for row in prediction.flown if row.values and low <= row.speed <= high}
+    return bool(bases - {"free", "law"}) or (bases == {"law"} and one.basis != "measured")
 
 
 def _is_known(prediction: Prediction, quantity: str) -> bool:
@@ -89,7 +110,10 @@ def _at_speeds(prediction: Prediction, one: Measurement, speeds: tuple[float, fl
     ends, factor = (min(values), max(values)), AGREES[one.quantity] if low else 1.0
     middle = float(np.mean(one.values))
     agrees = low / factor <= ends[0] and ends[1] <= high * factor
-    return Score(one, at, ends, (ends[0] / middle, ends[1] / middle), agrees)
+    lows = [row.low[one.quantity] for row in rows if one.quantity in row.low]
+    highs = [row.high[one.quantity] for row in rows if one.quantity in row.high]
+    band = (min(lows), max(highs)) if lows else None
+    return Score(one, at, ends, (ends[0] / middle, ends[1] / middle), agrees, band=band)
 
 
 def words_of(score: Score) -> str:

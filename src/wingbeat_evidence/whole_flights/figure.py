@@ -44,9 +44,10 @@ _ALWAYS = ("positive_power_per_mass", "frequency", "flap_amplitude_deg")
 def flights_page(prediction: Prediction) -> Figure:
     """Return a figure of an animal's predicted flights and its measured ones.
 
-    The line with points is the prediction, and the band around it contains 80 % of the certified draws, in which
-    the animal's numbers vary. Boxes and bars are measured values: their height is a standard deviation either side
-    of the mean, or the range that the source gives. A vertical stripe marks the measured speed of minimum power.
+    The line with points is the prediction. The band around it contains 80 % of the certified draws, in which the
+    animal's numbers vary, or spans the range of its frequency. Boxes and bars are measured values: their height is
+    a standard deviation either side of the mean, or the range that the source gives. A vertical stripe marks the
+    measured speed of minimum power.
 
     Parameters
     ----------
@@ -78,7 +79,8 @@ def _draw(axes: Axes, prediction: Prediction, name: str) -> None:
     dress(axes, "speed [m/s]", textwrap.fill(name_of(name) + unit, _LETTERS))
     axes.tick_params(labelbottom=True)
     if np.isfinite(low).any():
-        label = "middle 80 % of the random draws"
+        drawn = any(one.drawn for one in prediction.flown)
+        label = "middle 80 % of the random draws" if drawn else "over the range of its frequency"
         axes.fill_between(speeds, low, high, color=BLUE, alpha=0.15, linewidth=0, label=label)
     axes.plot(speeds, values, "-o", color=BLUE, markersize=3, label="predicted", zorder=3)
     failed = ~np.isfinite(values)

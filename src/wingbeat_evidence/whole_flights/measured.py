@@ -15,8 +15,11 @@ COMPARED = (
     "flap_amplitude_deg",
     "positive_power_per_mass",
     "muscle_power_per_mass",
+    "muscle_work_per_mass",
+    "metabolic_rate",
     "net_muscle_efficiency",
     "flight_efficiency",
+    "peak_activation",
     "minimum_power_speed",
 )
 # How a number was found: measured on the animal, with a model of air or body, or by a law of other animals.
@@ -39,7 +42,8 @@ class Measurement:
     values : lowest and highest value, in the unit of the nomenclature; if a mean was published, the mean minus and
         plus one standard deviation.
     what : which and how many animals, and what the two values are.
-    source : where it is published.
+    source : where it is published; in the package's files, with a grade before it: A read in the source, B in an
+        abstract, C second-hand, D computed from these.
     """
 
     quantity: str
@@ -69,7 +73,7 @@ class MeasuredFlights:
     >>> import wingbeat_evidence as evidence
     >>> flights = evidence.read_measured_flights("pigeon")
     >>> flights.species, len(flights.measurements)
-    ('pigeon', 5)
+    ('pigeon', 9)
     """
 
     species: str

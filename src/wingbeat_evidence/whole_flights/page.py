@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from wingbeat._base import in_words
 from wingbeat_evidence.markdown import markdown_table
 from wingbeat_evidence.whole_flights.comparison import AGREES, Score, compared, ends_of, name_of, words_of
-from wingbeat_evidence.whole_flights.measured import COMPARED
+from wingbeat_evidence.whole_flights.measured import BASES, COMPARED
 from wingbeat_evidence.whole_flights.prediction import FEWEST_DRAWS, Flown, Prediction
 
 _FIT = (
@@ -16,37 +16,43 @@ _FIT = (
 )
 _OVERVIEW = """# Whole flights against measurements
 
-`python validation/whole_flights.py` writes this page. Each animal is flown with the model `animal`, at minimum
-metabolic power of the flight muscle, at the speeds of its measurements. {fit}
+`python validation/whole_flights.py` writes this page. Each animal is flown with the model `animal`, at its own
+frequency and at minimum metabolic power of the flight muscle, at the speeds of its measurements. {fit} All
+comparisons were listed before any was flown; a measured frequency is an input, and is compared only where a law
+gave the input.
 
 **{agree} of {known} comparisons agree.** {rule}
 
-- **Power agrees best.** The pigeon at 4.5 m/s needs 1.5 times the measured power. The cockatiel's muscle gives 54
-  to 85 W/kg from 7 to 11 m/s (measured: 40 to 120 over all speeds) and too much at 3 and 14 m/s. Predicted power is
-  least at 9 m/s for the cockatiel (measured: 10) and 12 m/s for the pigeon (estimated: 8 to 9).
-- **Frequency agrees worst.** It is about twice that of live animals in slow flight, and half of it at medium speed
-  for pigeon and zebra finch. No single number of the muscle explains this
-  ([what sets the frequency](frequency_trials.md)).
-- **The murre and puffins beat twice as fast as measured**, with smaller amplitudes. To carry their weight at 16 m/s
-  without flapping, their small wings need a mean lift coefficient of 1.0 to 1.25; our gliding wings stall at 1.4.
-  They may have flown faster than the 14 to 18.6 m/s that the authors assume; we have not tested that.
-- **The predicted muscle is too efficient**: 0.5, against 0.06 to 0.11. Measured metabolic power includes the rest
-  of the body and the recovery of the muscle, the predicted power does not.
-- **The muscle is too weak** where activation, the largest share of its fibres that a beat uses, exceeds 1: for
-  every animal at some speed, for murre, puffins and guillemot at all.
+{then}
+
+{findings}
 
 {table}
 
-Sources:
+*Predicted*: lowest and highest over the speeds; in parentheses, over the range of the frequency too. A letter
+before a source: A read in it, B in its abstract, C second-hand, D computed from these. Sources:
 
 {sources}
 
-Flights at each speed are in `data/whole_flights`; `wingbeat validate ANIMAL -o PAGE.md` tabulates them.
+## Inputs, strength and posture
 
 {flights}
 
+*Strong enough*: activation, the largest share of the muscle's fibres that a beat uses, is at most 1 wherever live
+animals were seen to fly; these comparisons are counted above. *Body*: mean pitch at the slowest and the fastest
+speed [deg]. Flights are in `data/whole_flights`; `wingbeat validate ANIMAL -o PAGE.md` tabulates them.
+
 {figures}
 """
+# What agreed when the frequency was searched for: of the comparisons of that time, by quantity.
+_THEN = {
+    "frequency": (0, 15),
+    "flap_amplitude_deg": (1, 9),
+    "positive_power_per_mass": (1, 1),
+    "muscle_power_per_mass": (0, 2),
+    "muscle_efficiency": (0, 2),
+    "minimum_power_speed": (2, 2),
+}
 _FLIGHT = """# Whole flights: {name}
 
 `wingbeat validate {species}{option} -o PAGE.md` writes this page. It computes the flight at each speed with the
@@ -81,8 +87,11 @@ IN_SHORT = {
     "flap_amplitude_deg": "flap amplitude [deg]",
     "positive_power_per_mass": "hinge power [W/kg]",
     "muscle_power_per_mass": "muscle power [W/kg]",
+    "muscle_work_per_mass": "muscle work [J/kg]",
+    "metabolic_rate": "metabolic rate [W]",
     "net_muscle_efficiency": "net efficiency of the muscle",
     "flight_efficiency": "efficiency of the flight",
+    "peak_activation": "activation",
     "minimum_power_speed": "speed of minimum power [m/s]",
 }
 _ABOUT_DRAWS = (
@@ -123,34 +132,38 @@ def flight_text(prediction: Prediction, figure: str, common_name: str) -> str:
     return text + (_DUE.format(table=markdown_table(["speed [m/s]", "quantity", "depends on"], due)) if due else "")
 
 
-def overview_text(predictions: Sequence[Prediction], figures: Sequence[str] = ()) -> str:
+def overview_text(predictions: Sequence[Prediction], figures: Sequence[str] = (), findings: str = "") -> str:
     """Return the page of all animals.
 
     Parameters
     ----------
     predictions : of all animals.
     figures : file names of their figures, in the same order; none are shown if not given.
+    findings : what follows from the comparisons, in Markdown.
     """
     scores = [(p.flights.species, score) for p in predictions for score in compared(p)]
-    known = [one.agrees for _, one in scores if one.agrees is not None]
-    sources = list(dict.fromkeys(one.measurement.source for _, one in scores))
+    known = [one for _, one in scores if one.agrees is not None]
+    listed = [one for one in scores if one[1].measurement.quantity != "peak_activation"]
+    sources = list(dict.fromkeys(one.measurement.source for _, one in listed))
     heads = ["animal", "quantity", "basis", "measured", "at [m/s]", "predicted", "agrees", "source"]
     rows = []
-    for species, one in scores:
+    for species, one in listed:
         measured = one.measurement
-        cells = [IN_SHORT[measured.quantity], measured.basis, ends_of(measured.values), _speeds(one)]
-        rows.append(
-            [species, *cells, ends_of(one.predicted), words_of(one), str(1 + sources.index(measured.source))]
-        )
+        predicted = ends_of(one.predicted) + ("" if one.band is None else f" ({ends_of(one.band)})")
+        cells = [IN_SHORT[measured.quantity], measured.basis, ends_of(measured.values), _speeds(one), predicted]
+        rows.append([species, *cells, words_of(one), str(1 + sources.index(measured.source))])
     return _OVERVIEW.format(
         fit=_FIT,
-        agree=sum(known),
+        agree=sum(one.agrees for one in known),
         known=len(known),
         rule=_rule(),
+        then=_then(known),
+        findings=findings,
         table=markdown_table(heads, rows),
         sources="\n".join(f"{i}. {source}" for i, source in enumerate(sources, 1)),
         flights=markdown_table(
-            ["animal", "flown at [m/s]", "certified", "activation"], map(_flights_of, predictions)
+            ["animal", "frequency [Hz]", "basis", "certified", "activation", "strong enough", "body"],
+            map(_flights_of, predictions),
         ),
         figures="\n\n".join(
             f"![{p.flights.species}: predicted and measured flight against speed]({one})"
@@ -159,24 +172,46 @@ def overview_text(predictions: Sequence[Prediction], figures: Sequence[str] = ()
     )
 
 
+def _then(known: Sequence[Score]) -> str:
+    """Return how many comparisons agree, by quantity and by basis, beside those of a frequency searched for."""
+    rows = []
+    for name, words in IN_SHORT.items():
+        now = [one.agrees for one in known if one.measurement.quantity == name]
+        before = _THEN.get(name) if name != "net_muscle_efficiency" else _THEN["muscle_efficiency"]
+        if now or before:
+            said = "-" if before is None else "{} of {}".format(*before)
+            rows.append([words.split(" [")[0], said, f"{sum(map(bool, now))} of {len(now)}" if now else "input"])
+    for basis in BASES:
+        now = [one.agrees for one in known if one.measurement.basis == basis]
+        rows.append([f"*{basis}*", "-", f"{sum(map(bool, now))} of {len(now)}"])
+    return markdown_table(["agree", "frequency searched for", "at its own frequency"], rows)
+
+
 def _flights_of(prediction: Prediction) -> list[str]:
-    """Return what was flown, in a row: speeds, how many are certified, lowest and highest activation."""
-    flown = prediction.flown
-    active = [one.peak_activation for one in flown if one.values and one.peak_activation is not None]
-    ends = f"{min(active):.2g} to {max(active):.2g}" if active else "-"
-    certified = sum(bool(one.values) for one in flown)
+    """Return what was flown, in a row: inputs, how many are certified, activation, posture."""
+    flown = [one for one in prediction.flown if one.values]
+    strong = [one for one in compared(prediction) if one.measurement.quantity == "peak_activation"]
+    active = [one.peak_activation for one in flown if one.peak_activation is not None]
+    pitches = [one.body_pitch_deg for one in flown if one.body_pitch_deg is not None]
     return [
         prediction.flights.species,
-        ends_of((flown[0].speed, flown[-1].speed)),
-        f"{certified} of {len(flown)}",
-        ends,
+        _span([one.values["frequency"] for one in flown]),
+        " and ".join(sorted({one.frequency_basis for one in flown})),
+        f"{len(flown)} of {len(prediction.flown)}",
+        "-" if not active else f"{min(active):.2g} to {max(active):.2g}",
+        words_of(strong[0]) if strong else "-",
+        f"{pitches[0]:.0f}, {pitches[-1]:.0f}" if pitches else "-",
     ]
+
+
+def _span(values: Sequence[float]) -> str:
+    return ends_of((min(values), max(values)) if values else None)
 
 
 def _rule() -> str:
     by_factor: dict[float, list[str]] = {}
     for name, words in IN_SHORT.items():
-        if name != "minimum_power_speed":
+        if name not in ("minimum_power_speed", "peak_activation"):
             by_factor.setdefault(AGREES[name], []).append(words.split(" [")[0])
     factors = ", and ".join(f"{factor:g} for {_listed(names)}" for factor, names in by_factor.items())
     return (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -12,10 +13,12 @@ import numpy as np
 from wingbeat._base import FaultList, Report, Reported
 from wingbeat._jax.arrays import jnp
 from wingbeat.animal.species.making import load_species
-from wingbeat.models import model_of
+from wingbeat.animal.species.species import Species
+from wingbeat.models import Model, model_of
 from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.problem.quantity import Quantity
+from wingbeat.orbits.solution import search_near
 from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.uncertainty import Samples, sample_orbits
 from wingbeat.results.orbit import Orbit, solve_orbits
@@ -47,7 +50,11 @@ class Flown:
     values : quantities of a certified orbit, in the units of the nomenclature; empty without one.
     peak_activation : largest share of the muscle's fibres that the beat uses; None without muscle.
     active_bounds : free parameters that are at a bound.
-    low, high : the band of each quantity: 10th and 90th percentile of the certified draws; empty without draws.
+    frequency_basis : where the frequency comes from: ``"measured"``, ``"law"``, ``"given"`` or ``"free"``.
+    frequency_range : plausible range of the animal's own frequency [Hz]; None if it was not flown at that.
+    body_pitch_deg : mean pitch of the body [deg]; None without an orbit.
+    low, high : the band of each quantity: 10th and 90th percentile of the certified draws; without draws, over the
+        range of the frequency if it was asked for, else empty.
     drawn, certified : number of draws of the animal's numbers, and number of draws that fly.
     due_to : for each quantity, the numbers of the animal that are most correlated with it over the draws, each with
         the square of the rank correlation; empty with fewer than 100 certified draws.
@@ -59,6 +66,9 @@ class Flown:
     values: dict[str, float]
     peak_activation: float | None = None
     active_bounds: tuple[str, ...] = ()
+    frequency_basis: str = "free"
+    frequency_range: tuple[float, float] | None = None
+    body_pitch_deg: float | None = None
     low: dict[str, float] = field(default_factory=dict)
     high: dict[str, float] = field(default_factory=dict)
     drawn: int = 0
@@ -141,7 +151,10 @@ class Prediction(Reported):
         flights : the measured flights.
         plain : from `plain`, also by way of JSON.
         """
-        rows = [row | {"active_bounds": tuple(row["active_bounds"])} for row in plain["flown"]]
+        pairs = ("active_bounds", "frequency_range")
+        rows = [
+            row | {name: tuple(row[name]) for name in pairs if row.get(name) is not None} for row in plain["flown"]
+        ]
         return cls(flights, plain["model"], plain["objective"], tuple(Flown(**row) for row in rows))
 
     @property
@@ -159,6 +172,7 @@ def predict_flights(
     seed: int = 0,
     processes: int = 1,
     progress: Progress | None = None,
+    frequency_band: bool = False,
 ) -> Prediction:
     """Fly an animal at the speeds of its measured flights.
 
@@ -175,6 +189,8 @@ def predict_flights(
     seed : of starts and draws.
     processes : Python processes that share the draws.
     progress : called with (flights and draws done, flights and draws in all).
+    frequency_band : without draws, fly each speed also at both ends of the range of the animal's own frequency,
+        with one search from its orbit.
 
     Raises
     ------
@@ -201,6 +217,8 @@ def predict_flights(
         _flown(orbit, draws, seed, processes, _after(progress, len(problems) + i * draws, total))
         for i, orbit in enumerate(orbits)
     ]
+    if frequency_band and not draws:
+        flown = [_between_ends(chosen, species, *both) for both in zip(orbits, flown, strict=True)]
     return Prediction(flights, model, problems[0].minimise.name, tuple(flown))
 
 
@@ -218,10 +236,33 @@ def _flown(orbit: Orbit, draws: int, seed: int, processes: int, progress: Progre
     known: dict[str, Any] = {
         "peak_activation": record.get("peak_activation"),
         "active_bounds": tuple(record["active_bounds"]),
+        "frequency_basis": orbit.problem.frequency_basis,
+        "body_pitch_deg": next(
+            (math.degrees(one["value"]) for one in record["plausibility"] if one["name"] == "mean_body_pitch"), None
+        ),
     }
+    if known["frequency_basis"] in ("measured", "law"):
+        known["frequency_range"] = orbit.problem.species.own_frequency(orbit.problem.speed).range
     if draws:
         known |= _band(orbit, _quantities(values), draws, seed, processes, progress)
     return Flown(*about, values, **known)
+
+
+def _between_ends(model: Model, species: Species, orbit: Orbit, flown: Flown) -> Flown:
+    """Return the flight with the band over the range of its frequency; without it if neither end flies."""
+    if flown.frequency_range is None:
+        return flown
+    found = [flown.values]
+    for frequency in flown.frequency_range:
+        problem = dataclasses.replace(model, frequency=frequency).problem(species, speed=flown.speed)
+        near = search_near(problem, orbit.unknowns)
+        if near is not None:
+            found.append(_values(Orbit.of(near, 1).record(), problem.model.vehicle.mass))
+    if len(found) == 1:
+        return flown
+    ends = {name: [one[name] for one in found] for name in flown.values}
+    low, high = ({name: end(values) for name, values in ends.items()} for end in (min, max))
+    return dataclasses.replace(flown, low=low, high=high)
 
 
 def _values(record: dict[str, Any], mass: float) -> dict[str, float]:

@@ -1,5 +1,6 @@
 """Scores of predictions that are written down by hand, and the pages and figures made of them."""
 
+import dataclasses
 import json
 
 import pytest
@@ -73,8 +74,43 @@ def test_muscle_is_compared_only_where_the_model_has_one():
     assert score.agrees
 
 
+def at_own_frequency(found, basis):
+    rows = [
+        dataclasses.replace(row, frequency_basis=basis, frequency_range=(5.0, 9.0), body_pitch_deg=4.0)
+        for row in found.flown
+    ]
+    return dataclasses.replace(found, flown=tuple(rows))
+
+
+@pytest.mark.parametrize(
+    ("flown", "measured", "is_compared"),
+    [
+        ("free", "measured", True),
+        ("free", "law", True),
+        ("law", "measured", True),
+        ("law", "law", False),
+        ("measured", "measured", False),
+        ("given", "measured", False),
+    ],
+)
+def test_a_frequency_that_was_given_is_no_prediction(flown, measured, is_compared):
+    found = prediction(measurement("frequency", (6.0, 10.0), (6.0, 7.0), measured))
+    assert bool(compared(at_own_frequency(found, flown))) is is_compared
+
+
+def test_the_band_of_a_comparison_is_the_widest_over_its_speeds():
+    found = at_own_frequency(prediction(measurement("frequency", (6.0, 8.0), (6.0, 7.0))), "law")
+    (score,) = compared(found)
+    assert score.predicted == (6.0, 8.0)
+    assert score.band == pytest.approx((0.9 * 6.0, 1.2 * 8.0))
+    text = overview_text([found], findings="- A finding.")
+    assert "6 to 8 (5.4 to 9.6)" in text
+    assert "- A finding." in text
+    assert "| pigeon | 6 to 8 | law | 3 of 4 | 0.8 to 0.8 | - | 4, 4 |" in text
+
+
 def test_a_prediction_is_kept_as_plain_values():
-    found = prediction(measurement("frequency", (6.0, 10.0), (6.0, 7.0)))
+    found = at_own_frequency(prediction(measurement("frequency", (6.0, 10.0), (6.0, 7.0))), "law")
     again = Prediction.of_plain(found.flights, json.loads(json.dumps(found.plain())))
     assert again == found
 

@@ -339,6 +339,14 @@ def test_on_the_command_line(capsys):
     assert "beauty" in capsys.readouterr().err
 
 
+def test_at_the_animals_own_frequency_there_is_one_start_in_each_family():
+    own, limited = (
+        wb.models.animal(BAT).problem(BAT, SPEED, subject_to=some) for some in ((), "body_pitch_range<=40 deg")
+    )
+    assert start_count(own) == len(wb.SearchOptions().start_families)
+    assert start_count(own) < start_count(limited) == start_count(wb.models.animal(BAT, "free").problem(BAT, SPEED))
+
+
 def test_a_wingbeat_bounded_more_tightly_is_sought_from_more_starts():
     tight, held = (wb.OrbitProblem(BAT, SPEED, subject_to=f"flap_amplitude{sign}50 deg") for sign in ("<=", "="))
     assert start_count(tight) > start_count(held)

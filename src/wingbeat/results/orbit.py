@@ -352,8 +352,8 @@ def solve_orbit(
     problem : the orbit problem.
     starts : number of starts; more may find better optima. The default is 24 if the wingbeat's bounds differ from
         the species', or if the largest value of a series is minimised. In other cases, the default is 12 if the
-        objective or a limit is a quantity of the flown wingbeat. In all remaining cases it is 6. The default is 1
-        with `start`.
+        objective or a limit is a quantity of the flown wingbeat, unless there is no limit and the animal beats at
+        its own frequency. In all remaining cases it is 6. The default is 1 with `start`.
     seed : of the random starts; the same seed gives the same orbit.
     progress : called with (starts done, starts in all).
     options : every tuning number of the solvers, with the measurement behind it.

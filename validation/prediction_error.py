@@ -74,7 +74,8 @@ def errors(table: pd.DataFrame) -> Iterator[Error]:
     for animal in ANIMALS:
         flown = table[(table["animal"] == animal) & (table["status"] == "converged")]
         for one in read_measured_flights(animal).measurements:
-            if one.speeds is None or one.values[0] == 0:  # an upper limit has no middle
+            # An upper limit has no middle; the table may be older than the list of measurements.
+            if one.speeds is None or one.values[0] == 0 or one.quantity not in flown:
                 continue
             for band in bands(one.speeds):
                 rows = flown[flown["speed"].between(*band)]
@@ -98,7 +99,7 @@ def error(animal: str, one: Measurement, band: tuple[float, float], rows: pd.Dat
     low, high = one.values
     factor = AGREES[one.quantity]
     ranked = values.rank()
-    found = {path: float(ranked.corr(rows[path].rank())) for path in ranges(animal)}
+    found = {path: float(ranked.corr(rows[path].rank())) for path in rows if "." in path or path == "speed"}
     best = sorted((path for path in found if not np.isnan(found[path])), key=lambda path: -abs(found[path]))
     ends = np.percentile(values / np.mean(one.values), [10, 50, 90])
     return Error(

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 import pandas as pd
 from page_script import filled
-from prediction_error_flights import ANIMALS, flown_sets, ranges
+from prediction_error_flights import ANIMALS, flown_sets
 
 from wingbeat._base import label_of, write_atomically
 from wingbeat._base.style import BLUE, FONT, GOOD, GREY, PAGE, drawing, dress, new_figure

@@ -276,7 +276,16 @@ class BladeElement:
         return kernel if self.upstroke_factor == 1 else UpstrokeKernel(kernel, self.upstroke_factor)
 
     def wake_lag(self, aspect_ratio: float) -> WakeLag | None:
-        """Return the numbers of the lag of the wake for wings of an aspect ratio; None without it."""
+        """Return the numbers of the lag of the wake for wings of an aspect ratio; None without it.
+
+        Parameters
+        ----------
+        aspect_ratio : of both wings together, a ratio.
+
+        Raises
+        ------
+        InvalidInputError : an aspect ratio at which the lag of a finite wing is not known.
+        """
         if self.wake == "none":
             return None
         faults = FaultList()

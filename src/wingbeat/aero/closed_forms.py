@@ -205,7 +205,7 @@ def crossflow_force(area: Scalar, density: Scalar, normal: Pair, velocity: Pair,
     Theory: equation ``crossflow-force``.
 
     >>> forward, up = crossflow_force(0.01, 1.225, (0.0, 1.0), (10.0, -1.0))
-    >>> abs(forward), round(up, 6)
+    >>> abs(float(forward)), round(float(up), 6)
     (0.0, 0.006125)
     """
     across = velocity[0] * normal[0] + velocity[1] * normal[1]

@@ -248,7 +248,7 @@ def _base(
         return None
     free, limits = tuple(form.free or ()), tuple(chosen["subject_to"])
     parts = made["species"], made["aero"], made["minimise"], free, made["bounds"], limits, search
-    recipe = Recipe(*parts, made["own_frequency"])
+    recipe = Recipe(*parts, made["own_frequency"], made["own_posture"])
     try:
         _ = recipe.example
         inputs = recipe.inputs()

@@ -22,6 +22,7 @@ from wingbeat.aero.polar_formats import POLAR_SUFFIXES
 from wingbeat.animal.species.building import NO_SUCH_PATH, settable
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.numbers import KEYS, Key, shown, spoken
+from wingbeat.animal.species.posture import with_posture
 from wingbeat.animal.species.species import Species
 from wingbeat.models import Model, model_of
 from wingbeat.orbits.problem.origin import Origin
@@ -133,6 +134,7 @@ class Recipe:
     subject_to: tuple[str, ...]
     search: dict[str, Any]
     own_frequency: bool = False  # whether each point flies at the frequency of the animal at its speed
+    own_posture: bool = False  # and with the bounds of its body's pitch
 
     def problem(self, changes: Mapping[str, Any]) -> OrbitProblem:
         """Return the problem of a point, whose changes by path must have a speed among them."""
@@ -142,13 +144,16 @@ class Recipe:
         if self.own_frequency:
             species = species.at_own_frequency(changes["speed"])
             free = tuple(name for name in species.free if name != "frequency")
+        if self.own_posture:
+            species = with_posture(species, changes["speed"])
+        own = self.own_frequency or self.own_posture
         problem = OrbitProblem(
             species,
             speed=changes["speed"],
             climb=changes.get("climb", 0.0),
             aero=self._aero({path: changes[path] for path in _CHOICES if path in changes}),
             free=free,
-            origin=Origin("animal", (), own_frequency=True) if self.own_frequency else None,
+            origin=Origin("animal", (), (), self.own_frequency, self.own_posture) if own else None,
             bounds=self.bounds,
             minimise=from_inputs(self.objective),
             subject_to=self.subject_to,
@@ -238,7 +243,7 @@ class Recipe:
             "bounds": bounds if isinstance(bounds := self.bounds, str) else {n: list(b) for n, b in bounds.items()},
             "subject_to": list(self.subject_to),
             "search": self.search,
-            **({"own_frequency": True} if self.own_frequency else {}),
+            **{name: True for name in ("own_frequency", "own_posture") if getattr(self, name)},
         }
 
     def described(self) -> dict[str, Any]:
@@ -259,6 +264,7 @@ def recipe_from(inputs: Mapping[str, Any]) -> Recipe:
         tuple(inputs["subject_to"]),
         inputs["search"],
         inputs.get("own_frequency", False),
+        inputs.get("own_posture", False),
     )
 
 
@@ -327,12 +333,17 @@ def makers_of(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...],
         searched = form.free or ("minimise" in form.model_fields_set and name == "frequency")
         return not searched and flown(species, model)[1].frequency == "own"
 
+    def own_posture(species: str, model: str) -> bool:
+        given = isinstance(form.bounds, dict) and {"body_pitch", "body_pitch_deg"} & {*form.bounds}
+        return model == "animal" and flown(species, model)[0].kind != "robot" and not given
+
     of_model = "species", "model"
     makers = {
         "species": (of_model, animal),
         "aero": ((*of_model, "aero", *OF_COEFFICIENTS, *OF_ELEMENTS), loads),
         "minimise": ((*of_model, "minimise"), objective),
         "own_frequency": ((*of_model, "minimise"), own_frequency),
+        "own_posture": (of_model, own_posture),
         "bounds": ((), lambda: given if isinstance(given := form.bounds, str) else _bounds(given)),
     }
     return {name: (keys, functools.cache(make)) for name, (keys, make) in makers.items()}

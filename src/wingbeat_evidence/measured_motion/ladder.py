@@ -96,8 +96,10 @@ def _rung(model: CoefficientModel, step: str, flow: str, induced_factor: float) 
 
 
 def _model(given: Any, extension: str | None) -> CoefficientModel:
-    named = extension is not None and isinstance(given, str | Path)
-    model = load_coefficients(given, extension) if named else coefficients_of(given)
+    if extension is not None and isinstance(given, str | Path):
+        model = load_coefficients(given, extension)
+    else:
+        model = coefficients_of(given)
     if isinstance(model, FamilyCoefficients):
         rule = "depends on the Reynolds number, and a measured motion states no viscosity"
         raise InvalidInputError([Fault("aero", model.name, rule, "give the polar of one Reynolds number")])

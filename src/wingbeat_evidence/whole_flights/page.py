@@ -154,7 +154,7 @@ def overview_text(predictions: Sequence[Prediction], figures: Sequence[str] = ()
         rows.append([species, *cells, words_of(one), str(1 + sources.index(measured.source))])
     return _OVERVIEW.format(
         fit=_FIT,
-        agree=sum(one.agrees for one in known),
+        agree=sum(one.agrees is True for one in known),
         known=len(known),
         rule=_rule(),
         then=_then(known),

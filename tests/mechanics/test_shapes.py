@@ -81,7 +81,7 @@ def fits(value, hint) -> bool:
         if value is None:
             return False
         kinds, values = typing.get_args(hint), tuple(value)
-        kinds = kinds[:1] * len(values) if kinds[-1] is Ellipsis else kinds
+        kinds = kinds[:1] * len(values) if kinds[-1:] == (Ellipsis,) else kinds
         return len(kinds) == len(values) and all(map(fits, values, kinds))
     if isinstance(value, tuple) and hasattr(value, "_fields"):
         left_out = {name for name, default in value._field_defaults.items() if default is getattr(value, name)}
@@ -240,7 +240,7 @@ def test_a_wrong_shape_is_found(flown, calls):
     body = importlib.import_module("wingbeat.mechanics.flight_model").body_rates
     table = motion_table(model, wingbeat, np.linspace(0.0, 1.0, 5))
     body(model, table, np.zeros((4, 5)))
-    with pytest.raises(AssertionError, match=r"body_rates: pitch_state is \(4, 6\)"):
+    with pytest.raises(AssertionError, match=r"body_rates: state is \(4, 6\)"):
         body(model, table, np.zeros((4, 6)))
     with pytest.raises(AssertionError, match="body_rates: motion"):
         body(model, table._replace(pitch=table.pitch[:3]), np.zeros((4, 5)))

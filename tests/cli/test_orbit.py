@@ -20,7 +20,8 @@ from wingbeat.cli import main
 # The names of the record as it is documented.
 NAMES = {
     "": "status message species model vehicle aero air speed climb objective objective_value constraints wingbeat "
-    "frequency_basis initial_state active_bounds closure failed_balance relaxations optimality starts distinct_optima "
+    "frequency_basis "
+    "initial_state active_bounds closure failed_balance relaxations optimality starts distinct_optima "
     "starts_at_best plausibility "
     "mean_power peak_power mean_positive_power mean_actuator_power peak_actuator_power cost_of_transport "
     "body_pitch_range strouhal reduced_frequency reynolds alpha_quarter_span alpha_three_quarter_span "

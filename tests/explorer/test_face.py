@@ -95,7 +95,7 @@ def test_of_derived_numbers_the_face_says_how_many_there_are():
     flown = wb.models.animal(wb.load_species("pigeon")).species(wb.load_species("pigeon"))
     shorter = [face._shorter(text) for text in (*flown.warnings, "the speed is odd")]
     assert shorter == [
-        "numbers from scaling laws, not measured: 4 of the tail, 6 of the muscle",
+        "numbers from scaling laws, not measured: 1 of the body, 4 of the tail, 8 of the muscle",
         "the speed is odd",
     ]
 

@@ -38,9 +38,12 @@ def test_each_case_names_its_folder_source_and_licence():
 @pytest.mark.slow
 @pytest.mark.parametrize("experiment", [1, 2, 3, 4])
 def test_a_dragonfly_is_carried(found, experiment):
-    """Mean upward force 0.8 to 1.2 of the required one, by the row that the rule recommends."""
+    """Mean upward force 0.8 to 1.2 of the required one, by the row that the rule recommends.
+
+    In the first, flow is attached too seldom for rotation and added mass.
+    """
     row = found[f"dragonfly-azuma1988-{experiment}"].recommended
-    assert terms(row) == ("dickinson", "thin-aerofoil", "none")
+    assert terms(row) == ("dickinson", "none" if experiment == 1 else "thin-aerofoil", "none")
     assert 0.8 < row.fz.mean_ratio < 1.2
 
 

@@ -143,3 +143,12 @@ def test_the_headline_says_that_the_frequency_is_given(capsys):
     assert main([*line.split(), "--frequency", "6.5", "--json"]) == 0
     record = json.loads(capsys.readouterr().out)
     assert (record["frequency_basis"], record["wingbeat"]["frequency"]) == ("given", 6.5)
+
+
+def test_a_file_without_its_kind_is_read_though_only_laws_complete_its_muscle(tmp_path):
+    path = tmp_path / "kindless.toml"
+    path.write_text(species_text(PIGEON).replace('kind = "bird"\n', "", 1))
+    kindless = wb.load_species(path)
+    assert kindless.kind == ""
+    with pytest.raises(wb.InvalidInputError, match='write kind = "bird" or kind = "bat" into its file'):
+        kindless.with_alternative("muscle")

@@ -39,7 +39,7 @@ from wingbeat.animal.species.numbers import (
 from wingbeat.animal.species.reading import packaged_text, read_species_text, species_names
 from wingbeat.animal.species.scaling import tail_numbers
 from wingbeat.animal.species.shape import shape_of
-from wingbeat.animal.species.species import Species
+from wingbeat.animal.species.species import MUSCLE, Species
 
 # Nose straight up or down: the limit where a file sets none.
 _UPRIGHT = (-math.pi / 2, math.pi / 2)
@@ -123,7 +123,8 @@ def species_of(content: SpeciesText, faults: FaultList) -> Species:
         **records,
     )
     for name in content.alternatives:
-        species.with_alternative(name)  # which refuses one that is impossible
+        if name != MUSCLE or species.kind in ("bird", "bat"):  # the laws of its kind complete the muscle's masses
+            species.with_alternative(name)  # which refuses one that is impossible
     return species
 
 

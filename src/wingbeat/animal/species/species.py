@@ -58,7 +58,7 @@ from wingbeat.animal.vehicle import Air, Vehicle
 
 FREQUENCY = "wingbeat.frequency"
 _SET_BY_HAND = f"{BY_HAND} in place of"
-_MUSCLE = "muscle"  # the alternative with measured masses of the flight muscle
+MUSCLE = "muscle"  # the alternative with measured masses of the flight muscle
 
 
 @dataclass(frozen=True)
@@ -351,7 +351,7 @@ class Species(Reported):
             fix = 'write kind = "bird" or kind = "bat" into its file, or give the numbers muscle.* yourself'
             faults.add("kind", self.kind, "has no laws of muscle", fix)
         faults.raise_if_any()
-        measured = self.alternatives[_MUSCLE].numbers if _MUSCLE in self.alternatives else {}
+        measured = self.alternatives[MUSCLE].numbers if MUSCLE in self.alternatives else {}
         return self.with_derived(muscle_numbers(self.vehicle.mass, self.kind == "bat") | measured)
 
     def with_derived(self, numbers: Mapping[str, Number]) -> Species:
@@ -387,7 +387,7 @@ class Species(Reported):
             fix = suggest(str(name), self.alternatives) if self.alternatives else f"{self.name} has none"
             faults.add("alternative", name, "is unknown", fix)
             faults.raise_if_any()
-        if name == _MUSCLE:
+        if name == MUSCLE:
             return self.with_muscle()  # a file gives masses alone
         numbers, patch = dict(self.numbers), self.alternatives[name].numbers
         for path, number in patch.items():

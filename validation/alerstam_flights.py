@@ -157,7 +157,7 @@ def problem_of(model: str, bird: Bird, speed: float, **changes: Any) -> wb.Orbit
     """Return the problem of a bird's flight at a speed [m/s], of least power unless `changes` say otherwise."""
     species = bird.species
     least = "mean_positive_power" if model == PAPER else "metabolic_power"
-    # The flights of the table by `animal` are those of numerical version 9, which searched for the frequency.
+    # The flights of the table by `animal` are those of numerical version 8, which searched for the frequency.
     return model_of(model, species, "free").problem(species, speed, **{"minimise": least, **changes})
 
 

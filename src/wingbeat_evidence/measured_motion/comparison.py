@@ -39,7 +39,7 @@ class ValidationRow:
 
     Attributes
     ----------
-    aero : the air loads, without the lag of the wake.
+    aero : the air loads.
     unsteady : "none", "thin-aerofoil" or "thin-aerofoil-wake".
     recommended : whether the rule of `measured_motion.choice` recommends this row; exactly one row
         is recommended.

@@ -5,7 +5,7 @@ import pytest
 
 import wingbeat as wb
 from wingbeat._base import FaultList
-from wingbeat._base.sheets import MAX_CONSTANTS, check_unit, parse_numbers, read_sheet, split_unit
+from wingbeat._base.sheets import MAX_CONSTANTS, check_unit, number_in, parse_numbers, read_sheet, split_unit
 
 
 @pytest.mark.parametrize("heading", ["x_cp", "x_cp [-]", "x_cp (-)", "x_cp [1]", "x_cp []"])
@@ -164,3 +164,12 @@ def test_a_number_whose_square_overflows_is_refused(tmp_path, cell):
     (large,) = refused(tmp_path, f"time,flap_deg\n0,1\n1,{cell}\n")
     assert "row 3, column flap_deg" in large
     assert "larger than any measurement" in large
+
+
+def test_what_python_alone_takes_for_numbers_is_refused(tmp_path):
+    assert [number_in(cell) for cell in ("1_000", "\u0661\u0662", "0x10", "")] == [None] * 4
+    (tmp_path / "t.csv").write_text("a,b\n1,2\n1_000,3\n")
+    faults = FaultList()
+    parse_numbers(faults, read_sheet(tmp_path / "t.csv"), ["a", "b"])
+    with pytest.raises(wb.InvalidInputError, match=r"t.csv row 3, column a = '1_000': is not a number"):
+        faults.raise_if_any()

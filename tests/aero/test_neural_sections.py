@@ -113,6 +113,7 @@ def test_a_section_becomes_a_family_in_two_commands(capsys, tmp_path, monkeypatc
         ("polar --section naca0012", "give the wing's Reynolds numbers, such as --re 2e4 5e4 1e5"),
         ("polar --section naca0012 --re 500", "NeuralFoil was trained from Re 1000"),
         ("polar --section naca0012 --re 5e4 -o wing.png", "write wing.csv; then wingbeat polar draws it"),
+        ("polar --section naca0012 --re 5e4 --about 0.25 --alpha 0:9:1", "leave out --alpha, --about; save the"),
         ("polar --section naca00 --re 5e4", "give NACA digits (naca0012), a file of coordinates"),
         ("polar --section naca4400 --re 5e4", "the last two digits are the thickness"),
         ("polar --section plate4 --re 5e4", "for example plate0.04 for 4 per cent"),

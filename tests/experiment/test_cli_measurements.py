@@ -194,7 +194,12 @@ def test_bad_tables_are_refused_by_row_and_column(case, here, capsys):
     ("words", "part"),
     [
         ("reduce run.csv -o c.txt", "--output = 'c.txt': is not a table; end it in .csv"),
-        ("reduce run.csv -o run.csv", "is one of the runs"),
+        (
+            "reduce run.csv -o run.csv",
+            "--output = 'run.csv': is a file that the command reads; choose another name",
+        ),
+        ("reduce absent.csv --tare run.csv -o ./run.csv", "is a file that the command reads"),
+        ("fit c.csv d.csv", "fit has no place for 'd.csv'; leave out what is too much, or write the option"),
         ("reduce run.csv -o c.csv --last -1", "--last = -1.0: must be > 0 s"),
         ("reduce run.csv -o c.csv --last 60", "last = 60.0: is longer than the record of run.csv, 30 s"),
         ("reduce absent.csv -o c.csv", "cannot read 'absent.csv': no such file"),

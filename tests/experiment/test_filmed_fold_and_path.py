@@ -3,6 +3,7 @@
 import json
 import math
 import re
+import shlex
 import subprocess
 import sys
 
@@ -76,6 +77,32 @@ def test_a_body_that_slows_down_is_said_and_its_deceleration_is_part_of_the_miss
     spread = np.std([one.velocity[0] for one in path.draws(40)])
     # The error of a slope through 240 places, about.
     assert spread == pytest.approx(1e-3 * math.sqrt(12 / 240) / 0.48, rel=0.6)
+
+
+def test_the_errors_of_wing_and_path_are_independent_though_drawn_with_one_seed():
+    # Drawn from one stream, as before, an error of the wing was an error of the path.
+    time = np.arange(120) / 240
+    columns = {"flap_deg": 40 * np.cos(2 * np.pi * 7 * time), "body_x_m": 8 * time}
+    columns = {name: one + 0.01 * np.random.default_rng(4).normal(size=120) for name, one in columns.items()}
+    beat, pigeon = fit_film(Film("f", 7 * time, columns, 7.0)), wb.load_species("pigeon").wingbeat
+    path = fit_body_path(beat)
+    wings = [beat.draws(pigeon, 1, seed)[0] for seed in range(300)]
+    wings = np.array([[one.flap_mean, one.flap_amplitude, *one.flap_harmonics] for one in wings])
+    moved = [path.draws(1, seed)[0] for seed in range(300)]
+    paths = np.array([[one.velocity[0], *one.series[0]] for one in moved])
+    alike = np.corrcoef(wings.T, paths.T)[: wings.shape[1], wings.shape[1] :]
+    # The largest of 300 correlations of chance is about 0.17.
+    assert np.nanmax(np.abs(alike)) < 0.3
+    assert path.draws(2, 5)[1].series.tolist() == path.draws(2, 5)[1].series.tolist()
+
+
+def test_numbers_of_numpy_are_written_as_numbers(tmp_path):
+    phase = np.arange(60) / 30
+    columns = {"flap_deg": 40 * np.cos(2 * np.pi * phase)}
+    numbers = {"frequency": 7.5, "frequency_se": 0.02, "wrist": 0.4, "semi_span": 0.31}
+    Film("f", phase, columns, **{name: np.float64(one) for name, one in numbers.items()}).save(tmp_path / "f.csv")
+    film = read_film(tmp_path / "f.csv")
+    assert {name: getattr(film, name) for name in numbers} == numbers
 
 
 @pytest.mark.parametrize("shuffled", [False, True])
@@ -166,16 +193,20 @@ def test_three_commands_say_whether_a_flight_is_trimmed_what_force_is_missing_an
         return done.stdout
 
     points = ["--points", "shoulder,wrist,tip,trailing", "--frame-rate", "500", "--side", "left", "--up=-y"]
-    first = said("film", "day_xyzpts.csv", *points, "-o", "film.csv")
-    assert "wingbeat simulate SPECIES --kinematics film.csv" in first
-    second = said("simulate", "pigeon", "--kinematics", "film.csv", "--model", model)
+    first = said("film", "day_xyzpts.csv", *points, "-o", "the film.csv")
+    (last,) = re.findall(r"next, .*: wingbeat (simulate .*)", first)
+    assert shlex.split(last) == ["simulate", "SPECIES", "--kinematics", "the film.csv", "--model", "animal"]
+    own = ["--set", "air.viscosity=1.5e-05", "--induced-factor", "1.2"]
+    second = said("simulate", "pigeon", "--kinematics", "the film.csv", *own, "--model", model)
     assert re.match(r"trimmed: (no, on average the model gives .* \+- .* of the weight too|yes)", second)
     for name in ("missing force forward: mean", "missing force up: mean", "mean power of the hinges:"):
         assert re.search(rf"{name} -?[\d.]+ \+- [\d.]+", second), name
     (speed,) = re.findall(r"mean forward velocity: ([\d.]+) \+-", second)
     assert float(speed) == pytest.approx(40 * 0.28 * math.cos(math.radians(1)), abs=0.01)
     (last,) = re.findall(r"next, .*: wingbeat (orbit .*)", second)
-    third = said(*last.split())
+    words = shlex.split(last)
+    assert all(one in words for one in ("the film.csv", *own)), last
+    third = said(*words)
     # With the paper's loads no trim holds this wingbeat in the air, and the answer says what is short. By the model
     # animal, whose body meets the air at an angle, thrust is short at 6.5 Hz too (3.7 % of the weight).
     power = r"hinges, mean: [\d.]+ \+- [\d.]+ W"

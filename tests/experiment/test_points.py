@@ -128,6 +128,26 @@ def test_random_wingbeats_are_found_in_any_axes_with_one_per_cent_of_noise(count
     assert all(0.90 <= share <= 0.99 for share in told.values()), told
 
 
+def test_a_shoulder_that_is_the_origin_of_the_axes_is_no_gap():
+    at = tracked(points_of(BEAT, TIME))
+    fixed = {role: one - at["shoulder"] for role, one in at.items()}
+    told = angles_from_points(made(fixed), up="z", forward="x", side="left").record()
+    assert told["gaps"]["shoulder"] == 0
+    for name, true in truths(BEAT).items():
+        assert told[name] == pytest.approx(true, abs=0.05), name
+
+
+@pytest.mark.parametrize("kind", ["made", "DLTdv", "Qualisys .tsv", "OpenSim .trc", "C3D"])
+def test_zeros_are_gaps_where_the_program_means_them_so_and_else_a_warning(kind):
+    at = tracked(points_of(BEAT, TIME))
+    at["tip"][10:13] = 0.0
+    seen = TrackedPoints("a clip", kind, at, None, np.arange(120.0), 240.0)
+    said = "a clip, tip: 3 frames at exactly (0, 0, 0) are taken"
+    assert np.isnan(seen.positions["tip"]).all(axis=1).sum() == (0 if kind == "made" else 3)
+    assert [one.startswith(said) for one in seen.warnings] == [True] * (kind == "made")
+    assert [one.startswith(said) for one in seen.notes] == [True] * (kind != "made")
+
+
 @pytest.mark.parametrize("axes", TURNS)
 @pytest.mark.parametrize("side", ["left", "right"])
 def test_without_noise_the_angles_are_exact(axes, side):
@@ -281,8 +301,17 @@ def test_the_film_never_overwrites_the_points_by_another_spelling_of_their_path(
     (tmp_path / "points.csv").write_text(text)
     for spelling in (str(tmp_path / "points.csv"), f"../{tmp_path.name}/points.csv"):
         assert main(["film", "points.csv", "-o", spelling, "--frame-rate", "240"]) == 2
-        assert "is the file of the points" in capsys.readouterr().err
-    assert (tmp_path / "points.csv").read_text() == text
+        assert "is a file that the command reads" in capsys.readouterr().err
+    (tmp_path / "case_strips.csv").write_text(text)
+    (tmp_path / "names.toml").write_text('tip = "left_tip"')
+    for strips, why in {
+        "points.csv --strips names.toml --points names.toml": "--strips = 'names.toml': is a file that the command",
+        "case_strips.csv --strips case.toml": "--strips = 'case_strips.csv': is a file that the command reads",
+        "points.csv -o case_strips.csv --strips case.toml": "is also the file of --output",
+    }.items():
+        assert main(["film", *strips.split(), "--mass", "0.3"]) == 2
+        assert why in capsys.readouterr().err
+    assert [(tmp_path / f"{name}.csv").read_text() for name in ("points", "case_strips")] == [text] * 2
 
 
 def test_points_seen_too_rarely_are_refused_and_json_never_holds_nan():
@@ -358,10 +387,10 @@ def test_points_made_in_python_are_checked():
             TrackedPoints(
                 **({"name": "clip", "kind": "made", "positions": at, "times": None, "frames": frames} | given)
             )
-    at["tip"][3] = 0.0
+    at["tip"][3, 0] = np.nan  # seen in part
     points = TrackedPoints("clip", "made", at, None, frames)
     assert np.isnan(points.positions["tip"][3]).all()
-    assert (at["tip"][3] == 0.0).all(), "the caller's own points stay as they are"
+    assert np.isfinite(at["tip"][3, 1:]).all(), "the caller's own points stay as they are"
 
 
 def test_a_gap_in_the_middle_does_not_halve_the_frequency():

@@ -12,6 +12,7 @@ import wingbeat as wb
 from tests.helpers.unsteady_flights import all_terms, states_at
 from wingbeat.cli.app import main
 from wingbeat.experiment import BodyPath, Film, fit_body_path, fit_film, read_film, synthetic_film
+from wingbeat.models import model_of
 from wingbeat.records.flight_dataset import evaluate, evaluate_carried
 from wingbeat.results.flight import carry
 
@@ -97,6 +98,25 @@ def body_film(wingbeat, path, noise=0.0, beats=3.0, frames=120, start=0.0):
     columns = {name: values + random.normal(scale=noise, size=frames) for name, values in columns.items()}
     columns["body_pitch_deg"] = np.degrees(states[:, 2]) + random.normal(scale=100 * noise, size=frames)
     return Film("body", phase, columns, wing.frequency, 0.0, synthetic=True)
+
+
+@pytest.mark.slow
+def test_a_tail_that_is_tilted_to_balance_leaves_no_moment_missing():
+    pigeon = wb.load_species("pigeon")
+    model = model_of("animal", pigeon)
+    flown = model.species(pigeon)
+    assert flown.vehicle.tail is not None
+    path = BodyPath(float(flown.wingbeat.frequency), (10.0, 0.0), np.zeros((3, 17)))
+    own = wb.FlightModel(flown.vehicle, model.aero, flown.air, velocity=path.velocity)
+    flight = carry(own, flown.wingbeat, path, 2, 64)
+    found = flight.balanced()
+    assert found is not None
+    assert found.phase[-1] == 1.0
+    assert abs(found.summary["missing_moment_mean"]) < 1e-5 < abs(flight.summary["missing_moment_mean"])
+    tail = dataclasses.replace(flown.vehicle.tail, area=1e-9)
+    vehicle = dataclasses.replace(flown.vehicle, tail=tail)
+    small = wb.FlightModel(vehicle, model.aero, flown.air, velocity=path.velocity)
+    assert dataclasses.replace(flight, model=small).balanced() is None
 
 
 def test_a_filmed_path_is_recovered_wherever_the_film_began():

@@ -216,6 +216,10 @@ def test_a_curve_over_frequency_does_not_minimise_it_nor_compare_speeds(curve):
         ([*ACROSS, "--speed", "14"], "--frequencies"),
         ([*ACROSS, "--speed", "14", "--frequencies", "6:7:1", "--speeds", "3:5:1"], "does not belong to a curve"),
         ([*ACROSS, "--speed", "14", "--frequencies", "6:7:1", "--frequency", "6"], "belongs to a curve over speed"),
+        (
+            [*ACROSS, "--speed", "14", "--frequencies", "6:7:1", "--free", "frequency"],
+            "--free = 'frequency': belongs",
+        ),
         ([*ACROSS, "--speed", "14", "--frequencies", "6:7:1"], "--model animal"),
         (["curve", "pigeon", "--over", "mass", "--speeds", "3:5:1"], "--over"),
         (["curve", "pigeon"], "--speeds"),

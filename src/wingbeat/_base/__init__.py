@@ -22,7 +22,7 @@ from wingbeat._base.errors import (
     suggest,
     system_reason,
 )
-from wingbeat._base.files import make_folder, read_text, toml_tables, write_atomically, writing
+from wingbeat._base.files import make_folder, quoted, read_text, toml_tables, write_atomically, writing
 from wingbeat._base.nomenclature import (
     FIRST_ORDER,
     GLIDE,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import stat
 import tomllib
@@ -79,6 +80,11 @@ def toml_tables(text: str, label: str) -> dict[str, Any]:
     except ValueError as error:  # of TOML itself, or a number or date that Python cannot hold
         reason = " ".join(str(error).split())[:200]
         raise FileError(f"cannot read {label!r} as TOML: {reason}; correct the file there") from None
+
+
+def quoted(text: str) -> str:
+    """Return a TOML string, written as JSON: their escapes agree once unprintable characters are removed."""
+    return json.dumps("".join(sign for sign in text if sign.isprintable()), ensure_ascii=False)
 
 
 def make_folder(path: str | os.PathLike[str]) -> None:

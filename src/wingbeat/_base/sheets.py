@@ -124,7 +124,7 @@ def cut_short(text: str) -> tuple[str, ...]:
     if (
         len(last) < 2
         or text.endswith(("\n", "\r"))
-        or not all(map(_is_number, last))
+        or any(number_in(cell) is None for cell in last)
         or len(last[1]) >= len(last[0])
     ):
         return ()
@@ -284,7 +284,7 @@ def read_sheet(path: str | Path, *, of_program: bool = False) -> Sheet:
     table, constants, notes = _with_commas(path.name, table, constants)
     notes = (*notes, *cut_short(whole))
     header = split_cells(table[0][1])
-    if all(_is_number(cell) for cell in header):
+    if all(number_in(cell) is not None for cell in header):
         rule, fix = (
             "holds numbers, but the first row of the table must name the columns",
             "write the names without #",
@@ -359,21 +359,27 @@ def split_cells(text: str, sign: str = ",") -> list[str]:
         return [text]
 
 
-def _is_number(cell: str) -> bool:
+def number_in(cell: str) -> float | None:
+    """Return the number in a cell, which may be infinite or NaN; None if it holds none.
+
+    Python alone would read 1_000 and the digits of other scripts, which no instrument writes.
+
+    >>> number_in(" 1e3 "), number_in("1_000"), number_in("")
+    (1000.0, None, None)
+    """
     try:
-        float(cell)
+        return float(cell) if cell.strip().isascii() and "_" not in cell else None
     except ValueError:
-        return False
-    return True
+        return None
 
 
 def _number(faults: FaultList, where: str, cell: str) -> float:
     if cell.lower() in NO_VALUE:
         rule = "has no value" if cell else "is empty"
         faults.add(where, cell, f"{rule}, but this column needs one in each row", "give the value or drop the row")
-    elif not _is_number(cell):
+    elif (number := number_in(cell)) is None:
         faults.add(where, cell, "is not a number", "write one number with a decimal point, or drop the row")
-    elif not np.isfinite(number := float(cell)):
+    elif not np.isfinite(number):
         faults.add(where, number, "must be finite", "drop the row or give a value")
     elif abs(number) > LARGEST:
         faults.add(where, number, "is larger than any measurement", "drop the row or give a value")

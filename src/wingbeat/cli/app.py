@@ -6,7 +6,7 @@ import errno
 import sys
 from collections.abc import Sequence
 
-from cyclopts import App, CycloptsError, UnknownCommandError
+from cyclopts import App, CycloptsError, UnknownCommandError, UnusedCliTokensError
 
 from wingbeat._base import WingbeatError, __version__, suggest
 from wingbeat._base.files import POLAR_SUFFIXES
@@ -158,6 +158,10 @@ def _run(argv: list[str], app: App | None) -> int:
             word = error.unused_tokens[0]
             kind = "option" if word.startswith("-") else "command"
             text = f"unknown {kind} {word!r}; {suggest(word, COMMANDS, most=1)}"
+        elif isinstance(error, UnusedCliTokensError) and error.unused_tokens:
+            words = " ".join(repr(word) for word in error.unused_tokens)
+            fix = "leave out what is too much, or write the option before it; a name with spaces needs quotes"
+            text = f"{argv[0]} has no place for {words}; {fix}"
         return _complain([text], EXIT_BAD_INPUT)
     except ImportError as error:
         absent = error.__cause__.name if isinstance(error.__cause__, ModuleNotFoundError) else None

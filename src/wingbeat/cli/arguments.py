@@ -105,6 +105,19 @@ def given_beside(command: Callable[..., Any], values: dict[str, Any], *allowed: 
     return ["SPECIES" if name == "species" else "--" + name.strip("_").replace("_", "-") for name in names]
 
 
+def as_typed(**values: Any) -> list[str]:
+    """Return options as words of a command line; those that are None are left out.
+
+    >>> as_typed(set=["wing.mass=0.02", "air.density=1.1"], climb=None, hand_from=0.5)
+    ['--set', 'wing.mass=0.02', '--set', 'air.density=1.1', '--hand-from', '0.5']
+    """
+    words = []
+    for name, value in values.items():
+        for one in value if isinstance(value, list | tuple) else [] if value is None else [value]:
+            words += [f"--{name.replace('_', '-')}", str(one)]
+    return words
+
+
 # --- ranges of numbers: ``start:stop:step``, the stop included ---
 
 _MAX_VALUES = 10_000_000
@@ -175,7 +188,7 @@ class _Enough(Exception):
     """Raised to leave `writing` once it has shown that a path can be written; nothing is written yet."""
 
 
-def check_result(faults: FaultList, output: Path | None, **figures: Path | None) -> None:
+def check_result(faults: FaultList, output: Path | None, *read: Path | str | None, **figures: Path | None) -> None:
     """Note what `check_files` notes, and a result's name with an unknown ending.
 
     `check_outputs` refuses folders and devices.
@@ -184,22 +197,38 @@ def check_result(faults: FaultList, output: Path | None, **figures: Path | None)
         from wingbeat.records.result_files import check_result_name
 
         check_result_name(faults, "--output", output)
-    check_files(faults, output, **figures)
+    check_files(faults, output, *read, **figures)
 
 
-def check_files(faults: FaultList, output: Path | None = None, **figures: Path | None) -> None:
-    """Note figure names without a figure's suffix, and files that two options name."""
-    taken: dict[str, str] = {}
-    for name, path in {"output": output, **figures}.items():
+def check_files(
+    faults: FaultList, output: Path | None = None, *read: Path | str | None, **figures: Path | None
+) -> None:
+    """Note figure names without a figure's suffix, and what `check_apart` notes."""
+    drawn = {f"--{name.replace('_', '-')}": path for name, path in figures.items()}
+    for given, path in drawn.items():
+        if path is not None:
+            check_figure_name(faults, given, path)
+    check_apart(faults, [("--output", output), *drawn.items()], *read)
+
+
+def check_apart(faults: FaultList, written: Sequence[tuple[str, Path | None]], *read: Path | str | None) -> None:
+    """Note files, each with its option, that are written twice, or written over one that the command reads."""
+    taken = {_real(path): "" for path in read if path is not None}
+    for given, path in written:
         if path is None:
             continue
-        given, real = f"--{name.replace('_', '-')}", str(path)
-        if name in figures:
-            check_figure_name(faults, given, path)
-        with suppress(ValueError):  # a NUL in the path; it is refused later, when the file is written
-            real = os.path.realpath(path)
-        if (other := taken.setdefault(real, given)) != given:
+        other = taken.setdefault(_real(path), given)
+        if not other:
+            faults.add(given, str(path), "is a file that the command reads", "choose another name")
+        elif other != given:
             faults.add(given, str(path), f"is also the file of {other}", "give each option its own file")
+
+
+def _real(path: Path | str) -> str:
+    """Return the path of the file itself, behind links."""
+    with suppress(ValueError):  # a NUL in the path; it is refused later, when the file is opened
+        return os.path.realpath(path)
+    return str(path)
 
 
 def check_outputs(*paths: Path | None) -> None:

@@ -89,7 +89,7 @@ def curve(
     """
     faults = FaultList()
     faults.choice("--over", over, ("speed", "frequency"))
-    check_result(faults, output, plot=plot)
+    check_result(faults, output, data, *model.files, plot=plot)
     faults.raise_if_any()
     given = {"--speeds": speeds, "--frequencies": frequencies, "--speed": speed}
     needed = ("--speeds",) if over == "speed" else ("--frequencies", "--speed")
@@ -99,7 +99,9 @@ def curve(
         elif name not in needed and value is not None:
             faults.add(name, value, f"does not belong to a curve over {over}", "leave it out, or change --over")
     if over == "frequency":
-        for name, value in {"--frequency": model.frequency, "--data": data and str(data)}.items():
+        searched = "frequency" if "frequency" in (model.free or ()) else None
+        given = {"--frequency": model.frequency, "--free": searched, "--data": data and str(data)}
+        for name, value in given.items():
             if value is not None:
                 check_over_speed(faults, name, value, over)
     faults.raise_if_any()

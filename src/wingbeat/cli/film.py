@@ -3,19 +3,18 @@
 from __future__ import annotations
 
 import functools
-import os
+import shlex
 import sys
 from collections.abc import Mapping
-from contextlib import suppress
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from wingbeat._base import FaultList, written
-from wingbeat.cli.arguments import check_files, check_outputs, figure, flag, option, written_to
+from wingbeat.cli.arguments import as_typed, check_apart, check_outputs, figure, flag, option, written_to
 from wingbeat.cli.terminal import answer
 from wingbeat.experiment.point_angles import angles_from_points
-from wingbeat.experiment.point_strips import save_strips
-from wingbeat.plots import points_page
+from wingbeat.experiment.point_strips import save_strips, strips_table
+from wingbeat.plots import check_figure_name, points_page
 
 
 def film(
@@ -65,17 +64,18 @@ def film(
     faults = FaultList()
     if output is not None and output.suffix.lower() != ".csv":
         faults.add("--output", str(output), "is not a film", "end it in .csv")
-    with suppress(ValueError):  # a NUL in a path; it is refused later, when the file is opened
-        if output is not None and os.path.realpath(output) == os.path.realpath(file):
-            faults.add("--output", str(output), "is the file of the points", "choose another name")
     if strips is not None and strips.suffix.lower() != ".toml":
         faults.add("--strips", str(strips), "is not a case", "end it in .toml")
     if (strips is None) != (mass is None):
         rule = "is missing: the wings hold up the weight" if mass is None else "has no effect without --strips"
         faults.add("--mass", mass, rule, "give --strips and --mass together")
-    check_files(faults, output, plot=plot)
+    if plot is not None:
+        check_figure_name(faults, "--plot", plot)
+    table = None if strips is None else strips_table(strips)
+    written = [("--output", output), ("--strips", strips), ("--strips", table), ("--plot", plot)]
+    check_apart(faults, written, file, points)
     faults.raise_if_any()
-    check_outputs(output, plot, strips)
+    check_outputs(output, plot, strips, table)
     found = angles_from_points(
         file,
         points,
@@ -101,8 +101,8 @@ def film(
                 print(f"note: {case.name}: {one}", file=sys.stderr)
         given.draw(plot, lambda: points_page(found), named=True)
         if output is not None and not json:
-            last = f"wingbeat simulate SPECIES --kinematics {output}"
-            given.show(lambda: print(f"next, is it trimmed, and which force is missing: {last} --model animal"))
+            last = f"wingbeat simulate SPECIES {shlex.join(as_typed(kinematics=output))} --model animal"
+            given.show(lambda: print(f"next, is it trimmed, and which force is missing: {last}"))
 
 
 def _lines(told: Mapping[str, Any]) -> list[str]:

@@ -14,7 +14,7 @@ from wingbeat._base import NOMENCLATURE, FaultList, for_people, plain_unit, writ
 from wingbeat.aero import BladeElement
 from wingbeat.animal.species.species import Species
 from wingbeat.cli.arguments import option
-from wingbeat.experiment.body_path import BodyPath, fit_body_path
+from wingbeat.experiment.body_path import fit_body_path
 from wingbeat.experiment.film import WHOLE
 from wingbeat.experiment.film_file import read_film
 from wingbeat.experiment.film_fit import FilmedBeat, fit_film
@@ -142,8 +142,6 @@ _MISSING = {
 _WORDS = {"missing_force_x": "thrust", "missing_force_z": "upward force", "missing_moment": "nose-up moment"}
 # A missing force below this share of the weight, or moment of weight times chord, is less than models differ by.
 _TRIMMED = 0.05
-# How far a tail tilts [rad].
-_MOST_TILT = math.radians(30.0)
 
 
 def carried(
@@ -175,46 +173,31 @@ def carried(
         rows.append([*carry(flight.model, same, moved, 1, samples).summary.values()])
     warnings = [*path.warnings]
     if animal.vehicle.tail is not None:
-        warnings.append(_of_the_tail(flight, path, samples))
+        warnings.append(_of_the_tail(flight))
     if not rows:
         return flight, dict.fromkeys(told), warnings
     errors = np.sqrt(np.mean((np.array(rows) - [*told.values()]) ** 2, axis=0))
     return flight, dict(zip(told, errors.tolist(), strict=True)), warnings
 
 
-def _of_the_tail(flight: CarriedFlight, path: BodyPath, samples: int) -> str:
+def _of_the_tail(flight: CarriedFlight) -> str:
     """Say at which tilt the tail, which no film shows, would balance the pitching moment."""
-
-    def missing(tilt: float) -> dict[str, float]:
-        tilted = dataclasses.replace(flight.wingbeat, tail_tilt=tilt)
-        return carry(flight.model, tilted, path, 1, samples).summary
-
     here = flight.wingbeat.tail_tilt
     said = f"{math.degrees(here):.3g} deg, is not filmed (--set wingbeat.tail_tilt_deg=..)"
-    ends = [(tilt, missing(tilt)) for tilt in (-_MOST_TILT, _MOST_TILT)]
-    (low, one), (high, other) = ends
-    if one["missing_moment_mean"] * other["missing_moment_mean"] > 0:
+    if (found := flight.balanced()) is None:
         return f"the tail's tilt, {said}; no tilt within 30 deg balances the pitching moment"
-    tilt, found = low, one
-    for _ in range(6):  # false position; the tail's moment is almost linear
-        change = other["missing_moment_mean"] - one["missing_moment_mean"]
-        tilt = low - one["missing_moment_mean"] * (high - low) / change
-        found = missing(tilt)
-        if found["missing_moment_mean"] * one["missing_moment_mean"] > 0:
-            low, one = tilt, found
-        else:
-            high, other = tilt, found
-    x, z = (found[f"missing_force_{axis}_mean"] for axis in "xz")
+    tilt, told = math.degrees(found.wingbeat.tail_tilt), found.summary
+    x, z = (told[f"missing_force_{axis}_mean"] for axis in "xz")
     return (
-        f"the tail's tilt, {said}; at {math.degrees(tilt):.3g} deg it would balance the pitching moment, and the "
+        f"the tail's tilt, {said}; at {tilt:.3g} deg it would balance the pitching moment, and the "
         f"missing force would be {x:.2g} of the weight forward and {z:.2g} up"
     )
 
 
-def trimmed(told: Mapping[str, float], errors: Mapping[str, float | None]) -> bool:
-    """Return whether missing force and moment are zero on average, within two errors or `_TRIMMED`."""
-    names = [f"{name}_mean" for name in _MISSING]
-    return all(abs(told[name]) <= max(_TRIMMED, 2.0 * (errors[name] or 0.0)) for name in names)
+def missing(told: Mapping[str, float], errors: Mapping[str, float | None]) -> list[str]:
+    """Return the forces and the moment that are missing on average, by more than two errors and `_TRIMMED`."""
+    means = {name: (abs(told[f"{name}_mean"]), errors[f"{name}_mean"] or 0.0) for name in _MISSING}
+    return [name for name, (mean, error) in means.items() if not mean <= max(_TRIMMED, 2.0 * error)]
 
 
 def print_carried(told: Mapping[str, float], errors: Mapping[str, float | None]) -> None:
@@ -223,13 +206,12 @@ def print_carried(told: Mapping[str, float], errors: Mapping[str, float | None])
     The model lacks the force and moment that must be added to its air loads to give the filmed motion.
     """
     verdict = f"yes, no missing force or moment above {_TRIMMED:g} on average"
-    if not trimmed(told, errors):
-        found = []
-        for name, (_, unit) in _MISSING.items():
-            mean, error = told[f"{name}_mean"], errors[f"{name}_mean"]
-            if abs(mean) > max(_TRIMMED, 2.0 * (error or 0.0)):
-                short = "too little" if mean > 0 else "too much"
-                found.append(f"{plus_minus(abs(mean), error, unit)} {short} {_WORDS[name]}")
+    found = []
+    for name in missing(told, errors):
+        mean, error = told[f"{name}_mean"], errors[f"{name}_mean"]
+        short = "too little" if mean > 0 else "too much"
+        found.append(f"{plus_minus(abs(mean), error, _MISSING[name][1])} {short} {_WORDS[name]}")
+    if found:
         verdict = f"no, on average the model gives {'; '.join(found)}"
     print(f"trimmed: {verdict}")
     print("the body moves as filmed; its motion is not integrated")

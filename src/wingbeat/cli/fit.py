@@ -53,7 +53,7 @@ def fit(
     faults = FaultList()
     if output is not None and output.suffix.lower() != ".toml":
         faults.add("--output", str(output), "is not a model file", "end it in .toml")
-    check_files(faults, output, plot=plot)
+    check_files(faults, output, coefficients, plot=plot)
     check_aspect_ratio(faults, "--aspect-ratio", aspect_ratio)
     bounds = [faults.number(f"--alpha-{end}", value) for end, value in (("min", alpha_min), ("max", alpha_max))]
     if all(bounds) and alpha_min > alpha_max:

@@ -44,7 +44,7 @@ def glide(
     Examples: wingbeat glide pigeon --plot glide.png; wingbeat glide pigeon --trim flap --payload 0.03
     """
     faults = FaultList()
-    check_result(faults, output, plot=plot)
+    check_result(faults, output, *model.files, plot=plot)
     faults.raise_if_any()
     angles = parse_range(alpha, "--alpha")
     if not 0 < angles[0] <= angles[-1] <= 90 or (np.diff(angles) < 0).any():

@@ -107,7 +107,7 @@ def orbit(
     """
     beside = given_beside(orbit, locals(), *_BESIDE_FROM)
     faults = FaultList()
-    check_result(faults, output, plot=plot, tornado=tornado)
+    check_result(faults, output, kinematics, start, from_, *model.files, plot=plot, tornado=tornado)
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
     filmed.check_side(faults, side, kinematics)

@@ -23,13 +23,15 @@ from wingbeat.aero import (
 )
 from wingbeat.aero.family import AtOneReynolds
 from wingbeat.aero.neural_sections import GOOD_CONFIDENCE, LEAST_CONFIDENCE, section_polars, sections_csv
-from wingbeat.cli.arguments import check_outputs, flag, option, parse_range, several, written_to
+from wingbeat.cli.arguments import check_outputs, flag, given_beside, option, parse_range, several, written_to
 from wingbeat.cli.problem_options import say_notes
 from wingbeat.cli.terminal import answer
 from wingbeat.plots import check_figure_name
 
 # A polar of fewer rows is no curve.
 _LEAST_ROWS = 8
+# The options that --section obeys.
+_BESIDE_SECTION = ("model", "section", "re", "csv", "json", "output")
 Columns = dict[str, list[Any]]
 
 
@@ -84,6 +86,7 @@ def polar(
     Example: wingbeat polar --section naca0012 --re 2e4 5e4 1e5 -o family.csv; then
     wingbeat orbit pigeon --speed 10 --aero family.csv --extension viterna
     """
+    beside = given_beside(polar, locals(), *_BESIDE_SECTION)
     faults = FaultList()
     if csv and json:
         faults.add("--csv", "--json", "two formats at once", "choose --csv or --json")
@@ -92,6 +95,9 @@ def polar(
         faults.add("MODEL", section or "", rule, "name a model such as su-fan, or --section naca0012 --re 5e4")
         faults.raise_if_any()
     if section is not None:
+        if beside:
+            fix = f"leave out {', '.join(beside)}; save the table with -o, and `wingbeat polar TABLE` takes them"
+            faults.add("--section", section, "is computed at its own angles, with C_M about mid-chord", fix)
         return _of_section(faults, section, re or [], csv, json, output)
     assert model is not None
     if output is not None:

@@ -22,7 +22,7 @@ from wingbeat.animal.species.building import DENSITY_ALONE
 from wingbeat.animal.species.making import load_species
 from wingbeat.animal.species.reading import parse_setting
 from wingbeat.animal.species.species import Species
-from wingbeat.cli.arguments import Whole, flag, named_numbers, option, several
+from wingbeat.cli.arguments import Whole, as_typed, flag, named_numbers, option, several
 from wingbeat.models import Frequency, Model, model_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import Constraint
@@ -150,6 +150,16 @@ class ModelOptions:
             "standard atmosphere, 15 at sea level."
         ),
     ] = None
+
+    @property
+    def files(self) -> list[str]:
+        """The names of coefficients, some of which may be paths of files."""
+        return [*(self.aero or ()), *([] if self.hand is None else [self.hand])]
+
+    def typed(self) -> list[str]:
+        """Return the given options as words of a command line."""
+        given = {one.name: getattr(self, one.name) for one in fields(self)}
+        return as_typed(**{one.name: given[one.name] for one in fields(self) if given[one.name] != one.default})
 
     def flown(self, name: str, settings: list[str] | None, payload: float = 0.0) -> tuple[Species, Model]:
         """Return (species, model), with the given air loads, the numbers of ``--set`` and a payload."""

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated
 
 from wingbeat._base import FaultList, FileError, InvalidInputError
-from wingbeat.cli.arguments import check_outputs, named_numbers, option, several, written_to
+from wingbeat.cli.arguments import check_apart, check_outputs, named_numbers, option, several, written_to
 from wingbeat.experiment.load_cell_file import read_run
 from wingbeat.experiment.load_cell_run import CONSTANT_UNITS, OPTIONAL_UNITS
 from wingbeat.experiment.load_cell_setup import ROLES, SETUP_UNITS, LoadCellSetup, load_setup
@@ -72,8 +72,7 @@ def reduce(
     faults.number("--last", last, above=0, unit="s")
     if not runs:
         faults.add("RUNS", "none", "there is nothing to reduce", "name the CSV files of the runs")
-    if output in runs:
-        faults.add("--output", str(output), "is one of the runs", "choose another name")
+    check_apart(faults, [("--output", output)], *runs, *(tare or ()), *(channels or ()))
     spans = []
     for text in rest or []:
         try:

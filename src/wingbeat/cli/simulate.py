@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
+import shlex
 import sys
 from pathlib import Path
 from typing import Annotated, Any
@@ -15,7 +16,17 @@ from wingbeat._base import FaultList
 from wingbeat.aero.winds import Wind
 from wingbeat.cli import filmed
 from wingbeat.cli import problem_options as options
-from wingbeat.cli.arguments import Output, Whole, check_outputs, check_result, figure, flag, given_beside, option
+from wingbeat.cli.arguments import (
+    Output,
+    Whole,
+    as_typed,
+    check_outputs,
+    check_result,
+    figure,
+    flag,
+    given_beside,
+    option,
+)
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
 from wingbeat.cli.terminal import answer, plain_console
 from wingbeat.experiment.film_fit import FilmedBeat
@@ -75,7 +86,7 @@ def simulate(
         faults.add("SPECIES", None, "is missing", fix)
     if from_ is not None and beside:
         faults.add("--from", str(from_), "comes with its own inputs", f"leave out {', '.join(beside)}")
-    check_result(faults, output, plot_kinematics=plot_kinematics)
+    check_result(faults, output, kinematics, from_, *model.files, plot_kinematics=plot_kinematics)
     filmed.check_side(faults, side, kinematics)
     if plot_kinematics is not None and kinematics is None:
         faults.add("--plot-kinematics", str(plot_kinematics), "has no film to draw", "give --kinematics")
@@ -117,7 +128,7 @@ def simulate(
     if prescribed is not None:
         flight, errors, more = prescribed
         doubts += more
-        record: dict[str, Any] = {"body": "prescribed", "trimmed": filmed.trimmed(flight.summary, errors)}
+        record: dict[str, Any] = {"body": "prescribed", "trimmed": not filmed.missing(flight.summary, errors)}
         record |= {"summary": flight.summary, "standard_errors": errors}
         report, completed = functools.partial(filmed.print_carried, flight.summary, errors), True
     else:
@@ -141,9 +152,10 @@ def simulate(
             print(f"warning: {note}", file=sys.stderr)
         if prescribed is not None and not json:
             speed, climb = (round(prescribed[0].summary[name], 2) for name in ("mean_u", "mean_w"))
-            words = f"{species} --speed {speed:g}" + (f" --climb {climb:g}" if abs(climb) > 0.05 * speed else "")
-            words += f" --kinematics {kinematics}" + (f" --model {model.model}" if model.model != "paper" else "")
-            told.show(lambda: print(f"next, the trim that holds this wingbeat in the air: wingbeat orbit {words}"))
+            flying = {"speed": f"{speed:g}", "climb": f"{climb:g}" if abs(climb) > 0.05 * speed else None}
+            words = as_typed(**flying, kinematics=kinematics, side=side, set=set_) + model.typed()
+            words = shlex.join(["wingbeat", "orbit", str(species), *words])
+            told.show(lambda: print(f"next, the trim that holds this wingbeat in the air: {words}"))
         told.save(output, flight.save)
         told.draw(plot_kinematics, None if beat is None else lambda: film_page(beat))
     return EXIT_GOOD if completed else EXIT_NOT_CERTIFIED

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json as json_format
 import math
 import os
+import shlex
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -115,7 +116,7 @@ def new(
     if os.path.lexists(path) and not path.is_dir() and not force:
         raise FileError(f"cannot write {str(path)!r}: it exists; choose another name or give --force")
     write_atomically(path, text)
-    print(f"wrote {path}; try: wingbeat species {path}")
+    print(f"wrote {path}; try: {shlex.join(['wingbeat', 'species', str(path)])}")
 
 
 def _summary(animal: Species) -> dict[str, Any]:

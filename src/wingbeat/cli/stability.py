@@ -85,7 +85,7 @@ def stability(
     """
     beside = given_beside(stability, locals(), *_OF_A_FILE)
     faults = FaultList()
-    check_result(faults, output, plot=plot)
+    check_result(faults, output, source, *model.files, plot=plot)
     if (mode is None) != (output is None):
         faults.add("--mode", mode, "needs --output, and --output needs --mode", "give both: --mode 0 -o mode.nc")
     saved = source.endswith(".nc")

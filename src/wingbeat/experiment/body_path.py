@@ -75,7 +75,8 @@ class BodyPath:
         """
         if self.covariance is None:
             return [self] * count
-        random, found = np.random.default_rng(seed), []
+        # A stream beside that of the wings: both are drawn with one seed, and their errors are independent.
+        random, found = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(0,))), []
         for _ in range(count):
             moved = np.stack([random.multivariate_normal(np.zeros(len(one)), one) for one in self.covariance])
             (u, w), (x, z) = (np.array([self.velocity, self.acceleration]) + moved[:2, :2].T).tolist()

@@ -255,19 +255,23 @@ class Film:
         ------
         FileError : the file cannot be written.
         """
-        lines = []
-        if self.synthetic:
-            lines.append("# synthetic = yes, made by wingbeat's random generator from a known wingbeat, not filmed")
-        if self.frequency is not None:
-            lines += [f"# frequency [Hz] = {self.frequency!r}", f"# frequency_se [Hz] = {self.frequency_se!r}"]
-        if self.wrist is not None:
-            lines.append(f"# wrist = {self.wrist!r}")
-        if self.semi_span is not None:
-            lines.append(f"# semi_span [m] = {self.semi_span!r}")
         clock, order = {"phase": self.phase}, np.arange(len(self.phase))
         if self.shows_body and self.frequency is not None:  # the path of a body needs times, which rise
             clock, order = {"time [s]": self.phase / self.frequency}, np.argsort(self.phase, kind="stable")
-        write_columns(path, lines, {name: column[order] for name, column in (clock | self.columns).items()})
+        columns = {name: column[order] for name, column in (clock | self.columns).items()}
+        write_columns(path, constant_lines(self), columns)
+
+
+def constant_lines(film: Film) -> list[str]:
+    """Return the lines ``# name = value`` that a film's file has above its table."""
+    lines, said = [], "yes, made by wingbeat's random generator from a known wingbeat, not filmed"
+    if film.synthetic:
+        lines.append(f"# synthetic = {said}")
+    numbers = {"wrist": film.wrist, "semi_span [m]": film.semi_span}
+    if film.frequency is not None:
+        numbers = {"frequency [Hz]": film.frequency, "frequency_se [Hz]": film.frequency_se} | numbers
+    # As Python's float, for NumPy's would be written "np.float64(6.1)".
+    return lines + [f"# {name} = {float(value)!r}" for name, value in numbers.items() if value is not None]
 
 
 def check_flap(faults: FaultList, where: str, clock: Array, flap: Array) -> None:

@@ -17,6 +17,7 @@ from wingbeat._base.sheets import (
     SIDES,
     Sheet,
     check_unit,
+    number_in,
     parse_numbers,
     read_sheet,
     same_name,
@@ -179,9 +180,7 @@ def _constants(faults: FaultList, sheet: Sheet) -> dict[str, _Given]:
         where = f"{sheet.file} row {row}, {name.replace('frame_', 'frame ')}"
         unit = _CONSTANTS[name]
         check_unit(faults, where, (split_unit(key).unit or unit).replace("fps", "Hz"), unit)
-        try:
-            value = float(text)
-        except ValueError:
+        if (value := number_in(text)) is None:
             faults.add(where, text, "must be one number", f"in {unit}" if unit else "a fraction of the span")
             continue
         above, at_least = (-math.inf, 0.0) if name == "frequency_se" else (0.0, -math.inf)

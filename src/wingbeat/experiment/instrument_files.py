@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from wingbeat._base import Fault, FaultList, FileError, InvalidInputError, install_extra, read_text
-from wingbeat._base.sheets import LARGEST, MAX_BYTES, parse_numbers, read_sheet, split_unit
+from wingbeat._base.sheets import LARGEST, MAX_BYTES, number_in, parse_numbers, read_sheet, split_unit
 from wingbeat.experiment.lvm_file import read_lvm
 from wingbeat.experiment.recording import Array, Recording, cell_numbers
 
@@ -204,7 +204,7 @@ def _read_ati(file: str, lines: list[str], axes: int) -> Recording:
         plain, own = split_unit(name)
         axis = re.fullmatch(r"([ftm])[xyz]", plain.strip().lower())
         units.append(own or (None if axis is None else force if axis[1] == "f" else torque))
-    per = {kind: _number_or_none(head.get(f"countsperunit{kind}")) for kind in ("force", "torque")}
+    per = {kind: number_in(head.get(f"countsperunit{kind}") or "") for kind in ("force", "torque")}
 
     def numbers(faults: FaultList, columns: list[int]) -> Array:
         values = cell_numbers(faults, file, rows, {k: names[k] for k in columns})
@@ -229,7 +229,7 @@ def _read_ati(file: str, lines: list[str], axes: int) -> Recording:
             notes.append(f"{file}: the sensor's status is not 0 in {bad} of {len(rows)} samples; was it saturated?")
 
     def clock(faults: FaultList, columns: list[int]) -> Array | None:
-        rate, sequence = _number_or_none(head.get("rdtsamplerate")), "rdt sequence"
+        rate, sequence = number_in(head.get("rdtsamplerate") or ""), "rdt sequence"
         if not rate or rate <= 0 or sequence not in lower:
             return None
         place = lower.index(sequence)
@@ -243,13 +243,6 @@ def _read_ati(file: str, lines: list[str], axes: int) -> Recording:
         return times
 
     return Recording(file, "a log of an ATI force sensor", names, units, numbers, clock, notes, {})
-
-
-def _number_or_none(text: str | None) -> float | None:
-    try:
-        return float(text) if text else None
-    except ValueError:
-        return None
 
 
 def _read_table(path: Path, of_program: bool) -> Recording:

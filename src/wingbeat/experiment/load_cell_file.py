@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import FaultList, InvalidInputError, suggest
-from wingbeat._base.sheets import Sheet, check_unit, parse_numbers, read_sheet, same_name, split_unit
+from wingbeat._base.sheets import Sheet, check_unit, number_in, parse_numbers, read_sheet, same_name, split_unit
 from wingbeat.experiment.instrument_files import Recording, is_instrument_file, open_recording
 from wingbeat.experiment.load_cell_run import (
     CHANNELS,
@@ -316,10 +316,9 @@ def _constants(
         where = f"{file} row {row}, {name}" if row else f"{file}, {name}"
         check_unit(faults, where, unit, units[name])
         wanted = 2 if name in TARE_UNITS else 1
-        try:  # one try for all cells: "0.5 m/s" and "fast" cause the same fault
-            values = tuple(map(float, text.split(",")))
-        except ValueError:
-            values = ()
+        cells = [number_in(cell) for cell in text.split(",")]
+        values = tuple(cell for cell in cells if cell is not None)
+        values = values if len(values) == len(cells) else ()
         if values and not np.isfinite(values).all():
             faults.add(where, text, "must be finite", f"give the reading in {units[name]}, or leave the line out")
         elif len(values) != wanted:

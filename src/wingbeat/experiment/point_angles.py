@@ -12,7 +12,7 @@ import numpy as np
 
 from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat._base.sheets import SIDES, write_columns
-from wingbeat.experiment.film import FILMED, Film
+from wingbeat.experiment.film import FILMED, Film, constant_lines
 from wingbeat.experiment.film_file import joined
 from wingbeat.experiment.film_fit import FilmedBeat, fit_film
 from wingbeat.experiment.periodic import MIN_BEATS, Clip, FilmedLaw, clip_rate, fit_law, fourier_columns
@@ -140,12 +140,8 @@ class PointAngles:
         ------
         FileError : the file cannot be written.
         """
-        film = self.film
-        lines = [f"# note: {note}" for note in self.notes]
-        lines += [f"# frequency [Hz] = {film.frequency!r}", f"# frequency_se [Hz] = {film.frequency_se!r}"]
-        lines += [] if film.wrist is None else [f"# wrist = {film.wrist:.4f}"]
-        lines += [] if film.semi_span is None else [f"# semi_span [m] = {film.semi_span:.5g}"]
-        write_columns(path, lines, {"time [s]": self.time, **film.columns})
+        lines = [f"# note: {note}" for note in self.notes] + constant_lines(self.film)
+        write_columns(path, lines, {"time [s]": self.time, **self.film.columns})
 
 
 def first_harmonic(law: FilmedLaw) -> tuple[float, float]:

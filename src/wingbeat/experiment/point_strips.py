@@ -7,16 +7,21 @@ from pathlib import Path
 
 import numpy as np
 
-from wingbeat._base import Fault, FaultList, InvalidInputError, write_atomically
+from wingbeat._base import Fault, FaultList, InvalidInputError, quoted, write_atomically
 from wingbeat.experiment.body_path import fit_body_path
 from wingbeat.experiment.point_angles import PointAngles
 from wingbeat.experiment.point_tables import METRES, Array
-from wingbeat.experiment.wing_points import wing_columns
+from wingbeat.experiment.wing_points import span_of, wing_columns
 
 _STRIPS, _TIMES = 12, 50
 _DENSITY, _GRAVITY = 1.225, 9.81
 _COLUMNS = "time_s,strip,x_m,y_m,z_m,chord_x_m,chord_y_m,chord_z_m,area_m2,vx_m_s,vy_m_s,vz_m_s,"
 _COLUMNS += "v3x_m_s,v3y_m_s,v3z_m_s"
+
+
+def strips_table(path: str | Path) -> Path:
+    """Return the path of the strips that `save_strips` writes beside a case."""
+    return Path(path).with_name(f"{Path(path).stem}_strips.csv")
 
 
 def save_strips(found: PointAngles, path: str | Path, mass: float) -> tuple[str, ...]:
@@ -74,16 +79,13 @@ def save_strips(found: PointAngles, path: str | Path, mass: float) -> tuple[str,
         state = body.states(phase)
         plane = np.radians(found.stroke_plane_deg) + 0.0 * phase
         tilt = plane - state[:, 2]
-        zero, left = np.zeros(len(phase)), np.array([0.0, 1.0, 0.0])
-        ahead = np.stack([np.sin(tilt), zero, np.cos(tilt)], axis=1)
-        up = np.stack([-np.cos(tilt), zero, np.sin(tilt)], axis=1)
+        zero = np.zeros(len(phase))
         sweep, pitch = angle("sweep_deg", phase), angle("pitch_deg", phase)
         twist = angle("tip_pitch_deg", phase) - pitch if "tip_pitch_deg" in laws else zero
         length: Array = found.semi_span * np.asarray(laws["span_fraction"].curve(phase + beat.shift)[0], np.float64)
 
         def line(flap: Array) -> tuple[Array, Array, Array]:
-            e = np.cos(flap)[:, None] * left + np.sin(flap)[:, None] * up
-            e = np.cos(sweep)[:, None] * e + np.sin(sweep)[:, None] * ahead
+            e, ahead = span_of(flap, sweep, tilt)
             base = ahead - (ahead * e).sum(axis=1)[:, None] * e
             base = base / np.linalg.norm(base, axis=1)[:, None]
             return e, base, np.asarray(np.cross(base, e), dtype=np.float64)
@@ -122,24 +124,24 @@ def save_strips(found: PointAngles, path: str | Path, mass: float) -> tuple[str,
         f"the mean force is that of the filmed path: {mass:g} kg, {_GRAVITY} m/s2, and its mean acceleration",
         f"still air of {_DENSITY} kg/m3",
     ]
-    path = Path(path)
-    name = path.stem
+    path, table_path = Path(path), strips_table(path)
     force = [mass * body.acceleration[0], mass * (_GRAVITY + body.acceleration[1])]
     lines_of_case = [
-        f"# Made by wingbeat film from {file}; each beat has {_TIMES} times, strips count from root to tip.",
+        f"# Made by wingbeat film from {quoted(file)}.",
+        f"# Each beat has {_TIMES} times, strips count from root to tip.",
         *(f"# Assumed: {one}." for one in assumed),
         "# The force of the body and tail is not known: the mean force is that of the whole animal.",
-        f'name = "{name}"',
-        f"mass = {mass!r}",
+        f"name = {quoted(path.stem)}",
+        f"mass = {float(mass)!r}",
         f"density = {_DENSITY}",
         f"gravity = {_GRAVITY}",
         f"frequency = {body.frequency:.6g}",
         f"speed = {math.hypot(*body.velocity):.6g}",
         "mirrored = true",
         "periodic = true",
-        f'strips = "{name}_strips.csv"',
+        f"strips = {quoted(table_path.name)}",
         f"mean_force = [{force[0]:.6g}, {force[1]:.6g}]",
     ]
-    write_atomically(path.with_name(f"{name}_strips.csv"), "\n".join(rows) + "\n")
+    write_atomically(table_path, "\n".join(rows) + "\n")
     write_atomically(path, "\n".join(lines_of_case) + "\n")
     return tuple(assumed)

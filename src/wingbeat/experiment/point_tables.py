@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import Fault, FaultList, InvalidInputError
-from wingbeat._base.sheets import MAX_CELL_FAULTS, NO_VALUE, same_name, split_cells, split_unit
+from wingbeat._base.sheets import MAX_CELL_FAULTS, NO_VALUE, number_in, same_name, split_cells, split_unit
 
 Array = NDArray[np.float64]
 # Metres in a unit of length.
@@ -125,11 +125,8 @@ def _filled(cells: Sequence[str]) -> list[str]:
 
 def _number(cell: str) -> float | None:
     """Return the finite number of a cell, with a decimal point or comma; None if it holds none."""
-    try:
-        value = float(cell.replace(",", ".", 1))
-    except ValueError:
-        return None
-    return value if math.isfinite(value) else None
+    value = number_in(cell.replace(",", ".", 1))
+    return value if value is not None and math.isfinite(value) else None
 
 
 def _mostly_numbers(cells: Sequence[str]) -> bool:

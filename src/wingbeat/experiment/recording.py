@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import FaultList
-from wingbeat._base.sheets import LARGEST, NO_VALUE
+from wingbeat._base.sheets import LARGEST, NO_VALUE, number_in
 
 Array = NDArray[np.float64]
 # More than these do not help the reader.
@@ -48,15 +48,11 @@ def cell_numbers(faults: FaultList, file: str, rows: list[tuple[int, list[str]]]
             values[:, k] = cells
         except ValueError:
             values[:, k] = np.nan
-        # Python reads 1_000 as a number; a Unicode digit is none either.
         good = np.isfinite(values[:, k]) & (np.abs(values[:, k]) <= LARGEST)
-        if good.all() and not any("_" in cell for cell in cells):
+        if good.all() and not any("_" in cell or not cell.isascii() for cell in cells):
             continue
         for (row, _), cell, i in zip(rows, cells, range(len(rows)), strict=True):
-            try:
-                values[i, k] = np.nan if "_" in cell else float(cell)
-            except ValueError:
-                values[i, k] = np.nan
+            values[i, k] = np.nan if (number := number_in(cell)) is None else number
             if not np.isfinite(values[i, k]) or abs(values[i, k]) > LARGEST:
                 wrong += 1
                 if wrong <= SHOWN_FAULTS:

@@ -33,6 +33,8 @@ _FASTEST = 1e6
 # Frames from which a clock is checked against the stated rate.
 _FEW = 10
 _AXES = tuple(sign + axis for sign in ("+", "-", "") for axis in "xyz")
+# Kinds whose programs write (0, 0, 0) for a point that was not seen. Elsewhere it may be the origin of the axes.
+_ZERO_IS_GAP = ("DLTdv", "Qualisys .tsv", "OpenSim .trc", "C3D")
 
 
 @dataclass(frozen=True)
@@ -44,7 +46,8 @@ class TrackedPoints:
     name : for messages, such as the name of the file.
     kind : what wrote the file, in words.
     positions : of each point by its name, in the file's axes and unit, shape (n, 3); NaN where it was not seen. In
-        a copy, frames in which a point was seen in part, or lies at exactly (0, 0, 0), become such gaps.
+        a copy, frames in which a point was seen in part become such gaps; so do points at exactly (0, 0, 0) where
+        `kind` is that of a program that writes so what it did not see.
     times : of the frames [s], from the file; None if it has none.
     frames : numbers of the frames, shape (n,).
     rate : frames per second that the file states, None if it states none [Hz].
@@ -70,7 +73,7 @@ class TrackedPoints:
     warnings: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        faults, notes, file = FaultList(), list(self.notes), self.name
+        faults, notes, warnings, file = FaultList(), list(self.notes), list(self.warnings), self.name
         frames = np.array(self.frames, dtype=float)
         times = None if self.times is None else np.array(self.times, dtype=float)
         positions = {name: np.array(at, dtype=float) for name, at in self.positions.items()}
@@ -96,12 +99,16 @@ class TrackedPoints:
                 fault = Fault(f"{file}, {word}[{k}]", float(series[k]), *_falls(word, series[k - 1]))
                 raise InvalidInputError([fault])
         for name, at in positions.items():
+            at[~np.isfinite(at).all(axis=1)] = np.nan
             empty = (at == 0).all(axis=1)
-            if empty.any() and not empty.all():
-                notes.append(f"{file}, {name}: {empty.sum()} frames at exactly (0, 0, 0) are taken for gaps")
-            at[empty | ~np.isfinite(at).all(axis=1)] = np.nan
-        found = {"frames": frames, "times": times, "positions": positions, "notes": tuple(notes)}
-        for name, value in found.items():
+            some = f"{file}, {name}: {empty.sum()} frames at exactly (0, 0, 0)"
+            if self.kind in _ZERO_IS_GAP:
+                at[empty] = np.nan
+                notes += [f"{some} are taken for gaps"] if empty.any() else []
+            elif empty.any() and not empty.all():
+                warnings.append(f"{some} are taken as they are; leave cells empty where the point was not seen")
+        found = {"frames": frames, "times": times, "positions": positions}
+        for name, value in (found | {"notes": tuple(notes), "warnings": tuple(warnings)}).items():
             object.__setattr__(self, name, value)
 
 
@@ -121,7 +128,8 @@ def read_points(source: Any) -> TrackedPoints:
     Text: any table with three columns ``<name>_x``, ``<name>_y``, ``<name>_z`` for each point (DLTdv, Argus,
     Anipose), DeepLabCut's three rows of heads, OpenSim's .trc, Qualisys' .tsv and the table of trajectories of
     Vicon Nexus. Others: C3D (needs ezc3d), NetCDF of movement, HDF5 of sleap-anipose. Points with a likelihood or
-    score below 0.6, points seen by fewer than two cameras, and points at exactly (0, 0, 0) become gaps.
+    score below 0.6 and points seen by fewer than two cameras become gaps. So do points at exactly (0, 0, 0) in
+    files of DLTdv and Qualisys, in .trc and in C3D.
 
     Parameters
     ----------

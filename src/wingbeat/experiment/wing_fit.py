@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import dataclasses
-import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from wingbeat._base import Fault, FaultList, InvalidInputError, __version__, write_atomically
+from wingbeat._base import Fault, FaultList, InvalidInputError, __version__, quoted, write_atomically
 from wingbeat.aero import CamberedCoefficients, FormulaCoefficients
 from wingbeat.aero.coefficient_model import check_aspect_ratio
 from wingbeat.aero.model_file import KIND, Fitted, FittedCurve, FittedModel, FittedWing, read_model
@@ -299,14 +298,14 @@ def model_text(model: Fitted, form: str, curves: dict[str, CurveFit]) -> str:
         pairs = zip(model.curves.items(), curves.items(), strict=True)
         sections = [(key.removesuffix("_terms"), part, dict([curve])) for (key, part), curve in pairs]
     lines = [_HEAD, *([_CAMBERED] if isinstance(model, FittedWing) else [])]
-    lines += [f"{key} = {_quoted(text)}" for key, text in texts.items()]
+    lines += [f"{key} = {quoted(text)}" for key, text in texts.items()]
     lines += [f"{key} = {_row(ends)}" for key, ends in ranges.items()]
     if model.reynolds_range is not None:
         lines.append(f"reynolds_range = {_row(model.reynolds_range)}")
     if model.aspect_ratio is not None:
         lines.append(f"aspect_ratio = {float(model.aspect_ratio)!r}")
     if model.notes:
-        lines += ["notes = [", *(f"  {_quoted(note)}," for note in model.notes), "]"]
+        lines += ["notes = [", *(f"  {quoted(note)}," for note in model.notes), "]"]
     for key, part, own in sections:
         limits = {name: ends for curve in own.values() for name, ends in curve.interval().items()}
         formulas = "\n# ".join(f"{label} = {curve.form.formula}" for label, curve in own.items())
@@ -316,7 +315,7 @@ def model_text(model: Fitted, form: str, curves: dict[str, CurveFit]) -> str:
                 low, high = limits.get(name, (value, value))
                 about = f" # 95 % interval {low:.5g} to {high:.5g}" if name in limits else " # held fixed"
                 lines.append(f"{name} = {float(value)!r}{about}")
-        free = ", ".join(_quoted(name) for name in part.free)
+        free = ", ".join(quoted(name) for name in part.free)
         lines += ["", f"[{key}.fit]", f"free = [{free}]", "covariance = ["]
         lines += [f"  {_row(row)}," for row in part.covariance]
         lines += ["]", f"points = {len(next(iter(own.values())).values)}"]
@@ -329,11 +328,6 @@ def model_text(model: Fitted, form: str, curves: dict[str, CurveFit]) -> str:
 
 def _row(values: object) -> str:
     return "[" + ", ".join(repr(float(value)) for value in np.asarray(values)) + "]"
-
-
-def _quoted(text: str) -> str:
-    """Return a TOML string, written as JSON: their escapes agree once unprintable characters are removed."""
-    return json.dumps("".join(sign for sign in text if sign.isprintable()), ensure_ascii=False)
 
 
 MAX_COUNT = 100_000

@@ -95,6 +95,19 @@ def wing_columns(wing: Mapping[str, Array], pitch: Array, normal: Array, fold: b
     return found
 
 
+def span_of(flap: Array, sweep: Array, tilt: Array) -> tuple[Array, Array]:
+    """Return the direction from shoulder to tip, and the stroke plane's normal, as forward, left, up, shape (n, 3).
+
+    It is the inverse of `wing_columns`: of flap and sweep [rad] of the left wing, with the stroke plane at `tilt`
+    [rad] from the horizontal, shape (n,) each.
+    """
+    zero = np.zeros_like(flap)
+    ahead = np.stack([np.sin(tilt), zero, np.cos(tilt)], axis=1)
+    up = np.stack([-np.cos(tilt), zero, np.sin(tilt)], axis=1)
+    e = np.cos(flap)[:, None] * np.array([0.0, 1.0, 0.0]) + np.sin(flap)[:, None] * up
+    return np.cos(sweep)[:, None] * e + np.sin(sweep)[:, None] * ahead, ahead
+
+
 def stroke_plane(wings: Mapping[str, Mapping[str, Array]], pitch: Array) -> tuple[Array, float, float]:
     """Return the stroke plane's normal (along, above the body axis), its angle and the angle's error [deg]."""
     found = [wing_columns(wing, pitch, np.array([1.0, 0.0]), False) for wing in wings.values()]

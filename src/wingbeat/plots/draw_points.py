@@ -22,6 +22,7 @@ from wingbeat._base.style import (
     new_figure,
 )
 from wingbeat.experiment.point_tables import METRES
+from wingbeat.experiment.wing_points import span_of
 from wingbeat.plots.draw_experiments import FILM_LABELS
 
 if TYPE_CHECKING:
@@ -67,14 +68,11 @@ def points_page(found: PointAngles) -> Figure:
             for name in ("flap_deg", "sweep_deg", "fold_deg")
         )
         span = laws["span_fraction"].curve(phase)[0] if "span_fraction" in laws else np.ones(8)
-        turn = np.radians(found.stroke_plane_deg - found.body_pitch_deg)
+        tilt = np.full(8, np.radians(found.stroke_plane_deg - found.body_pitch_deg))
         arm = 1.0 if found.film.wrist is None else found.film.wrist
         places = [np.zeros((3, 8))]
         for share, angle in ((arm, flap), (1.0 - arm, flap - drop)):
-            out, over = np.cos(sweep) * np.cos(angle), np.cos(sweep) * np.sin(angle)
-            ahead = np.sin(sweep) * np.sin(turn) - over * np.cos(turn)
-            up = np.sin(sweep) * np.cos(turn) + over * np.sin(turn)
-            places.append(places[-1] + share * span * np.stack([ahead, out, up]))
+            places.append(places[-1] + share * span * span_of(angle, sweep, tilt)[0].T)
         for k, (x, y, z) in enumerate(np.transpose(places, (2, 1, 0))):
             line = {"color": VERMILION, "linewidth": 0.7, "label": "" if k or one != first else "fitted span"}
             behind.plot(mirror * y, z, **line)

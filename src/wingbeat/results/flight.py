@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import itertools
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
@@ -25,6 +27,10 @@ from wingbeat.records.result_files import Saveable
 
 if TYPE_CHECKING:
     import xarray as xr
+
+
+# How far a tail tilts [rad].
+_MOST_TILT = math.radians(30.0)
 
 
 @dataclass(frozen=True)
@@ -294,6 +300,27 @@ class CarriedFlight(Saveable):
             told[f"{name}_mean"] = beat_mean(share)
             told[f"{name}_rms"] = float(np.sqrt(beat_mean(share**2)))
         return {name: float(value) for name, value in told.items()}
+
+    def balanced(self) -> CarriedFlight | None:
+        """Return the first beat with the tail tilted so that no moment is missing on average.
+
+        The result is None if no tilt within 30 degrees does that.
+        """
+        from scipy.optimize import root_scalar
+
+        first = self.phase <= 1.0
+        series = {name: getattr(self, name)[first] for name in ("phase", "states", "accelerations")}
+
+        def tilted(tilt: float) -> CarriedFlight:
+            wingbeat = dataclasses.replace(self.wingbeat, tail_tilt=tilt)
+            return dataclasses.replace(self, wingbeat=wingbeat, **series)
+
+        def missing(tilt: float) -> float:
+            return tilted(tilt).summary["missing_moment_mean"]
+
+        if missing(-_MOST_TILT) * missing(_MOST_TILT) > 0:
+            return None
+        return tilted(root_scalar(missing, bracket=(-_MOST_TILT, _MOST_TILT), xtol=1e-6).root)
 
 
 def carry(

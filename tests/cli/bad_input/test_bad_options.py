@@ -105,6 +105,8 @@ OUTPUTS = {
     "-o ''": "it is a folder; give the path of a file",
     "-o": "-o requires an argument",
     "-o kept.png": "--output = 'kept.png': does not end in a suffix for results; end the name in .nc",
+    "-o beat.csv --kinematics ./beat.csv": "--output = 'beat.csv': is a file that the command reads",
+    "--aero old.csv -o old.csv": "--output = 'old.csv': is a file that the command reads",
     "-o orbit": "--output = 'orbit': does not end in a suffix for results|.csv or .mat",
 }
 FIGURES = {

@@ -176,10 +176,10 @@ def test_the_answer_stands_beside_what_the_film_and_the_species_differ_in(tmp_pa
 
 @pytest.mark.slow
 @pytest.mark.parametrize(("model", "frequency"), [("paper", 6.5), ("animal", 8.0)])
-def test_three_commands_say_whether_a_flight_is_trimmed_what_force_is_missing_and_what_power(model, frequency, tmp_path):
+def test_three_commands_say_whether_it_is_trimmed_what_force_is_missing_and_what_power(model, frequency, tmp_path):
     # DLTdv's file of a pigeon-sized bird at 500 frames a second, three beats, in the axes of a camera (y down).
-    beat = a_beat(3) | {"frequency": frequency, "climb": 1.0, "flap_mean": 8.0, "flap_amplitude": 42.0, "speed": 40.0}
-    beat |= {"pitch_mean": 6.0, "pitch_amplitude": 16.0, "retraction": 0.3, "stroke_plane": 86.0}
+    beat = a_beat(3) | {"frequency": frequency, "climb": 1.0, "flap_mean": 8.0, "flap_amplitude": 42.0}
+    beat |= {"speed": 40.0, "pitch_mean": 6.0, "pitch_amplitude": 16.0, "retraction": 0.3, "stroke_plane": 86.0}
     at = points_of(beat, np.arange(240) / 500, semi_span=0.28)
     camera = np.array([[0.8, 0.0, 0.6], [-0.6, 0.0, 0.8], [0.0, -1.0, 0.0]])
     seen = tracked({role: one @ camera for role, one in at.items()}, noise=0.0015, gaps=0.06)

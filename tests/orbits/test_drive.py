@@ -135,12 +135,13 @@ def test_quantities_of_a_beat_are_those_of_a_reference(cheap, crank):
     costs += pitching / float(best_efficiency(muscle.curvature))
     peaks = muscle.elevator_share * need[left > 0].max() + need[left < 0].max()
     waking = muscle.activation_energy * beat.frequency * muscle.mass * peaks
-    given = np.maximum(left * own, 0.0).mean()
+    given, depressing = (np.maximum(torque * own, 0.0).mean() for torque in (left, np.minimum(left, 0.0)))
     whole = muscle.recovery_factor * (costs + waking)
     animal = muscle.support_factor * (whole + muscle.resting_rate)
     wanted = {
         "peak_activation": need.max(),
-        "muscle_power_per_mass": given / muscle.whole_mass,
+        "muscle_power_per_mass": depressing / muscle.mass,
+        "muscle_work_per_mass": depressing / muscle.mass / beat.frequency,
         "metabolic_power": costs,
         "activation_power": waking,
         "metabolic_rate": animal,

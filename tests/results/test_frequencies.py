@@ -153,7 +153,7 @@ def test_the_page_shows_what_muscle_allows_with_one_legend(curve):
     figure = curve.plot()
     entries = check_legends(figure)
     assert any(text.startswith("the animal's own: 6.2 Hz (5.4 to 6.9)") for text in entries)
-    assert any("activation at most 1; 10 to 34 J/kg" in text for text in entries)
+    assert any("activation at most 1; 5 to 34 J/kg" in text for text in entries)
     assert len(figure.axes) == 4
     power = figure.axes[0].lines
     drawn = {str(line.get_label()): np.asarray(line.get_ydata()) for line in power}

@@ -224,11 +224,6 @@ class Muscle:
         """Isometric torque of the fully active depressors [N m]: stress times volume times strain per angle."""
         return self.isometric_stress * self.mass / MUSCLE_DENSITY * self.strain_per_angle
 
-    @property
-    def whole_mass(self) -> Any:
-        """Mass of depressors and elevators of both sides [kg]."""
-        return self.mass * (1.0 + self.elevator_share)
-
 
 @register_record
 @dataclass(frozen=True)

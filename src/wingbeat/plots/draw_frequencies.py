@@ -134,7 +134,7 @@ def _draw_muscle(activation: Axes, work: Axes, known: dict[str, Any], curve: Any
     activation.axhspan(0.0, 1.0, **_ALLOWED)
     activation.set_ylim(0.0, max(top, 1.2))
     top = curve(work, "muscle_work_per_mass", label="_")
-    dress(work, "", "work per beat and mass\nof flight muscle [J/kg]")
+    dress(work, "", "work per beat and mass\nof the depressors [J/kg]")
     whole, *each = known["work_per_beat"]
     allowed = f"activation at most 1; {work_in_words(whole)} of measured work"
     work.axhspan(whole["low"], whole["high"], label=allowed, **_ALLOWED)

@@ -283,7 +283,7 @@ def with_characteristic(dataset: xr.Dataset, inputs: dict[str, Any]) -> xr.Datas
     return dataset.assign_attrs(characteristic_speeds=json.dumps(found))
 
 
-# Work per beat and mass of flight muscle that was measured, with sources; see the file.
+# Work per beat and mass of the pectoralis that was measured, with sources; see the file.
 _WORK = Path(__file__).with_name("work_per_beat.toml")
 
 
@@ -304,6 +304,9 @@ def _characteristic_frequencies(dataset: xr.Dataset, inputs: dict[str, Any]) -> 
         return found
     activation, work = (dataset[name].values[:, 0] for name in ("peak_activation", "muscle_work_per_mass"))
     bands = tomllib.loads(_WORK.read_text(encoding="utf-8"))["bands"]
+    ends = min(band["low"] for band in bands), max(band["high"] for band in bands)
+    whole = {"name": "all sources", "low": ends[0], "high": ends[1], "unit": "J kg-1"}
+    bands = [whole | {"source": "from the least to the greatest of the others", "grade": "D"}, *bands]
     return found | {
         "activation": {"limit": 1.0, "ranges": _ranges(line, activation, -math.inf, 1.0)},
         "work_per_beat": [band | {"ranges": _ranges(line, work, band["low"], band["high"])} for band in bands],

@@ -203,7 +203,7 @@ def _of_frequency(record: dict[str, Any]) -> list[Block]:
         lines.append(Line(text))
     if "activation" in known:
         lines.append(Line(f"  activation at most 1: {ranges_in_words(known['activation']['ranges'])}"))
-        lines.append(Line("  work per beat of the flight muscle, as measured:"))
+        lines.append(Line("  work per beat of the depressors, as measured of the pectoralis:"))
     for band in known.get("work_per_beat", ()):
         where = ranges_in_words(band["ranges"])
         lines.append(Line(f"    {band['name']}, {work_in_words(band)}: {where}"))

@@ -250,8 +250,9 @@ def _mechanical(beat: Beat, need: Driven) -> Any:
 
 
 def _muscle_power_per_mass(beat: Beat, need: Driven) -> Any:
+    # Of the depressors alone, as measurements are of the pectoralis and of its mass.
     assert beat.drive.muscle is not None
-    return _mechanical(beat, need) / beat.drive.muscle.whole_mass
+    return beat.mean_positive(jnp.minimum(need.torque, 0.0) * need.rate) / beat.drive.muscle.mass
 
 
 def _muscle_work_per_mass(beat: Beat, need: Driven) -> Any:

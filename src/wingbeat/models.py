@@ -22,12 +22,13 @@ from typing import Any, Literal
 from wingbeat._base import FaultList, in_words
 from wingbeat.aero import BladeElement, Feathered
 from wingbeat.animal.kinematics import ANGLES
-from wingbeat.animal.species.posture import free_of, with_free_stroke, with_posture
+from wingbeat.animal.species.numbers import FREQUENCY
+from wingbeat.animal.species.posture import free_of, with_free_stroke
 from wingbeat.animal.species.scaling import BODY_DRAG_AREA, CROSSFLOW_AREA
-from wingbeat.animal.species.species import FREQUENCY, Species
+from wingbeat.animal.species.species import Species
 from wingbeat.orbits.problem.origin import Choice, Origin
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.problem.quantities import named_objective
+from wingbeat.orbits.problem.quantities import Constraint, named_objective, read_limits
 
 MODELS = ("paper", "animal")
 Frequency = float | Literal["own", "free"]
@@ -78,29 +79,44 @@ class Model:
 
         Raises
         ------
-        InvalidInputError : a species of another kind; inputs that `OrbitProblem` refuses.
+        InvalidInputError : a species of another kind; a frequency of this model that `changes` search for or fix
+            elsewhere; inputs that `OrbitProblem` refuses.
         """
         flown = self.species(species)
-        asked = {"aero": self.aero, "minimise": self.objective(flown)} | changes
+        asked: dict[str, Any] = {"aero": self.aero, "minimise": self.objective(flown)} | changes
         if not isinstance(asked["aero"], BladeElement):
             asked["aero"] = dataclasses.replace(self.aero, coefficients=asked["aero"])
-        # Who asks for the least frequency, or names the free parameters, searches for it.
-        least = asked["minimise"]
-        least = named_objective(least) if isinstance(least, str) else least
-        own = self.frequency == "own" and not changes.get("free") and least != named_objective("frequency")
-        held = changes.get("bounds") or {}
-        posture = (
-            self.name == "animal" and self.kind != "robot" and (held == "plausible" or "body_pitch" not in held)
-        )
-        chosen = tuple(self._choices(flown)), tuple(self._changed(flown, changes))
-        origin = Origin(self.name, *chosen, own, posture)
-        if self.frequency not in ("own", "free") and "frequency" in flown.free:
+        own: dict[str, Any] = self.own_choices(asked["minimise"], changes.get("free"), changes.get("bounds"))
+        origin = Origin(self.name, tuple(self._choices(flown, own)), tuple(self._changed(flown, changes)))
+        if self.frequency not in ("own", "free"):
+            _check_given(self.frequency, changes)
             flown = flown.with_values({FREQUENCY: self.frequency})
             asked = {"free": tuple(name for name in flown.free if name != "frequency")} | asked
-        if own:
-            flown = flown.at_own_frequency(speed)
-            asked["free"] = tuple(name for name in flown.free if name != "frequency")
-        return OrbitProblem(with_posture(flown, speed) if posture else flown, speed, climb, origin=origin, **asked)
+        return OrbitProblem(flown, speed, climb, origin=origin, **(own | asked))
+
+    def own_choices(self, minimise: Any, free: Any, bounds: Any) -> dict[str, bool]:
+        """Return ``own_frequency`` and ``own_posture`` of the `OrbitProblem` that this model makes.
+
+        Who names the free parameters, or minimises the frequency, searches for it. Who bounds the body's pitch
+        keeps these bounds at every speed.
+
+        Parameters
+        ----------
+        minimise, free, bounds : as in `OrbitProblem`; None for none.
+
+        Raises
+        ------
+        InvalidInputError : an objective without a quantity of this name.
+
+        >>> import wingbeat as wb
+        >>> animal(wb.load_species("pigeon")).own_choices("frequency", None, None)
+        {'own_frequency': False, 'own_posture': True}
+        """
+        least = named_objective(minimise) if isinstance(minimise, str) else minimise
+        searched = bool(free) or getattr(least, "parameter", None) == "frequency"
+        bounded = bounds is not None and bounds != "plausible" and "body_pitch" in bounds
+        poised = self.name == "animal" and self.kind != "robot"
+        return {"own_frequency": self.frequency == "own" and not searched, "own_posture": poised and not bounded}
 
     @property
     def gliding(self) -> BladeElement:
@@ -171,7 +187,7 @@ class Model:
         if self.frequency != _usual_frequency(self.name, self.kind) and not changes.get("free"):
             yield "frequency"
 
-    def _choices(self, flown: Species) -> list[Choice]:
+    def _choices(self, flown: Species, own: Mapping[str, bool]) -> list[Choice]:
         aero, objective = _air_loads(self.name, self.kind), in_words(self.objective(flown))
         if self.name == "paper":
             paper = "as in Su et al. 2023"
@@ -207,12 +223,12 @@ class Model:
                 if name in ANGLES:
                     limits = f"{math.degrees(low):.0f} to {math.degrees(high):.0f} degrees"
                 found.append(Choice(f"free: {name}", limits, bound.reason))
-        if self.kind != "robot":
+        if own["own_posture"] and "body_pitch" in flown.guessed_bounds:
             why = "guess: nearly level in fast flight and steeper in slow flight, as of pigeons and swallows"
             found.append(Choice("pitch of the body", "within bounds that fall with speed", why))
-        if self.frequency == "own":
-            why = "measured, or by a law of its kind: no physics that was tried predicts it"
-            found.append(Choice("frequency", "the animal's own", why))
+        if own["own_frequency"] and not flown.is_set_by_hand(FREQUENCY):
+            why = "measured, by a law, or a guess, see frequency_basis: no physics that was tried predicts it"
+            found.append(Choice("frequency", f"the {'robot' if self.kind == 'robot' else 'animal'}'s own", why))
         return [*found, Choice("objective", objective, "what the beat costs")]
 
 
@@ -299,6 +315,20 @@ def _air_loads(name: str, kind: str) -> BladeElement:
     if name == "paper":
         return BladeElement("su-fan")
     return BladeElement(_WINGS[kind][0], unsteady="thin-aerofoil", inflow="momentum")
+
+
+def _check_given(frequency: Frequency, changes: Mapping[str, Any]) -> None:
+    """Refuse what a frequency of the model contradicts."""
+    faults, limits = FaultList(), changes.get("subject_to") or ()
+    limits, _ = read_limits([limits] if isinstance(limits, str | Constraint) else list(limits), faults)
+    if "frequency" in (changes.get("free") or ()):
+        faults.add("frequency", frequency, "is given, but `free` searches for it", "keep one of the two")
+    for value in (one.value for one in limits if one.name == "frequency" and one.sign == "="):
+        if value != frequency:
+            faults.add(
+                "frequency", frequency, f"is given, but subject_to fixes {value:g} Hz", "keep one of the two"
+            )
+    faults.raise_if_any()
 
 
 def _check_kind(species: Species, kind: str) -> None:

@@ -321,13 +321,8 @@ def test_a_study_by_both_models():
         species = wb.load_species(base.told["species"])
         model = wb.models.model_of(base.told["model"], species)
         found, wanted = base.recipe.example, model.problem(species, 10.0)
-        assert (found.vehicle, found.aero, found.free, found.bounds) == (
-            wanted.vehicle,
-            wanted.aero,
-            wanted.free,
-            wanted.bounds,
-        )
-        assert found.minimise.name == wanted.minimise.name
+        compared = "species", "aero", "free", "bounds", "minimise", "own_frequency", "own_posture"
+        assert {n: getattr(found, n) for n in compared} == {n: getattr(wanted, n) for n in compared}
     own = plan(model="animal", aero="dickinson", inflow="none", minimise="frequency", speed=8.0).bases[0].recipe
     assert (own.aero.coefficients.name, own.aero.unsteady, own.aero.inflow) == (
         "dickinson",
@@ -336,6 +331,26 @@ def test_a_study_by_both_models():
     )
     assert own.objective == {"name": "frequency"}
     assert own.species.vehicle.muscle is not None
+
+
+def test_a_varied_number_that_equals_the_stock_one_is_flown():
+    """The animal's own frequency and posture change with speed: no stock value stands for them."""
+    vary = {"wingbeat.frequency": {"grid": [6.0, 6.5]}}
+    varied = plan(species=["pigeon"], model="animal", speed=12.0, vary=vary)
+    flown = [varied.bases[0].recipe.problem(point.changes) for point in varied.points()]
+    assert [(one.species.wingbeat.frequency, one.frequency_basis) for one in flown] == [
+        (6.0, "given"),
+        (6.5, "given"),
+    ]
+    lower = plan(species=["pigeon"], model="animal", speed=12.0).bases[0].recipe.example.bounds["body_pitch"][0]
+    varied = plan(
+        species=["pigeon"], model="animal", speed=12.0, vary={"bounds.body_pitch.lower": {"grid": [lower]}}
+    )
+    [point] = varied.points()
+    assert varied.bases[0].recipe.problem(point.changes).bounds["body_pitch"][0] == lower
+    relative = {"wingbeat.frequency": {"relative": [0.9, 1.1]}}
+    with pytest.raises(wb.InvalidInputError, match="the animal's own changes with speed; use grid or range"):
+        plan(species=["pigeon"], model="animal", speed=12.0, vary=relative)
 
 
 def test_an_unknown_model_of_a_study_is_refused():

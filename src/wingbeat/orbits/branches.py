@@ -38,8 +38,7 @@ class Along(NamedTuple):
 def at_frequency(problem: OrbitProblem, frequency: float) -> OrbitProblem:
     """Return the problem at a given frequency [Hz], which is free no more and no longer the animal's own."""
     held = with_number(problem.species, ("wingbeat", "frequency"), frequency)
-    origin = problem.origin and problem.origin._replace(own_frequency=False)
-    return dataclasses.replace(problem, species=held, origin=origin, **fixed_frequency(problem))
+    return dataclasses.replace(problem, species=held, own_frequency=False, **fixed_frequency(problem))
 
 
 def fixed_frequency(problem: OrbitProblem) -> dict[str, Any]:

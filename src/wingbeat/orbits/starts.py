@@ -32,12 +32,7 @@ def start_count(problem: OrbitProblem, starts: int | None = None, options: Searc
         return start_count(easier(problem), None, options)
     if problem.minimises_peaks or problem.has_own_bounds:
         return options.starts_of_many_optima
-    if (
-        problem.has_outputs
-        and not problem.subject_to
-        and problem.origin is not None
-        and problem.origin.own_frequency
-    ):
+    if problem.has_outputs and not problem.subject_to and problem.own_frequency:
         return options.starts_at_own_frequency
     return options.starts_of_outputs if problem.has_outputs else options.starts
 

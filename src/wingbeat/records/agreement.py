@@ -22,7 +22,7 @@ from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.period import PATH_NAMES, SYMMETRY
 from wingbeat.orbits.options import DEFAULTS, Status
-from wingbeat.orbits.problem.origin import frequency_basis, origin_from
+from wingbeat.orbits.problem.origin import frequency_basis
 from wingbeat.orbits.problem.quantities import judged_names
 from wingbeat.records.forms import from_json
 from wingbeat.records.inputs import (
@@ -140,8 +140,7 @@ def _check_inputs(record: dict[str, Any], inputs: dict[str, Any], species: Speci
     demand(record["species"] == species.name, "species is not that of the inputs")
     demand(record.get("model") == inputs.get("model"), "model is not that of the inputs")
     demand(inputs["objective"] in (record["objective"], f"{OWN} {record['objective']}"), "objective is another")
-    origin = origin_from(inputs["model"]) if "model" in inputs else None
-    basis = frequency_basis(inputs["free"], origin, species, inputs["speed"])
+    basis = frequency_basis(inputs["free"], inputs.get("own_frequency", False), species, inputs["speed"])
     demand(record.get("frequency_basis", basis) == basis, f"frequency_basis is not {basis}")
     loads = {name: value for name, value in record["aero"].items() if name != "hand"}
     demand(loads.items() <= {**inputs["aero"], "hand": 0}.items(), "aero is not that of the inputs")
@@ -269,7 +268,7 @@ def check_curve(dataset: xr.Dataset, inputs: dict[str, Any]) -> None:
         demand({mark[end] for end in ends} <= {*values.tolist()}, "a mark is at none of the points")
         demand(isinstance(mark["kind"], str) and isinstance(mark["what"], str), "a mark is of another form")
     found = columns["family"] >= 0
-    own_frequency = over == "speed" and "model" in inputs and origin_from(inputs["model"]).own_frequency
+    own_frequency = over == "speed" and inputs.get("own_frequency", False)
     for i, status in enumerate(columns["status"].tolist()):
         converged = Status(status) is Status.CONVERGED
         demand(converged == bool(found[i, 0]), "status does not fit the optima")

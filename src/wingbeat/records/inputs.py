@@ -41,6 +41,7 @@ from wingbeat.orbits.problem.quantity import Quantity
 
 # Words before the name of a user's function, and after a function that no file can restore.
 OWN = "the user's own"
+_OWN = "own_frequency", "own_posture"  # flags of a problem, which inputs have only if they are true
 SET_ANEW = "is not in the file; set up the problem with this function again"
 _SOURCE, _TERMS = ("citation", "doi", "grade", "reynolds_range"), ("lift_terms", "drag_terms", "centre_terms")
 # Of coefficient models that the library may lack: the class, and from what besides its name to set one up.
@@ -232,6 +233,7 @@ def inputs_of(
     }
     if problem.origin is not None:
         inputs["model"] = problem.origin.record()
+    inputs |= {name: True for name in _OWN if getattr(problem, name)}
     if options != DEFAULTS:
         inputs["options"] = options.changed()
     if start is not None:
@@ -257,6 +259,7 @@ def problem_from(inputs: dict[str, Any]) -> OrbitProblem:
         ],
         air=species.air,
         origin=origin_from(inputs["model"]) if "model" in inputs else None,
+        **{name: inputs.get(name, False) for name in _OWN},
     )
 
 

@@ -231,8 +231,8 @@ def _base(
     before = len(faults.faults)
     made: dict[str, Any] = {}
     for name, (keys, make) in makers.items():
-        if "species" in keys and name != "species" and "species" not in made:
-            continue  # its fault is the species'
+        if any(key != name and key in makers and key not in made for key in keys):
+            continue  # its fault is that of another key
         try:
             made[name] = make(*(chosen[key] for key in keys))
         except InvalidInputError as error:
@@ -248,7 +248,7 @@ def _base(
         return None
     free, limits = tuple(form.free or ()), tuple(chosen["subject_to"])
     parts = made["species"], made["aero"], made["minimise"], free, made["bounds"], limits, search
-    recipe = Recipe(*parts, made["own_frequency"], made["own_posture"])
+    recipe = Recipe(*parts, **made["own"])
     try:
         _ = recipe.example
         inputs = recipe.inputs()
@@ -284,9 +284,12 @@ def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
             continue
         stock, values = recipe.value(path), vary.values
         no_number = isinstance(stock, str) or stock is None or not np.any(stock)
-        known = path in MOTION or stock is not None or settable(path, None, FaultList()) is not None
+        follows = recipe.follows_speed(path)
+        known = path in MOTION or follows or stock is not None or settable(path, None, FaultList()) is not None
         if given.startswith("relative") and no_number and known:
             rule, fix = "needs a value other than zero to be relative to", "use grid or range"
+            if follows:
+                rule = "has no value to be relative to: the animal's own changes with speed"
             if isinstance(stock, str):
                 rule, fix = "would multiply a word", "use grid"
             faults.add(where, shown(values), rule, fix)

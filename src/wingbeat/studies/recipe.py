@@ -21,11 +21,9 @@ from wingbeat.aero.blade_element import OF_ELEMENTS, load_hand
 from wingbeat.aero.polar_formats import POLAR_SUFFIXES
 from wingbeat.animal.species.building import NO_SUCH_PATH, settable
 from wingbeat.animal.species.making import load_species
-from wingbeat.animal.species.numbers import KEYS, Key, shown, spoken
-from wingbeat.animal.species.posture import with_posture
+from wingbeat.animal.species.numbers import FREQUENCY, KEYS, Key, shown, spoken
 from wingbeat.animal.species.species import Species
 from wingbeat.models import Model, model_of
-from wingbeat.orbits.problem.origin import Origin
 from wingbeat.orbits.problem.parameters import Parameter, bound_of, limit_of, parameters_of
 from wingbeat.orbits.problem.problem import CLIMB_LIMITS, SPEED_LIMITS, OrbitProblem
 from wingbeat.orbits.problem.quantities import named_objective
@@ -133,30 +131,24 @@ class Recipe:
     bounds: dict[str, tuple[float, float]] | str
     subject_to: tuple[str, ...]
     search: dict[str, Any]
-    own_frequency: bool = False  # whether each point flies at the frequency of the animal at its speed
-    own_posture: bool = False  # and with the bounds of its body's pitch
+    own_frequency: bool = False  # as in `OrbitProblem`
+    own_posture: bool = False
 
     def problem(self, changes: Mapping[str, Any]) -> OrbitProblem:
         """Return the problem of a point, whose changes by path must have a speed among them."""
         numbers = {path: value for path, value in changes.items() if _key(path) is not None}
         species = self.species.with_values(numbers) if numbers else self.species
-        species, free = species.with_payload(changes.get("payload", 0.0)), self.free
-        if self.own_frequency:
-            species = species.at_own_frequency(changes["speed"])
-            free = tuple(name for name in species.free if name != "frequency")
-        if self.own_posture:
-            species = with_posture(species, changes["speed"])
-        own = self.own_frequency or self.own_posture
         problem = OrbitProblem(
-            species,
+            species.with_payload(changes.get("payload", 0.0)),
             speed=changes["speed"],
             climb=changes.get("climb", 0.0),
             aero=self._aero({path: changes[path] for path in _CHOICES if path in changes}),
-            free=free,
-            origin=Origin("animal", (), (), self.own_frequency, self.own_posture) if own else None,
+            free=self.free,
             bounds=self.bounds,
             minimise=from_inputs(self.objective),
             subject_to=self.subject_to,
+            own_frequency=self.own_frequency,
+            own_posture=self.own_posture,
         )
         for path, value in changes.items():
             if path not in numbers and path not in MOTION and path not in _CHOICES:
@@ -189,8 +181,16 @@ class Recipe:
         key = _key(path)
         return path.removeprefix("vehicle.") if key is None else key.path
 
+    def follows_speed(self, path: str) -> bool:
+        """Return whether the value at a path changes with speed, so that it is not known before a point is."""
+        if self.own_frequency and self.name_of(path) == FREQUENCY:
+            return not self.species.is_set_by_hand(FREQUENCY)
+        return self.own_posture and path.startswith("bounds.body_pitch.")
+
     def value(self, path: str) -> Any:
         """Return the value at a path before anything is varied; None if there is none."""
+        if self.follows_speed(path):
+            return None
         if (key := _key(path)) is not None:
             number = self.species.numbers.get(key.path)
             value: Any = None if number is None else number.value
@@ -329,22 +329,20 @@ def makers_of(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...],
             name = flown(species, model)[1].objective(animal(species, model))
         return as_inputs(name, folder)
 
-    def own_frequency(species: str, model: str, name: str) -> bool:
-        searched = form.free or ("minimise" in form.model_fields_set and name == "frequency")
-        return not searched and flown(species, model)[1].frequency == "own"
+    def bounds() -> dict[str, tuple[float, float]] | str:
+        return given if isinstance(given := form.bounds, str) else _bounds(given)
 
-    def own_posture(species: str, model: str) -> bool:
-        given = isinstance(form.bounds, dict) and {"body_pitch", "body_pitch_deg"} & {*form.bounds}
-        return model == "animal" and flown(species, model)[0].kind != "robot" and not given
+    def own(species: str, model: str, name: str) -> dict[str, bool]:
+        least = from_inputs(objective(species, model, name))
+        return flown(species, model)[1].own_choices(least, form.free, bounds())
 
     of_model = "species", "model"
     makers = {
         "species": (of_model, animal),
         "aero": ((*of_model, "aero", *OF_COEFFICIENTS, *OF_ELEMENTS), loads),
         "minimise": ((*of_model, "minimise"), objective),
-        "own_frequency": ((*of_model, "minimise"), own_frequency),
-        "own_posture": (of_model, own_posture),
-        "bounds": ((), lambda: given if isinstance(given := form.bounds, str) else _bounds(given)),
+        "own": ((*of_model, "minimise"), own),
+        "bounds": ((), bounds),
     }
     return {name: (keys, functools.cache(make)) for name, (keys, make) in makers.items()}
 

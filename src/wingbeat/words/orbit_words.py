@@ -98,7 +98,10 @@ def limits_in_words(record: dict[str, Any]) -> str:
     return f"{', '.join(own)}{then}"
 
 
-FREQUENCY_BASES = {"measured": "measured on the animal", "law": "by a law of its kind", "given": "as asked for"}
+FREQUENCY_BASES = {
+    **{"measured": "measured on the animal", "law": "by a law of its kind"},
+    **{"guess": "a guess", "given": "as asked for"},
+}
 
 
 def frequency_in_words(record: dict[str, Any]) -> str:

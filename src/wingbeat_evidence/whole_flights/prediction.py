@@ -50,7 +50,8 @@ class Flown:
     values : quantities of a certified orbit, in the units of the nomenclature; empty without one.
     peak_activation : largest share of the muscle's fibres that the beat uses; None without muscle.
     active_bounds : free parameters that are at a bound.
-    frequency_basis : where the frequency comes from: ``"measured"``, ``"law"``, ``"given"`` or ``"free"``.
+    frequency_basis : where the frequency comes from: ``"measured"``, ``"law"``, ``"guess"``, ``"given"`` or
+        ``"free"``.
     frequency_range : plausible range of the animal's own frequency [Hz]; None if it was not flown at that.
     body_pitch_deg : mean pitch of the body [deg]; None without an orbit.
     low, high : the band of each quantity: 10th and 90th percentile of the certified draws; without draws, over the
@@ -241,7 +242,7 @@ def _flown(orbit: Orbit, draws: int, seed: int, processes: int, progress: Progre
             (math.degrees(one["value"]) for one in record["plausibility"] if one["name"] == "mean_body_pitch"), None
         ),
     }
-    if known["frequency_basis"] in ("measured", "law"):
+    if known["frequency_basis"] not in ("free", "given"):
         known["frequency_range"] = orbit.problem.species.own_frequency(orbit.problem.speed).range
     if draws:
         known |= _band(orbit, _quantities(values), draws, seed, processes, progress)

@@ -19,7 +19,7 @@ from wingbeat._workers.process import Context
 from wingbeat.aero.blade_element import OF_ELEMENTS
 from wingbeat.aero.completion import VITERNA
 from wingbeat.aero.polar_formats import POLAR_SUFFIXES
-from wingbeat.animal.species.species import FREQUENCY
+from wingbeat.animal.species.numbers import FREQUENCY
 from wingbeat.animal.species.writing import species_text
 from wingbeat.models import MODELS, model_of
 from wingbeat.orbits.options import Status
@@ -318,10 +318,10 @@ def _asking_for(problem: OrbitProblem, inputs: dict[str, Any], written_out: bool
     usual = model_of(model, known).frequency
     basis, left = problem.frequency_basis, ["vehicle.mass"]
     frequency = species.wingbeat.frequency if basis == "given" and "frequency" in known.free else None
-    if frequency is not None or basis in ("measured", "law"):
+    if frequency is not None or basis in ("measured", "law", "guess"):
         left.append(FREQUENCY)
     bounds = known.bounds | known.path_bounds
-    if problem.origin and problem.origin.own_posture:  # the model's own bounds at this speed
+    if problem.own_posture:  # the model's own bounds at this speed
         bounds |= {"body_pitch": tuple(problem.bounds["body_pitch"])}
     own = {n: (float(p[0]), float(p[1])) for n, p in problem.bounds.items() if tuple(p) != bounds.get(n)}
     limits = tuple(f"{c.quantity.name}{'<=' if c.at_most else '>='}{c.limit!r}" for c in problem.subject_to)

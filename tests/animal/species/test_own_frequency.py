@@ -6,10 +6,11 @@ import json
 import pytest
 
 import wingbeat as wb
-from wingbeat.animal.species.numbers import OwnFrequency, frequency_between
+from wingbeat.animal.species.numbers import Number, OwnFrequency, frequency_between, frequency_of
 from wingbeat.animal.species.writing import species_text
 from wingbeat.cli.app import main
 from wingbeat.records.inputs import inputs_of, problem_from
+from wingbeat.words.orbit_words import frequency_in_words
 
 PIGEON, BAT = wb.load_species("pigeon"), wb.load_species("bat")
 SLOW = OwnFrequency(8.0, (6.0, 10.0), "measured", "a film", (3.0, 5.0))
@@ -81,8 +82,102 @@ def test_bats_follow_the_law_of_bats_in_speed():
     law = [round(wb.bat(mass=0.068, wing_span=0.6, wing_area=0.06).own_frequency(v).value, 2) for v in (4.0, 8.0)]
     assert law == [7.4, 6.54]  # 5.54 - 3.068 log10 0.068 - 2.857 log10 V
     assert [round(BAT.own_frequency(v).value, 2) for v in (4.0, 8.0)] == law
+    slow = BAT.own_frequency(2.0)
+    assert slow.range == pytest.approx((slow.value - 1.0, slow.value + 1.0))  # not the change from 4 to 10 m/s too
+    heavy = wb.bat(mass=300.0, wing_span=8.0, wing_area=12.0).own_frequency(10.0)
+    assert 0.0 < heavy.range[0] < heavy.value < heavy.range[1]
     own = wb.bat(mass=0.068, wing_span=0.6, wing_area=0.06, frequency=9.0)
     assert own.own_frequency(4.0)[:3] == (9.0, (9.0, 9.0), "given")
+
+
+def test_an_alternative_with_another_mass_moves_the_law_of_bats():
+    lighter = BAT.with_alternative("handbook-mass")
+    assert lighter.own_frequency(8.0).value == pytest.approx(
+        wb.bat(mass=0.044, wing_span=0.6, wing_area=0.06).own_frequency(8.0).value
+    )
+    assert lighter.own_frequency(8.0).value > BAT.own_frequency(8.0).value
+    assert BAT.with_alternative("uniform-wing").frequencies == BAT.frequencies
+    assert BAT.with_payload(0.01).frequencies == BAT.frequencies  # nothing but the body's mass changes
+    told = dataclasses.replace(BAT, frequencies=(FAST,)).with_alternative("handbook-mass")
+    assert told.frequencies == (FAST,)
+
+
+def test_a_measured_frequency_of_a_bat_wins_over_the_law():
+    noctule = wb.load_species("noctule")
+    assert noctule.own_frequency(6.0)[:3:2] == (7.52, "measured")
+    assert noctule.own_frequency(13.5)[:3:2] == (7.25, "measured")
+
+
+@pytest.mark.parametrize(
+    ("source", "kind", "basis"),
+    [
+        ("A: mean of 5 birds, Smith 2010", "bird", "measured"),
+        ("B: as quoted by others", "bird", "measured"),
+        ("D: middle of two laws", "bird", "given"),
+        ("Smith 2010, table 3", "bird", "given"),
+        ("", "bird", "given"),
+        ("given", "bird", "given"),
+        ("first guess: 4 to 6 Hz", "bird", "guess"),
+        ("guess", "bat", "guess"),
+        ("derived: a law", "bird", "law"),
+        ("derived: that of birds", "robot", "guess"),
+    ],
+)
+def test_the_basis_of_a_stock_frequency_is_what_its_source_says(source, kind, basis):
+    found = frequency_of(Number(5.0, "Hz", source, (4.0, 7.0)), kind)
+    assert found == OwnFrequency(5.0, (5.0, 5.0) if basis == "given" else (4.0, 7.0), basis, source)
+
+
+def test_a_guess_keeps_its_range_and_is_called_one():
+    anna = wb.load_species("annas-hummingbird")
+    problem = wb.models.animal(anna).problem(anna, 6.0)
+    assert problem.frequency_basis == "guess"
+    assert problem.species.plausible_range("frequency", 6.0)[:2] == (25.0, 56.0)
+    robot = wb.load_species("robofalcon2")
+    flown = wb.models.animal(robot, "own").problem(robot, 8.0)
+    assert flown.frequency_basis == "guess"
+    assert flown.origin is not None
+    assert ("frequency", "the robot's own") in [choice[:2] for choice in flown.origin.choices]
+    record = {"frequency_basis": "guess", "wingbeat": {"frequency": 40.0}}
+    assert frequency_in_words(record) == "frequency 40 Hz, a guess"
+
+
+def test_choices_speak_of_own_frequency_and_posture_only_where_they_are():
+    def chosen(species=PIGEON, frequency=None, **changes):
+        origin = wb.models.animal(species, frequency).problem(species, 12.0, **changes).origin
+        assert origin is not None
+        return {"frequency", "pitch of the body"} & {choice.what for choice in origin.choices}
+
+    assert chosen() == {"frequency", "pitch of the body"}
+    assert chosen(frequency=7.2) == chosen(minimise="frequency") == {"pitch of the body"}
+    assert chosen(PIGEON.with_values({"wingbeat.frequency": 7.0})) == {"pitch of the body"}
+    assert chosen(bounds={"body_pitch": (-0.1, 0.2)}) == {"frequency"}
+    measured = dataclasses.replace(PIGEON, guessed_bounds=frozenset())
+    assert chosen(measured) == {"frequency"}
+
+
+def test_a_given_frequency_is_obeyed_or_refused():
+    held = dataclasses.replace(PIGEON, free=tuple(name for name in PIGEON.free if name != "frequency"))
+    given = wb.models.animal(held, 7.2).problem(held, 12.0)
+    assert (given.species.wingbeat.frequency, given.frequency_basis) == (7.2, "given")
+    model = wb.models.animal(PIGEON, 7.2)
+    with pytest.raises(wb.InvalidInputError, match="is given, but `free` searches for it"):
+        model.problem(PIGEON, 12.0, free=("frequency", "flap_amplitude"))
+    with pytest.raises(wb.InvalidInputError, match="is given, but subject_to fixes 8 Hz"):
+        model.problem(PIGEON, 12.0, subject_to="frequency=8")
+    assert model.problem(PIGEON, 12.0, subject_to="frequency=7.2").species.wingbeat.frequency == 7.2
+
+
+def test_a_problem_says_itself_that_frequency_and_posture_are_the_animals_own():
+    problem = wb.OrbitProblem(PIGEON, 12.0, minimise="mean_power", own_frequency=True, own_posture=True)
+    assert (problem.species.wingbeat.frequency, problem.frequency_basis, problem.origin) == (6.15, "law", None)
+    assert problem.at_speed(4.0).species.wingbeat.frequency == 7.85
+    assert problem.at_speed(4.0).bounds["body_pitch"] != problem.bounds["body_pitch"]
+    assert dataclasses.replace(problem, origin=None) == problem
+    with pytest.raises(wb.InvalidInputError, match="is searched for, but own_frequency gives it"):
+        wb.OrbitProblem(PIGEON, 12.0, free=("frequency",), own_frequency=True)
+    with pytest.raises(wb.InvalidInputError, match="own_posture = 'yes': must be True or False"):
+        wb.OrbitProblem(PIGEON, 12.0, own_posture="yes")  # type: ignore[arg-type]
 
 
 def test_entries_survive_the_species_file_and_the_orbits_file(tmp_path):
@@ -110,6 +205,18 @@ value = 6.0
 range = [5.0, 7.0]
 basis = "law"
 speeds = [8.0, 12.0]
+
+[[frequencies]]
+value = 6.0
+range = [5.0, 7.0]
+basis = "measured"
+speeds = [14.0, 14.0]
+
+[[frequencies]]
+value = 6.5
+range = [5.0, 7.0]
+basis = "law"
+speeds = [14.0, 14.0]
 """
     path = tmp_path / "wrong.toml"
     path.write_text(text)
@@ -119,6 +226,8 @@ speeds = [8.0, 12.0]
     assert "frequencies[0].unit" in said
     assert "must be above 0 and within its range, 5 to 7 Hz" in said
     assert "overlap with those of frequencies[0]" in said
+    assert "frequencies[2].source = nothing: must be given of what was measured" in said
+    assert "frequencies[3].speeds = [14.0, 14.0]: overlap with those of frequencies[2]" in said
 
 
 @pytest.mark.parametrize(
@@ -152,3 +261,17 @@ def test_a_file_without_its_kind_is_read_though_only_laws_complete_its_muscle(tm
     assert kindless.kind == ""
     with pytest.raises(wb.InvalidInputError, match='write kind = "bird" or kind = "bat" into its file'):
         kindless.with_alternative("muscle")
+
+
+def test_laws_complete_a_muscle_whatever_the_alternative_is_called(tmp_path):
+    path = tmp_path / "trained.toml"
+    path.write_text(species_text(PIGEON).replace("[alternatives.muscle", "[alternatives.trained"))
+    trained = wb.load_species(path).with_alternative("trained").vehicle.muscle
+    assert trained == PIGEON.with_alternative("muscle").vehicle.muscle
+    own = PIGEON.with_muscle().with_values({"muscle.curvature": 0.3}).with_alternative("muscle")
+    assert own.vehicle.muscle.curvature == 0.3
+
+
+def test_a_bound_keeps_its_reason_when_its_parameter_becomes_free():
+    held = dataclasses.replace(PIGEON, free=("frequency",))
+    assert held.with_free(["flap_mean"]).reasons["flap_mean"] == PIGEON.reasons["flap_mean"]

@@ -100,6 +100,11 @@ def check_parts(numbers: Mapping[str, Number], faults: FaultList) -> None:
                 faults.add(key.path, NOTHING, rule, f"{key.meaning} [{key.unit}]")
 
 
+def lacks_muscle(numbers: Mapping[str, Number]) -> bool:
+    """Return whether the numbers include some of a flight muscle, but not all that it needs."""
+    return has_part(numbers, "muscle") and any(k.required and k.path not in numbers for k in PARTS["muscle"])
+
+
 def derive_body(numbers: dict[str, Number], given: Numbers, faults: FaultList) -> None:
     """Set the mass of the body to the whole mass minus that of both wings."""
     whole, wing = (numbers[path].value if path in numbers else None for path in (WHOLE, WING))
@@ -163,9 +168,19 @@ def plain(value: Any) -> Any:
 
 
 BY_HAND = "set by hand"  # begins the source of a number that was set after the species was made
+_IN_PLACE = f"{BY_HAND} in place of"
 DENSITY_ALONE = "air.density is set and air.viscosity is not"  # begins the warning of such air
 DERIVED = "derived: "  # begins the source of a number that a scaling law gave
 NOT_MEASURED = "derived by scaling laws, not measured: "  # begins the warning that lists such numbers
+
+
+def set_by_hand(path: str, old: Number | None) -> str:
+    """Return the source of a number that is set in place of an old one."""
+    if old is None:
+        return BY_HAND
+    if old.source.startswith(_IN_PLACE):
+        return old.source
+    return f"{_IN_PLACE} {words(path, old)}" + (f": {old.source}" if old.source else "")
 
 
 def find_warnings(

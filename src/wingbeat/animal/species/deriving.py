@@ -18,7 +18,6 @@ from wingbeat.animal.species.numbers import (
     Bound,
     Number,
     Numbers,
-    OwnFrequency,
     Range,
     SpeciesText,
 )
@@ -27,7 +26,6 @@ from wingbeat.animal.species.scaling import Law
 
 _FILE = Path(__file__).with_suffix(".toml")
 _SPEED = 7.0  # m/s, of a bat's stock wingbeat: in the middle of the speeds that the law's spread covers
-_SPEEDS = (2.0, 4.0, 6.0, 8.0, 10.0)  # m/s, between which the law of bats is nearly straight
 # Bounds of the frequency in a search. Two frequencies determine them: the stock one, and that of the cruising law
 # of birds, which depends on size, weight and air. The lower bound is the first factor times the lower frequency;
 # the upper bound is the second factor times the higher one. For a pigeon, the bounds are 1 to 30 Hz. In 63 flights
@@ -149,8 +147,6 @@ def derive(
     found |= {"wingbeat.frequency": frequency, "wingbeat.flap_amplitude": amplitude}
     for path, number in found.items():
         numbers.setdefault(path, number)
-    if kind is BAT and numbers["wingbeat.frequency"] is frequency:  # the law of bats depends on the speed
-        content.frequencies = [bat_frequency(mass, speed) for speed in _SPEEDS]
     usual = [single(numbers["wingbeat.frequency"])]
     if numbers["wingbeat.frequency"] is frequency:
         usual.append(scaling.BIRD_FREQUENCY(mass, span, area, *air))
@@ -218,13 +214,6 @@ def _vehicle(kind: Kind, given: Numbers, mass: float, span: float, area: float) 
 def bat_beat(mass: float, area: float) -> tuple[Number, Number]:
     """Return frequency [Hz] and flap amplitude [rad] of a bat of this mass [kg] and wing area [m2]."""
     return scaling.BAT_FREQUENCY.number(mass, _SPEED), scaling.BAT_FLAP_AMPLITUDE.number(_SPEED, area)
-
-
-def bat_frequency(mass: float, speed: float) -> OwnFrequency:
-    """Return the frequency of a bat of this mass [kg] at a speed [m/s], with the spread of the law."""
-    number = scaling.BAT_FREQUENCY.number(mass, speed)
-    assert number.range is not None, "every law has a spread"
-    return OwnFrequency(single(number), number.range, "law", number.source, (speed, speed))
 
 
 def single(number: Number) -> float:

@@ -20,6 +20,7 @@ from wingbeat.animal.species.building import (
     default_of,
     derive_body,
     find_warnings,
+    lacks_muscle,
     plain,
 )
 from wingbeat.animal.species.deriving import BAT, BIRD, ROBOT, Kind, bat_beat, derive, single
@@ -37,9 +38,9 @@ from wingbeat.animal.species.numbers import (
     to_si,
 )
 from wingbeat.animal.species.reading import packaged_text, read_species_text, species_names
-from wingbeat.animal.species.scaling import tail_numbers
+from wingbeat.animal.species.scaling import frequencies_by_law, tail_numbers
 from wingbeat.animal.species.shape import shape_of
-from wingbeat.animal.species.species import MUSCLE, Species
+from wingbeat.animal.species.species import Species
 
 # Nose straight up or down: the limit where a file sets none.
 _UPRIGHT = (-math.pi / 2, math.pi / 2)
@@ -117,13 +118,13 @@ def species_of(content: SpeciesText, faults: FaultList) -> Species:
         numbers=numbers,
         alternatives=content.alternatives,
         plausible=content.plausible,
-        frequencies=tuple(content.frequencies),
+        frequencies=tuple(content.frequencies) or frequencies_by_law(content.kind, numbers),
         warnings=find_warnings(numbers, drawn, tuple(free), free, records["vehicle"], records["wingbeat"]),
         shape=shape,
         **records,
     )
-    for name in content.alternatives:
-        if name != MUSCLE or species.kind in ("bird", "bat"):  # the laws of its kind complete the muscle's masses
+    for name, other in content.alternatives.items():
+        if species.kind or not lacks_muscle(numbers | other.numbers):  # without a kind there are no laws of muscle
             species.with_alternative(name)  # which refuses one that is impossible
     return species
 

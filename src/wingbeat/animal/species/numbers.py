@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 from wingbeat._base import FIRST_ORDER, HARMONIC_NAMES, IN_RADIANS, Fault, find, plain, plain_unit
 
 DEFAULT = "not given: the default"
+FREQUENCY = "wingbeat.frequency"
 
 
 class Key(NamedTuple):
@@ -190,6 +191,14 @@ class Range(NamedTuple):
     source: str = ""
     speeds: tuple[float, float] | None = None
 
+    def at(self, speed: float) -> Range:
+        """Return this range at a flight speed [m/s]; where it does not apply, open at both ends."""
+        if self.speeds is None or self.speeds[0] <= speed <= self.speeds[1]:
+            return self
+        slowest, fastest = self.speeds
+        where = f"nothing is known at {speed:g} m/s, only from {slowest:.3g} to {fastest:.3g} m/s"
+        return Range(None, None, self.unit, f"{where}: {self.source}", self.speeds)
+
 
 ALL_SPEEDS = (0.0, 100.0)  # m/s; no problem may be faster
 
@@ -197,7 +206,8 @@ ALL_SPEEDS = (0.0, 100.0)  # m/s; no problem may be faster
 class OwnFrequency(NamedTuple):
     """A frequency at which the animal beats [Hz], with its band, where it was found, and at which speeds [m/s].
 
-    The basis is ``measured`` on the animal, or ``law`` of other animals of its kind.
+    The basis is ``measured`` on the animal, ``law`` of other animals of its kind, a ``guess``, or
+    ``given`` by the user.
     """
 
     value: float
@@ -207,17 +217,23 @@ class OwnFrequency(NamedTuple):
     speeds: tuple[float, float] = ALL_SPEEDS
 
 
-# How the source of a number begins that was neither measured nor derived by a law.
-_NOT_MEASURED = ("given", "guess", "first guess")
+# How the source of a number begins, by its basis: grades A and B were measured, see docs/guide/animals.md.
+_BASES = {"measured": ("A: ", "B: "), "law": ("derived",), "guess": ("guess", "first guess")}
 
 
-def frequency_of(stock: Number, value: float, by_hand: bool) -> OwnFrequency:
-    """Return the frequency of a stock wingbeat; one that is given has no band."""
-    basis = "law" if stock.source.startswith("derived") else "measured"
-    if by_hand or not stock.source or stock.source.startswith(_NOT_MEASURED):
-        basis = "given"
-    band = (value, value) if basis == "given" or stock.range is None else stock.range
-    return OwnFrequency(value, band, basis, stock.source)
+def frequency_of(stock: Number, kind: str) -> OwnFrequency:
+    """Return the frequency of the stock wingbeat of an animal of a kind; one that is given has no band.
+
+    >>> frequency_of(Number(40.0, "Hz", "first guess", (25.0, 56.0)), "bird")[:3]
+    (40.0, (25.0, 56.0), 'guess')
+    """
+    assert not isinstance(stock.value, tuple)
+    found = (basis for basis, begins in _BASES.items() if stock.source.startswith(begins))
+    basis = next(found, "given")
+    if basis == "law" and kind == "robot":  # no law of robots was found: that of birds stands in for it
+        basis = "guess"
+    band = (stock.value, stock.value) if basis == "given" or stock.range is None else stock.range
+    return OwnFrequency(stock.value, band, basis, stock.source)
 
 
 def frequency_between(known: Sequence[OwnFrequency], speed: float) -> OwnFrequency:

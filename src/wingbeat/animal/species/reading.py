@@ -217,8 +217,12 @@ def _frequencies(raw: dict[str, Any], faults: FaultList) -> list[OwnFrequency]:
         if not 0 < limits[0] <= value <= limits[1]:  # type: ignore[operator]
             rule = f"must be above 0 and within its range, {limits[0]:g} to {limits[1]:g} Hz"
             faults.add(f"{where}.value", value, rule)
+        if basis == "measured" and not _line(known.get("source")):
+            faults.add(f"{where}.source", NOTHING, "must be given of what was measured", "say who measured it")
         for j, other in enumerate(found):
-            if speeds[0] < other.speeds[1] and other.speeds[0] < speeds[1]:
+            first, last = max(speeds[0], other.speeds[0]), min(speeds[1], other.speeds[1])
+            single = speeds[0] == speeds[1] or other.speeds[0] == other.speeds[1]
+            if first < last or (first == last and single):
                 fix = "give each frequency speeds of its own"
                 faults.add(f"{where}.speeds", list(speeds), f"overlap with those of frequencies[{j}]", fix)
         found.append(OwnFrequency(float(value), limits, basis, _line(known.get("source")), speeds))  # type: ignore[arg-type]

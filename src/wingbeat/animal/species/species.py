@@ -29,12 +29,15 @@ from wingbeat.animal.species.building import (
     default_of,
     derive_body,
     find_warnings,
+    lacks_muscle,
     plain,
+    set_by_hand,
     settable,
 )
 from wingbeat.animal.species.file_schema import has_shape
 from wingbeat.animal.species.numbers import (
     ACTIVATION,
+    FREQUENCY,
     KEYS,
     UNKNOWN,
     Alternative,
@@ -49,15 +52,12 @@ from wingbeat.animal.species.numbers import (
     range_of,
     range_of_tilt,
     to_si,
-    words,
 )
 from wingbeat.animal.species.report import report_of
-from wingbeat.animal.species.scaling import muscle_numbers, tail_numbers
+from wingbeat.animal.species.scaling import frequencies_by_law, muscle_numbers, tail_numbers
 from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.vehicle import Air, Vehicle
 
-FREQUENCY = "wingbeat.frequency"
-_SET_BY_HAND = f"{BY_HAND} in place of"
 MUSCLE = "muscle"  # the alternative with measured masses of the flight muscle
 
 
@@ -81,7 +81,8 @@ class Species(Reported):
         `plausible_range`.
     warnings : what looks wrong, such as a number outside its plausible range.
     shape : how it looks, for drawings alone; None if the file does not say it.
-    frequencies : at which the animal beats, measured or by a law of its kind, by flight speed; see `own_frequency`.
+    frequencies : at which the animal beats by flight speed, from its file or else by the law of bats; see
+        `own_frequency`.
 
     >>> from wingbeat import load_species
     >>> pigeon = load_species("pigeon")
@@ -114,8 +115,8 @@ class Species(Reported):
     def own_frequency(self, speed: float) -> OwnFrequency:
         """Return the frequency at which the animal beats at a flight speed, with its band, basis and source.
 
-        Without `frequencies`, it is that of the stock wingbeat: a ``law`` if a law derived it, ``given`` if the
-        user set it, or if it has no source or is a guess, else ``measured``.
+        Without `frequencies`, it is that of the stock wingbeat. The basis is then ``measured`` if its source has
+        grade A or B, a ``law`` if a law of its kind derived it, a ``guess``, or else ``given``.
 
         Parameters
         ----------
@@ -127,7 +128,7 @@ class Species(Reported):
         """
         if self.frequencies and not self.is_set_by_hand(FREQUENCY):
             return frequency_between(self.frequencies, speed)
-        return frequency_of(self.numbers[FREQUENCY], self.wingbeat.frequency, self.is_set_by_hand(FREQUENCY))
+        return frequency_of(self.numbers[FREQUENCY], self.kind)
 
     def at_own_frequency(self, speed: float) -> Species:
         """Return this species beating at its own frequency at a flight speed; its band is that frequency's range.
@@ -140,11 +141,12 @@ class Species(Reported):
         >>> "frequency" in load_species("common-murre").at_own_frequency(18.0).free
         False
         """
-        own = self.own_frequency(speed)
-        if own.basis == "given":
-            return self
-        beating = self.with_derived({FREQUENCY: Number(own.value, "Hz", own.source, own.range)})
-        return dataclasses.replace(beating, free=tuple(name for name in self.free if name != "frequency"))
+        own, beating = self.own_frequency(speed), self
+        number = Number(own.value, "Hz", own.source, own.range)
+        if own.basis != "given" and number != self.numbers[FREQUENCY]:
+            beating = self.with_derived({FREQUENCY: number})
+        free = tuple(name for name in self.free if name != "frequency")
+        return beating if free == self.free else dataclasses.replace(beating, free=free)
 
     def plausible_range(self, name: str, speed: float) -> Range:
         """Return the plausible range of a number at a flight speed; both ends are None if nothing is known.
@@ -165,13 +167,7 @@ class Species(Reported):
         if f"wingbeat.{name}" in self.numbers:
             return range_of(self.numbers[f"wingbeat.{name}"])
         known = self.plausible.get(name, ACTIVATION if name == "peak_activation" else None)
-        if known is None:
-            return Range(None, None, plain_unit(name), UNKNOWN)
-        if known.speeds is None or known.speeds[0] <= speed <= known.speeds[1]:
-            return known
-        slowest, fastest = known.speeds
-        where = f"nothing is known at {speed:g} m/s, only from {slowest:.3g} to {fastest:.3g} m/s"
-        return Range(None, None, known.unit, f"{where}: {known.source}", known.speeds)
+        return Range(None, None, plain_unit(name), UNKNOWN) if known is None else known.at(speed)
 
     def _report(self) -> Report:
         return species_report(self)
@@ -204,7 +200,7 @@ class Species(Reported):
                 faults.add(path, value, f"is given as {other} too", "keep one of the two")
                 continue
             old = self.numbers.get(key.path)
-            number = Number(to_si(value, path), key.unit, self._by_hand(key.path), old and old.range)
+            number = Number(to_si(value, path), key.unit, set_by_hand(key.path, old), old and old.range)
             given.put(key, number, path, value)
         return self._rebuilt(self.numbers | given, given, faults)
 
@@ -227,7 +223,7 @@ class Species(Reported):
             if old is not None and value == old.value:
                 numbers[key.path] = old
             elif value is not None and (old is not None or value != default_of(key.path)):  # None: a part it lacks
-                numbers[key.path] = Number(value, key.unit, self._by_hand(key.path), old and old.range)
+                numbers[key.path] = Number(value, key.unit, set_by_hand(key.path, old), old and old.range)
         complete_parts(numbers)
         changed = dataclasses.replace(self, **{section: record})
         if changed.vehicle.tail is None and not changed.wingbeat.tail_tilt:
@@ -256,7 +252,8 @@ class Species(Reported):
                 bounds.setdefault(name, (known.low, known.high))
         faults.raise_if_any()
         added = tuple(name for name in dict.fromkeys(names) if name not in self.free)
-        reasons = self.reasons | {name: "the plausible range of the species file" for name in added}
+        reason = "the plausible range of the species file"
+        reasons = self.reasons | {name: reason for name in added if name not in self.bounds}
         return dataclasses.replace(self, free=(*self.free, *added), bounds=bounds, reasons=reasons)
 
     def is_set_by_hand(self, path: str) -> bool:
@@ -267,15 +264,6 @@ class Species(Reported):
         path : of the number.
         """
         return path in self.numbers and self.numbers[path].source.startswith(BY_HAND)
-
-    def _by_hand(self, path: str) -> str:
-        """Return the source of a number that is set in place of this species' own."""
-        old = self.numbers.get(path)
-        if old is None:
-            return BY_HAND
-        if old.source.startswith(_SET_BY_HAND):
-            return old.source
-        return f"{_SET_BY_HAND} {words(path, old)}" + (f": {old.source}" if old.source else "")
 
     def with_payload(self, payload: float) -> Species:
         """Return this species with a load at the body's centre of mass; the body is heavier, nothing else changes.
@@ -346,13 +334,17 @@ class Species(Reported):
         >>> round(load_species("pigeon").with_muscle().vehicle.muscle.mass, 4)
         0.061
         """
+        measured = self.alternatives[MUSCLE].numbers if MUSCLE in self.alternatives else {}
+        return self.with_derived(self._muscle_by_law(self.vehicle.mass) | measured)
+
+    def _muscle_by_law(self, mass: float) -> dict[str, Number]:
+        """Return the numbers of the muscle that the laws of its kind give at a whole mass [kg]."""
         faults = FaultList()
         if self.kind not in ("bird", "bat"):
             fix = 'write kind = "bird" or kind = "bat" into its file, or give the numbers muscle.* yourself'
             faults.add("kind", self.kind, "has no laws of muscle", fix)
         faults.raise_if_any()
-        measured = self.alternatives[MUSCLE].numbers if MUSCLE in self.alternatives else {}
-        return self.with_derived(muscle_numbers(self.vehicle.mass, self.kind == "bat") | measured)
+        return muscle_numbers(mass, self.kind == "bat")
 
     def with_derived(self, numbers: Mapping[str, Number]) -> Species:
         """Return this species with numbers that laws gave, with their own sources and ranges.
@@ -373,6 +365,7 @@ class Species(Reported):
         """Return this species with the numbers of one of its `alternatives`.
 
         Heavier wings make a lighter body, unless the alternative also sets the mass of the body or of the whole.
+        Laws of its kind complete the muscle, and give `frequencies` by the law of bats, at the new whole mass.
 
         Parameters
         ----------
@@ -380,22 +373,26 @@ class Species(Reported):
 
         Raises
         ------
-        InvalidInputError : there is no alternative of this name.
+        InvalidInputError : there is no alternative of this name; it has some numbers of the muscle, and the kind no
+            laws of the others.
         """
         faults = FaultList()
         if name not in self.alternatives:
             fix = suggest(str(name), self.alternatives) if self.alternatives else f"{self.name} has none"
             faults.add("alternative", name, "is unknown", fix)
             faults.raise_if_any()
-        if name == MUSCLE:
-            return self.with_muscle()  # a file gives masses alone
         numbers, patch = dict(self.numbers), self.alternatives[name].numbers
+        if lacks_muscle(both := numbers | patch):
+            numbers |= self._muscle_by_law(cast(float, both[WHOLE].value)) | numbers
         for path, number in patch.items():
             old = numbers.get(path)
             numbers[path] = number if number.range else number._replace(range=old and old.range)
         if BODY not in patch and {WHOLE, WING} & patch.keys():
             derive_body(numbers, patch, faults)
-        return self._rebuilt(numbers, patch, faults)
+        changed = self._rebuilt(numbers, patch, faults)
+        if self.frequencies != frequencies_by_law(self.kind, self.numbers):  # the file gives them
+            return changed
+        return dataclasses.replace(changed, frequencies=frequencies_by_law(self.kind, changed.numbers))
 
     def _rebuilt(self, numbers: dict[str, Number], given: Numbers, faults: FaultList) -> Species:
         """Return a copy with other numbers; records are checked, whole mass and warnings computed again."""

@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping
 
 from wingbeat.animal.species.building import BODY, WHOLE
 from wingbeat.animal.species.numbers import ALL_SPEEDS, COLOURS, Number, Range, display
+from wingbeat.animal.species.scaling import frequencies_by_law
 from wingbeat.animal.species.species import Species
 
 _HEAD = "# SI units; _deg means degrees. A source that begins with derived or guess was not measured."
@@ -37,7 +38,8 @@ def species_text(species: Species) -> str:
         lines += ["", "# Plausible ranges, with which every orbit is compared."]
     for name, known in species.plausible.items():
         lines += _plausible(name, known)
-    for own in species.frequencies:
+    by_law = species.frequencies == frequencies_by_law(species.kind, species.numbers)  # then the reader finds them
+    for own in () if by_law else species.frequencies:
         lines += ["", "[[frequencies]]", f"value = {_digits(own.value)}", 'unit = "Hz"']
         lines += [f"range = [{_digits(own.range[0])}, {_digits(own.range[1])}]", f"basis = {_quoted(own.basis)}"]
         if own.speeds != ALL_SPEEDS:

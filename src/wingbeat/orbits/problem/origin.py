@@ -6,8 +6,7 @@ from collections.abc import Iterable, Mapping
 from typing import Any, NamedTuple
 
 from wingbeat._base import NOMENCLATURE, for_people
-from wingbeat.animal.species.posture import with_posture
-from wingbeat.animal.species.species import FREQUENCY, Species
+from wingbeat.animal.species.species import Species
 
 
 class Choice(NamedTuple):
@@ -19,40 +18,24 @@ class Choice(NamedTuple):
 
 
 class Origin(NamedTuple):
-    """The model with which a problem was made."""
+    """The model with which a problem was made; it has no effect on the solution."""
 
     name: str  # ``"paper"`` or ``"animal"``
     choices: tuple[Choice, ...]
     # Air loads and parameters of `OrbitProblem` that the user chose differently. Changed numbers of the species are
     # no part of it: their sources name the change.
     changed: tuple[str, ...] = ()
-    own_frequency: bool = False  # whether the frequency is that of the animal at its speed
-    own_posture: bool = False  # whether the body's pitch keeps to bounds of its kind at its speed
 
     def record(self) -> dict[str, Any]:
         """Return the origin as lists and texts, for JSON."""
         choices = [choice._asdict() for choice in self.choices]
-        own = {name: True for name in ("own_frequency", "own_posture") if getattr(self, name)}
-        return {"name": self.name, "choices": choices, "changed": list(self.changed), **own}
-
-    def at_speed(
-        self, species: Species, bounds: Mapping[str, tuple[float, float]], speed: float
-    ) -> tuple[Species, dict[str, tuple[float, float]]]:
-        """Return species and bounds of the problem at another speed [m/s]."""
-        moved, found = species, dict(bounds)
-        if self.own_frequency:
-            moved = moved.at_own_frequency(speed)
-        if self.own_posture:
-            moved = with_posture(moved, speed)
-            found["body_pitch"] = moved.path_bounds["body_pitch"]
-        return moved, found
+        return {"name": self.name, "choices": choices, "changed": list(self.changed)}
 
 
 def origin_from(record: dict[str, Any]) -> Origin:
     """Return the origin from `Origin.record`; any other dictionary raises `KeyError` or `TypeError`."""
     choices = tuple(Choice(**choice) for choice in record["choices"])
-    own = (record.get(name, False) for name in ("own_frequency", "own_posture"))
-    return Origin(record["name"], choices, tuple(record["changed"]), *own)
+    return Origin(record["name"], choices, tuple(record["changed"]))
 
 
 TERMS = ("unsteady", "wake", "inflow")
@@ -82,9 +65,8 @@ def model_rows(origin: Mapping[str, Any]) -> list[tuple[str, str]]:
     return [("model", origin["name"] + (f"; changed: {', '.join(changed)}" if changed else ""))]
 
 
-def frequency_basis(free: Iterable[str], origin: Origin | None, species: Species, speed: float) -> str:
-    """Return where the frequency of a problem comes from: ``free``, ``given``, ``measured`` or ``law``."""
+def frequency_basis(free: Iterable[str], own_frequency: bool, species: Species, speed: float) -> str:
+    """Return where the frequency of a problem comes from: ``free``, ``given``, or the basis of the animal's own."""
     if "frequency" in free:
         return "free"
-    own = origin is not None and origin.own_frequency and not species.is_set_by_hand(FREQUENCY)
-    return species.own_frequency(speed).basis if own else "given"
+    return species.own_frequency(speed).basis if own_frequency else "given"

@@ -24,6 +24,7 @@ from wingbeat.aero import SuFan
 from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, Wingbeat, parameter, with_parameters
 from wingbeat.animal.species.numbers import bound_cells
+from wingbeat.animal.species.posture import with_posture
 from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import FlightModel
@@ -92,10 +93,14 @@ class OrbitProblem(Reported):
     origin : the model with which the problem was made, see `wingbeat.models`; it has no effect on the solution.
     wings_may_cross : whether a wing may cross the plane of symmetry, and flap angles may leave their range. A
         stroke whose parameters are all fixed may do both in any case, with a warning.
+    own_frequency : whether the animal beats at its own frequency at this speed, see `Species.own_frequency`.
+    own_posture : whether guessed bounds of ``body_pitch`` become those that fit the speed; given ones replace them
+        at this speed.
 
     Raises
     ------
-    InvalidInputError : an impossible speed; unknown names; bounds that are missing, crossed or not finite.
+    InvalidInputError : an impossible speed; unknown names; bounds that are missing, crossed or not finite; a
+        frequency that is both free and the animal's own.
 
     >>> from wingbeat.animal.species.making import load_species
     >>> OrbitProblem(load_species("pigeon"), speed=10.0).free[0]
@@ -113,6 +118,8 @@ class OrbitProblem(Reported):
     subject_to: Sequence[Any] = ()
     wings_may_cross: bool = False
     origin: Origin | None = None
+    own_frequency: bool = False
+    own_posture: bool = False
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -122,13 +129,18 @@ class OrbitProblem(Reported):
         faults.number("climb", self.climb, **CLIMB_LIMITS, fix="0 is level flight")
         if self.air is not None and not isinstance(self.air, Air):
             faults.add("air", self.air, "is not an Air", "use Air(density=..., viscosity=..., gravity=...)")
-        if not isinstance(self.wings_may_cross, bool):
-            faults.add("wings_may_cross", self.wings_may_cross, "must be True or False")
+        for name in ("wings_may_cross", "own_frequency", "own_posture"):
+            if not isinstance(given := getattr(self, name), bool):
+                faults.add(name, given, "must be True or False")
+        if self.own_frequency and "frequency" in (self.free or ()):
+            faults.add("free", "frequency", "is searched for, but own_frequency gives it", "keep one of the two")
         named = self.bounds if isinstance(self.bounds, str) else None
         if named is not None:
             faults.choice("bounds", named, ("plausible",))
             object.__setattr__(self, "bounds", {})
         faults.raise_if_any()
+        species = self.species.at_own_frequency(self.speed) if self.own_frequency else self.species
+        object.__setattr__(self, "species", with_posture(species, self.speed) if self.own_posture else species)
         self._check_asked(faults)
         if named and not faults.faults:
             own: Any = self.bounds  # tightened by `subject_to`
@@ -215,10 +227,10 @@ class OrbitProblem(Reported):
         ------
         InvalidInputError : an impossible speed, or one whose Reynolds number is not plausible.
         """
-        species, bounds = self.species, self.bounds
-        if self.origin is not None:
-            species, bounds = self.origin.at_speed(species, bounds, speed)
-        moved = dataclasses.replace(self, species=species, speed=speed, bounds=bounds)
+        bounds = dict(self.bounds)
+        if self.own_posture:
+            del bounds["body_pitch"]
+        moved = dataclasses.replace(self, speed=speed, bounds=bounds)
         limits, faults = getattr(self, "_plausible_limits", None), FaultList()
         if limits is not None:
             moved._limit_plausibly([c for c in self.subject_to if c not in limits], faults)
@@ -232,8 +244,8 @@ class OrbitProblem(Reported):
 
     @property
     def frequency_basis(self) -> str:
-        """Where the frequency comes from: ``free`` (searched), ``given``, ``measured`` or by a ``law``."""
-        return frequency_basis(self.free, self.origin, self.species, self.speed)
+        """Where the frequency comes from: ``free`` (searched), ``given``, ``measured``, ``law`` or ``guess``."""
+        return frequency_basis(self.free, self.own_frequency, self.species, self.speed)
 
     def _quantities(self) -> list[Quantity]:
         """Return the objective and the constrained quantities that are outputs of the beat."""

@@ -173,6 +173,9 @@ def test_a_species_file_gets_its_command_or_goes_to_the_page(show):
     page = show().page
     give(page, ("my-bird.toml", "name = 'x'"))
     assert "wingbeat explore --static my-explorer --animals my-bird.toml" in state(page)
+    page.evaluate(DROP, ["my own bird.toml", "name = 'x'"])
+    page.wait_for_function("() => document.querySelector('.wbx-own-state').textContent.includes('my own')")
+    assert '--animals "my own bird.toml"' in state(page)
     page.evaluate(f"() => {{ {FACE}.onfile = (file) => {{ window.given = file.name; }}; }}")
     page.evaluate(DROP, ["my-bird.toml", "name = 'x'"])
     page.wait_for_function("() => window.given === 'my-bird.toml'")
@@ -196,6 +199,19 @@ def test_a_polar_gets_its_command_or_goes_to_the_page(show, name, text):
     page.evaluate(f"() => {{ {FACE}.onfile = (file) => {{ window.given = file.name; }}; }}")
     page.evaluate(DROP, [name, text])
     page.wait_for_function("name => window.given === name", arg=name)
+
+
+def test_of_several_polars_at_once_the_first_is_read_and_the_others_are_said(show):
+    page = show().page
+    page.evaluate(f"() => {{ window.given = []; {FACE}.onfile = (file) => {{ window.given.push(file.name); }}; }}")
+    give(page, ("a.dat", ""), ("b.pol", ""), ("my-bird.toml", ""), ("c.dat", ""))
+    page.wait_for_function("() => document.querySelectorAll('.wbx-own-state li').length === 2")
+    assert page.evaluate("() => window.given") == ["a.dat", "my-bird.toml"]
+    assert "b.pol is not shown:" in state(page)
+    assert "a.dat is read, and a flight has one polar. Drop this one alone." in state(page)
+    give(page, ("c.dat", ""))
+    page.wait_for_function("() => window.given.length === 3")
+    assert state(page) == ""
 
 
 def test_a_dropped_file_is_shown_and_does_not_replace_the_page(show):

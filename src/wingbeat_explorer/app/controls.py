@@ -56,7 +56,7 @@ class Controls:
         self._scenario, self._change = scenario, change
         self._fields: dict[str, Field] = {}
         self._species = "", ""
-        self._table = ("", "")  # name and text of the visitor's own coefficients
+        self._table = ("", "", "")  # name, text and extension of the visitor's own coefficients
 
     def build_flight(self, solve: Callable[[], Any]) -> None:
         """Make the main controls: animal and flight; `solve` is called when the visitor asks for it."""
@@ -141,7 +141,7 @@ class Controls:
 
     def _build_aero(self) -> None:
         self._aero_place.clear()
-        name, text = self._table
+        name, text, _ = self._table
         own = [(name, f"{name} ({'loaded file' if text else 'file not loaded'})")] if name else []
         library = [(each, each) for each in LIBRARY]
         with self._aero_place:
@@ -149,7 +149,7 @@ class Controls:
 
     def _choose_aero(self, name: str) -> None:
         if name == self._table[0]:
-            self._change(aero=name, aero_file=self._table[1])
+            self._change(aero=name, aero_file=self._table[1], extension=self._table[2])
         else:
             self._change(**self._from_library(name))
 
@@ -184,9 +184,10 @@ class Controls:
     def show(self, scenario: Scenario) -> None:
         """Show another scenario."""
         before, self._scenario = self._scenario, scenario
-        if scenario.aero not in LIBRARY and self._table != (scenario.aero, scenario.aero_file):
-            self._table = scenario.aero, scenario.aero_file
-            self._build_aero()
+        if scenario.aero not in LIBRARY:
+            known, self._table = self._table, (scenario.aero, scenario.aero_file, scenario.extension)
+            if known[:2] != self._table[:2]:
+                self._build_aero()
         if (before.model, before.species, before.species_file) != (
             scenario.model,
             scenario.species,

@@ -144,6 +144,22 @@ def test_a_dropped_polar_is_flown_and_said(visit):
 
 
 @pytest.mark.slow
+def test_a_part_polar_that_is_chosen_again_is_completed_again(visit):
+    page = visit()
+    solved(page, "pigeon at 10 m/s, su-fan")
+    page.evaluate(DROP, ["part.pol", (POLARS / XFOIL).read_text()])
+    solved(page, "pigeon at 10 m/s, part")
+    first = exact(page)
+    asks_for(page, "extension=viterna")
+    drawer(page).get_by_label("Model", exact=True).select_option("su-fan")
+    solved(page, "pigeon at 10 m/s, su-fan")
+    drawer(page).get_by_label("Model", exact=True).select_option("part.pol")
+    solved(page, "pigeon at 10 m/s, part")
+    asks_for(page, "extension=viterna")
+    assert float(exact(page)) == pytest.approx(float(first), rel=1e-6)
+
+
+@pytest.mark.slow
 def test_a_link_asks_for_its_file_and_takes_it(visit):
     page = visit("species=pigeon&speed=11&starts=1&aero=turn.dat")
     page.wait_for_function(

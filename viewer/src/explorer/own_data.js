@@ -17,6 +17,9 @@ const PRIVATE =
   "is uploaded.";
 const POLAR = /\.(dat|pol|plr|polar|drg|lft)$/i; // and .csv, .tsv and .txt by their content
 
+// A name as one word of a command.
+const word = (name) => (/\s/.test(name) ? `"${name}"` : name);
+
 export class OwnData {
   // `face`: the explorer whose curve and plots show the data.
   constructor(face) {
@@ -67,6 +70,7 @@ export class OwnData {
 
   async take(files) {
     this.state.replaceChildren();
+    this.sent = {};
     for (const file of files) await this.read(file);
   }
 
@@ -94,20 +98,28 @@ export class OwnData {
 
   // Species files and polars have to be solved, which a page without a server cannot do.
   other(file, polar = POLAR.test(file.name)) {
-    if (this.face.onfile) return this.face.onfile(file);
+    if (this.face.onfile) return this.send(file, polar ? "polar" : "species file");
     if (polar) return this.fly(file.name);
     if (!/\.toml$/i.test(file.name)) {
       return this.refuse(file.name, ["Its name must end in .csv, in .toml for a species file, or in .pol or .dat for a polar."]);
     }
-    const command = `wingbeat explore --static my-explorer --animals ${file.name}`;
+    const command = `wingbeat explore --static my-explorer --animals ${word(file.name)}`;
     const words = `${file.name} is a species file. Its flights must be solved, which this page cannot do.`;
     this.say(make("p", {}, `${words} This command makes a page with them:`), make("code", {}, command));
+  }
+
+  // A flight has one polar and one animal: a second file would replace the first.
+  send(file, kind) {
+    const first = this.sent[kind];
+    if (first) return this.refuse(file.name, [`${first} is read, and a flight has one ${kind}. Drop this one alone.`]);
+    this.sent[kind] = file.name;
+    return this.face.onfile(file);
   }
 
   fly(name) {
     const { species, speed } = this.face.answer ?? { species: "pigeon", speed: 10 };
     const words = `${name} is a polar. Flights with it must be solved, which this page cannot do.`;
-    const command = `wingbeat orbit ${species} --speed ${speed} --aero ${/\s/.test(name) ? `"${name}"` : name}`;
+    const command = `wingbeat orbit ${species} --speed ${speed} --aero ${word(name)}`;
     this.say(make("p", {}, `${words} This command flies it:`), make("code", {}, command));
   }
 

@@ -7,6 +7,9 @@ import numpy as np
 import pytest
 
 import wingbeat as wb
+from wingbeat.orbits.changes import possible_changes
+from wingbeat.orbits.diagnosis import least_change
+from wingbeat.orbits.options import DEFAULTS
 from wingbeat.orbits.solve import Settings, find_orbit
 
 
@@ -45,8 +48,35 @@ def test_the_message_says_which_limits_the_best_orbit_leaves_and_how_far_one_mus
 def test_where_no_limit_is_to_blame_the_message_says_that_too():
     """A pigeon so heavy that no wingbeat within its bounds carries it."""
     heavy = wb.load_species("pigeon").with_values({"body.mass": 0.8})
-    found = find_orbit(wb.OrbitProblem(heavy, speed=6.0, bounds="plausible"), Settings(2, advise=False))
+    found = find_orbit(wb.OrbitProblem(heavy, speed=6.0, bounds="plausible"), Settings(2))
     assert found.status is wb.Status.INFEASIBLE
-    assert found.message.startswith("no orbit within the bounds, even without plausible limits, from")
+    said, _, without = found.message.partition("; without them, ")
+    assert said == "no orbit within the limits"
+    assert without.startswith("no orbit within the bounds from 2 starts: at 6 m/s, lift is short by")
+    # The changes that the message goes on to name are those of the problem without limits.
+    assert "changes that give an orbit" in without
     assert found.relaxations == ()
     assert found.deficits
+
+
+@pytest.mark.slow
+def test_a_limit_of_stability_is_one_of_the_limits_that_the_best_orbit_leaves(bat):
+    stable = dataclasses.replace(bat, subject_to=(*bat.subject_to, "spectral_radius<=0.995"), bounds="plausible")
+    found = find_orbit(stable, Settings(1, most_starts=1, advise=False))
+    assert found.status is wb.Status.INFEASIBLE
+    free = find_orbit(dataclasses.replace(bat, subject_to=()), Settings(1))
+    radius = np.abs(free.multipliers).max()
+    said = re.search(r"spectral radius ([.\d]+) \(at most 0.995\)", found.message)
+    assert float(said[1]) == pytest.approx(radius, rel=5e-3)
+
+
+@pytest.mark.slow
+def test_a_limit_of_stability_is_moved_as_little_as_an_orbit_needs():
+    """The least move is that to the radius of the orbit without the limit, which a search of its own finds."""
+    problem = wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0)
+    free = find_orbit(problem, Settings(2))
+    radius = np.abs(free.multipliers).max()
+    stable = dataclasses.replace(problem, subject_to=["spectral_radius<=0.2"])
+    change = next(c for c in possible_changes(stable, (), {}) if c.name == "spectral_radius")
+    least = least_change(stable, change, free.unknowns, DEFAULTS)
+    assert 0.2 < change.moved(least.share) <= radius * 1.01

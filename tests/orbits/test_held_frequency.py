@@ -65,7 +65,8 @@ def test_the_answer_names_the_least_frequency_first_and_it_flies():
     assert found.status is wb.Status.INFEASIBLE
     assert "from 12 starts: at 4 m/s and 6.2 Hz, lift is short by" in found.message
     assert "single changes that give an orbit, each the least: frequency 6.2 -> " in found.message
-    assert "no flap amplitude or twist alone gives one" in found.message
+    # The closest wingbeat is at no bound of the twist, so the twist was not tried.
+    assert found.message.endswith("; no flap amplitude alone gives one")
     faster = found.relaxations[0]
     assert (faster.name, faster.sign) == ("frequency", "=")
     assert 6.4 < faster.new < 7.5

@@ -37,6 +37,7 @@ from wingbeat.orbits.nlp.newton_kkt import Corrected, certified, correct, first_
 from wingbeat.orbits.nlp.programme import Programme
 from wingbeat.orbits.nlp.transcription import Candidate, Transcription, refine, restore_feasibility, search
 from wingbeat.orbits.options import SolverOptions, Status
+from wingbeat.orbits.problem.quantity import MapQuantity
 from wingbeat.orbits.starts import is_at_lower_bound, plainly, start_point, starts_in_words
 
 if TYPE_CHECKING:
@@ -120,11 +121,10 @@ class _RelaxedLimit(_Relaxed):
         path = programme.path_limits
         rows, unit = [i for i, limit in enumerate(path) if limit == (change.name, change.sign)], 1.0
         if not rows:
-            constraints = list(problem.subject_to)
-            index = next(i for i, c in enumerate(constraints) if is_limit(c, change.name, change.sign))
+            index = next(i for i, c in enumerate(problem.subject_to) if is_limit(c, change.name, change.sign))
             assert programme.outputs is not None
             rows = [len(path) + row for row in programme.outputs.values_of(index)]
-            unit = constraints[index].quantity.scale
+            unit = problem.subject_to[index].quantity.scale
         self._moved, self._unit = rows, change.scale / unit
 
     def inequalities(self, scaled: np.ndarray) -> np.ndarray:
@@ -189,9 +189,10 @@ def least_change(
     `near` are the unknowns of a beat that nearly closes.
     """
     usual, search = options.diagnosis, options.search
-    relaxed = _RelaxedNumber if change.sign == "=" else _RelaxedBound
-    if change.name in PATH_NAMES or any(is_limit(c, change.name, change.sign) for c in problem.subject_to):
-        relaxed = _RelaxedLimit
+    asked = [one.quantity for one in problem.subject_to if is_limit(one, change.name, change.sign)]
+    relaxed = _RelaxedLimit if change.name in PATH_NAMES or asked else _RelaxedBound
+    if change.sign == "=" or any(isinstance(quantity, MapQuantity) for quantity in asked):
+        relaxed = _RelaxedNumber  # conditions of stability are not linear in their limit
     for share in change.tries or (change.widest,):
         share = min(share, change.widest)
         try:
@@ -224,8 +225,8 @@ def least_changes(
     nearest: Nearest,
     threads: int,
     progress: Callable[[int, int], None] | None = None,
-) -> tuple[list[LeastChange], tuple[Relaxation, ...]]:
-    """Return single changes that let a beat close, each as small as possible, and those with a certified orbit.
+) -> tuple[list[LeastChange], tuple[Relaxation, ...], set[str]]:
+    """Return single changes that let a beat close, each as small as possible, those that fly, and what was tried.
 
     `near` are the unknowns of the closest wingbeat; `threads` changes are tried at a time. The smallest come first.
     At a given frequency, the changes of `FIRST` do, and the search ends with `DiagnosisOptions.reported` of them.
@@ -245,9 +246,11 @@ def least_changes(
     changes = in_turn(changes) if held else changes
     found: list[LeastChange] = []
     flying: list[Relaxation] = []
+    tried: set[str] = set()
     together = threads if held else len(changes)
     with ThreadPoolExecutor(threads) as pool:
         for first in range(0, len(changes), together):
+            tried.update(change.name for change in changes[first : first + together])
             for i, answer in enumerate(pool.map(least, changes[first : first + together]), start=first + 1):
                 if answer is not None and len(flying) < most:
                     found.append(answer)
@@ -256,7 +259,7 @@ def least_changes(
                     progress(i, len(changes))
             if len(flying) == most:
                 break
-    return (found if held else sorted(found, key=lambda least: least.share)), tuple(flying)
+    return (found if held else sorted(found, key=lambda least: least.share)), tuple(flying), tried
 
 
 def certified_changes(programme: Transcription, found: Iterable[LeastChange]) -> tuple[Relaxation, ...]:
@@ -376,9 +379,9 @@ def without_orbit(
             return _below(programme, *raised)
     plain = Transcription(plainly(problem), options) if programme.has_epigraph else programme
     changes: list[LeastChange] = []
-    flying: tuple[Relaxation, ...] = ()
+    flying, tried = (), set()
     if advise and not nearest.closes:
-        changes, flying = least_changes(plain, near, nearest, threads, report)
+        changes, flying, tried = least_changes(plain, near, nearest, threads, report)
     # If a negligible change suffices, the local searches missed an orbit.
     negligible = options.diagnosis.negligible_change
     leads = [near] * nearest.closes + [least.unknowns for least in changes if least.share <= negligible]
@@ -393,14 +396,13 @@ def without_orbit(
     held = holds_frequency(problem)
     flying = flying if held else certified_changes(plain, changes)
     which = "single changes that give an orbit, each the least" if held else _SMALLEST
-    message = (
-        f"no orbit within the bounds from {starts_in_words(len(found))}: {words_of(programme, nearest.deficits)}"
-    )
+    short = words_of(programme, nearest.deficits)
+    message = f"no orbit within the bounds from {starts_in_words(len(found))}: {short}"
     if flying:
         message += f"; {which}: {', or '.join(r.text for r in flying)}"
     elif advise:
         message += "; no single change of a bound, a limit, the mass, the speed or the shoulder gave an orbit"
-    others = [words for name, words in FIRST.items() if held and advise and all(r.name != name for r in flying)]
+    others = [words for name, words in FIRST.items() if held and name in tried - {r.name for r in flying}]
     message += f"; no {' or '.join(others)} alone gives one" if others else ""
     # Problems without a term need compiled programs of their own.
     known = not advise or (held and len(flying) == options.diagnosis.reported)
@@ -415,9 +417,8 @@ def unexplained(found: list[Candidate]) -> tuple[Corrected, Ending]:
     if closing := [c for c in found if c.closed]:
         return _uncertified(closing, len(found))
     nearest = min(found, key=lambda c: c.violation)
-    message = (
-        f"no orbit within the bounds from {starts_in_words(len(found))}; the balance that fails was not computed"
-    )
+    searched = f"no orbit within the bounds from {starts_in_words(len(found))}"
+    message = f"{searched}; the balance that fails was not computed"
     return certified(nearest.programme.uncorrected(), nearest.scaled), Ending(Status.INFEASIBLE, message)
 
 
@@ -428,10 +429,8 @@ def _uncertified(closing: list[Candidate], searches: int) -> tuple[Corrected, En
 
 
 def _no_optimum(how: str, searches: int) -> Ending:
-    found = (
-        f"{how} wingbeats were found from {starts_in_words(searches)}, but none could be certified as an optimum"
-    )
-    return Ending(Status.NOT_CONVERGED, f"{found}; try more starts or another seed")
+    found = f"{how} wingbeats were found from {starts_in_words(searches)}, but none could be certified"
+    return Ending(Status.NOT_CONVERGED, f"{found} as an optimum; try more starts or another seed")
 
 
 def _below(programme: Transcription, change: Relaxation, orbit: Corrected) -> tuple[Corrected, Ending | None]:

@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from wingbeat.orbits.problem.problem import OrbitProblem
 
 T = TypeVar("T")
-_WITHIN = "no orbit within the bounds"  # begins the message of a diagnosis
 Progress = Callable[[int, int], None]
 
 
@@ -98,13 +97,14 @@ def find_orbit(
     free: list[Candidate] = []  # where the searches without limits of stability end, if there are such limits
     unlimited: list[Candidate] = []  # and those without any limits
     if asks_for_stability(problem):
-        free = first_searches(Transcription(easier(problem), options), starts, seed, threads, progress, own)
+        easy = Transcription(easier(problem), options)
+        free = first_searches(easy, starts, seed, threads, progress, own, unlimited)
         found = stable_searches(programme, free, threads)
     else:
         found = first_searches(programme, starts, seed, threads, progress, own, unlimited)
     first = (free or found)[0]
     best, ending = first_certified(programme, found), None
-    if best is None and settings.explain and problem.within_plausible:
+    if best is None and settings.explain and problem.within_plausible and problem.subject_to:
         best, ending = beyond_limits(programme, unlimited, len(found), threads, settings.advise)
     nearest = None
     if best is None and settings.explain and settings.most_starts is None and ends_early(problem, found):
@@ -188,13 +188,13 @@ def beyond_limits(
         if ending is not None and ending.status is not Status.INFEASIBLE:
             return None, None
         if ending is not None:
-            message = ending.message.replace(_WITHIN, f"{_WITHIN}, even without plausible limits,", 1)
-            # Its changes help where the ranges are left out.
+            message = f"no orbit within the limits; without them, {ending.message}"
+            # Its changes help where the limits are left out, so none is an answer to this problem.
             return orbit, dataclasses.replace(ending, message=message, relaxations=())
     plain = Transcription(plainly(problem), options) if programme.has_epigraph else programme
     assert plain.outputs is not None
     near = without.physical(orbit.scaled)
-    margins = plain.inequalities(plain.scaled(near))[len(plain.path_limits) :]
+    margins = plain.certified_inequalities(plain.scaled(near), orbit.certificate)[len(plain.path_limits) :]
     left, told = set(), []
     for index, (quantity, limit, at_most) in enumerate(
         (one.quantity, float(one.limit), one.at_most) for one in problem.subject_to
@@ -215,8 +215,12 @@ def beyond_limits(
     leads = [one.unknowns for one in least if one.share <= options.diagnosis.negligible_change]
     if led := first_certified(programme, [search(programme.uncorrected(), lead) for lead in leads]):
         return led, None
+    cheapest = orbit.programme.problem.minimise
+    which = (
+        "the best one" if cheapest is problem.minimise else f"the one of least {cheapest.name.replace('_', ' ')}"
+    )
     message = (
-        f"no orbit within the limits from {starts_in_words(searches)}: at {problem.speed:g} m/s, the best one "
+        f"no orbit within the limits from {starts_in_words(searches)}: at {problem.speed:g} m/s, {which} "
         f"without them has {', '.join(told)}"
     )
     flying = certified_changes(plain, least)
@@ -240,11 +244,12 @@ def first_searches(
 ) -> list[Candidate]:
     """Search from starts, from optima of the problem without limits, and near the lowest peak; return all ends.
 
-    The ends without limits, if there are limits, are appended to `unlimited`.
+    The ends of the searches without any limits are appended to `unlimited`.
     """
     problem, options = programme.problem, programme.options
     if asks_for_stability(problem):
-        free = first_searches(Transcription(easier(problem), options), starts, seed, threads, progress, own)
+        easy = Transcription(easier(problem), options)
+        free = first_searches(easy, starts, seed, threads, progress, own, unlimited)
         return stable_searches(programme, free, threads)
     limited = bool(problem.subject_to)
     found: list[Candidate] = []
@@ -255,10 +260,9 @@ def first_searches(
     if limited:
         without = Transcription(dataclasses.replace(problem, subject_to=()), options)
         report = None if progress is None else lambda done, total: progress(starts + done, starts + total)
-        easy = first_searches(without, starts, seed, threads, report, own)
-        found += search_from_optima(programme, easy, threads)
-        if unlimited is not None:
-            unlimited += easy
+        found += search_from_optima(
+            programme, first_searches(without, starts, seed, threads, report, own, unlimited), threads
+        )
     if programme.has_epigraph:
         for _ in range(starts // 2):  # a lower peak is often near the best optimum
             optima = optima_of(found)
@@ -266,6 +270,8 @@ def first_searches(
                 break
             start = start_beside(problem, optima[0].unknowns, len(found), seed, options.search)
             found.append(search(programme.uncorrected(), start))
+    if unlimited is not None and not limited:
+        unlimited += found
     return found
 
 
@@ -291,7 +297,10 @@ def search_from_optima(
 
 
 def stable_searches(programme: Transcription, free: list[Candidate], threads: int) -> list[Candidate]:
-    """Search for stable orbits from the optima without limits of stability; return where the searches end."""
+    """Search for stable orbits from the optima without limits of stability; return where the searches end.
+
+    Without such an optimum, the ends of `free` are returned.
+    """
     # No search starts from elsewhere: stable orbits are next to some of these optima, and a flight with the
     # derivatives of the stroke map takes five times as long as one without.
     best, map_is_minimised = optimal(free), minimises_map(programme.problem)
@@ -300,7 +309,10 @@ def stable_searches(programme: Transcription, free: list[Candidate], threads: in
         if already.is_optimum:
             return [already]
     if map_is_minimised or not best:
-        return search_from_optima(programme, free, threads)
+        ends = (free_end.programme.physical(free_end.scaled) for free_end in free)
+        return search_from_optima(programme, free, threads) or [
+            as_candidate(programme.uncorrected(), programme.scaled(end)) for end in ends
+        ]
     found = search_from_optima(programme, free, threads, pruned=True)
     stable = optimal(found)
     dear = best[0].objective + programme.options.search.dear_stability * abs(best[0].objective)

@@ -62,6 +62,7 @@ from .orbits.search_options import LeastSquaresOptions as LeastSquaresOptions
 from .orbits.search_options import NewtonOptions as NewtonOptions
 from .orbits.search_options import SearchOptions as SearchOptions
 from .orbits.search_options import StartFamily as StartFamily
+from .orbits.search_options import WakeOptions as WakeOptions
 from .orbits.uncertainty import ErrorBar as ErrorBar
 from .orbits.uncertainty import Samples as Samples
 from .records.numbers import power_account as power_account

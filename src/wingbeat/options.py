@@ -15,6 +15,7 @@ from wingbeat.orbits.search_options import LeastSquaresOptions as LeastSquaresOp
 from wingbeat.orbits.search_options import NewtonOptions as NewtonOptions
 from wingbeat.orbits.search_options import SearchOptions as SearchOptions
 from wingbeat.orbits.search_options import StartFamily as StartFamily
+from wingbeat.orbits.search_options import WakeOptions as WakeOptions
 from wingbeat.stability.options import FeedbackOptions as FeedbackOptions
 from wingbeat.stability.options import LinearOptions as LinearOptions
 from wingbeat.stability.options import ManoeuvreOptions as ManoeuvreOptions

@@ -12,6 +12,8 @@ import wingbeat as wb
 from wingbeat.mechanics.flights import fly_beats
 from wingbeat.orbits.flight.certificate import certify
 from wingbeat.orbits.flight.period import flier
+from wingbeat.orbits.nlp.transcription import Transcription
+from wingbeat.orbits.solution import correct_guess
 from wingbeat.orbits.starts import start_point
 
 LOADS = wb.aero.BladeElement("su-fan", unsteady="thin-aerofoil", wake="jones-section")
@@ -155,6 +157,60 @@ def test_the_sensitivities_and_error_bars_of_an_orbit_know_the_lag(orbit):
     assert bar.deviation > 0
 
 
+@pytest.mark.slow
+def test_the_multipliers_move_as_those_of_orbits_with_the_lag_solved_again(orbit):
+    """The monodromy matrix of the certifier has the states of the wake; so must the derivatives."""
+    causes = wb.stability_sensitivities(orbit)
+    certified = wb.floquet_multipliers(
+        orbit.problem.model,
+        orbit.wingbeat,
+        wb.certify(orbit.problem.model, orbit.wingbeat, orbit.initial_state[2:]).steps,
+    )
+    np.testing.assert_allclose(causes.multipliers, certified, rtol=0, atol=2e-4)
+    checked = 0
+    for slope in causes.sensitivities.slopes:
+        parameter, step = slope.parameter, {"wing.shoulder.x": 2e-4, "body.mass": 1e-3}.get(slope.parameter.path)
+        if step is None:
+            continue
+        moved = np.array([*slope.initial_state.values(), *slope.wingbeat.values()])
+        below, above = (
+            correct_guess(parameter.changed(orbit.problem, parameter.value + by), orbit.unknowns + by * moved)
+            for by in (-step, step)
+        )
+        anew = (above.multipliers - below.multipliers) / (2 * step)
+        found = causes.by_parameter[parameter.path]
+        np.testing.assert_allclose(found, anew, rtol=0, atol=0.02 * np.abs(anew).max())
+        checked += 1
+    assert checked == 2
+
+
+def test_a_wake_that_does_not_repeat_is_known():
+    """A beat after which the wake is another one counts as not closed, and flights that are enough find one."""
+    problem = problem_of()
+    point = start_point(problem, 1, 0)
+    few, enough = (
+        Transcription(problem, wb.SolverOptions(wake=wb.WakeOptions(most_flights=most))) for most in (1, 20)
+    )
+    assert not few.wake_start(few.scaled(point)).repeats
+    assert enough.wake_start(enough.scaled(point)).repeats
+    assert not few.is_closed(few.scaled(point), np.inf)
+    assert enough.is_closed(enough.scaled(point), np.inf)
+    once = certify(problem.model, problem.wingbeat(point), point[:4], lag=wb.WakeOptions(certifying_flights=1))
+    assert once.wake_miss > 1e-3
+
+
+def test_parallel_searches_do_not_share_the_wake_they_remember():
+    """A flight of one copy leaves no trace in the flights of another."""
+    problem = problem_of()
+    points = [start_point(problem, i, 0) for i in (1, 2)]
+    alone, parent = Transcription(problem), Transcription(problem)
+    first, second = parent.uncorrected(), parent.uncorrected()
+    second.point(second.scaled(points[1]))
+    one, other = (each.point(each.scaled(points[0])) for each in (alone, first))
+    for wanted, found in zip(one, other, strict=True):
+        np.testing.assert_array_equal(wanted, found)
+
+
 # --- Doors
 
 
@@ -171,3 +227,9 @@ def test_what_knows_no_wake_refuses_it():
     stubby = problem.species.with_values({"wing.chord": 0.4})
     with pytest.raises(wb.InvalidInputError, match="aspect ratio"):
         wb.OrbitProblem(stubby, speed=12.0, aero=dataclasses.replace(LOADS, wake="jones-finite"))
+
+
+@pytest.mark.slow
+def test_what_reads_a_map_of_four_states_refuses_the_lag(orbit):
+    with pytest.raises(wb.InvalidInputError, match="gust_response does not know"):
+        wb.sensitivities(orbit, ["gust_response"])

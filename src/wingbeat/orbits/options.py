@@ -10,7 +10,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from wingbeat._base import FaultList
-from wingbeat.orbits.search_options import CertificateOptions, LeastSquaresOptions, Options, SearchOptions
+from wingbeat.orbits.search_options import (
+    CertificateOptions,
+    LeastSquaresOptions,
+    Options,
+    SearchOptions,
+    WakeOptions,
+)
 
 
 class Status(enum.Enum):
@@ -240,6 +246,7 @@ class SolverOptions(Options):
     diagnosis : options of the diagnosis of the balance that fails if there is no orbit.
     changes : options of the changes that are tried if there is no orbit.
     sensitivity : options of the derivatives of an optimum.
+    wake : options of the lag of the wake.
 
     Raises
     ------
@@ -258,6 +265,7 @@ class SolverOptions(Options):
     diagnosis: DiagnosisOptions = field(default_factory=DiagnosisOptions)
     changes: ChangeOptions = field(default_factory=ChangeOptions)
     sensitivity: SensitivityOptions = field(default_factory=SensitivityOptions)
+    wake: WakeOptions = field(default_factory=WakeOptions)
 
     def __repr__(self) -> str:  # not every number: this is the default that `help` shows of each solver
         return _shown(self, SolverOptions())

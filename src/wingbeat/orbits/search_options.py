@@ -222,6 +222,41 @@ class SearchOptions(Options):
 
 
 @dataclass(frozen=True)
+class WakeOptions(Options):
+    """Options of the lag of the wake: how its states at phase 0 are found that repeat after a beat.
+
+    Parameters
+    ----------
+    near : in a flight of the solver the states repeat if the next step of Newton's method is shorter than this
+        [m/s]. That step is taken too, to first order, so its square is what remains.
+    most_flights : largest number of such steps. In searches of a pigeon at 6 and 12 m/s and of a bat at 3 and 10
+        m/s, 1223 of 1230 flights needed at most 4, and one had not ended after 8. A beat whose wake does not repeat
+        counts as not closed.
+    diverged : a flight has diverged if its numbers are larger than this.
+    repeats : in a certificate the states repeat within this [m/s], a thousandth of `closure_tolerance`, so that
+        they add nothing to what is certified.
+    rough_repeats : the same in flights that only serve the correction, which `rough_rtol` makes no more exact.
+    certifying_flights : largest number of flights of a certificate. From the states that the search knows it needed
+        3 to 6, from air at rest 17 and more.
+
+    >>> import wingbeat as wb
+    >>> options = wb.SolverOptions(wake=wb.WakeOptions(most_flights=12))
+    >>> options.changed()  # pass them on: wb.solve_orbit(problem, options=options)
+    {'wake': {'most_flights': 12}}
+    """
+
+    near: float = 1e-6
+    most_flights: int = 8
+    diverged: float = 1e12
+    repeats: float = 1e-9
+    rough_repeats: float = 1e-6
+    certifying_flights: int = 21
+
+
+WAKE = WakeOptions()
+
+
+@dataclass(frozen=True)
 class NewtonOptions(Options):
     """Options of Newton's method on the optimality conditions.
 

@@ -19,7 +19,6 @@ import numpy as np
 from wingbeat._base import PRECISION, Fault, InvalidInputError, plain_unit
 from wingbeat._workers.pool import in_processes
 from wingbeat.animal.kinematics import unpack
-from wingbeat.orbits.flight.certificate import certify
 from wingbeat.orbits.flight.period import CLOSURE, CLOSURE_SCALE, PATH_NAMES, PITCH_STATE
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, NullSpace
 from wingbeat.orbits.nlp.transcription import Transcription, certified_beat
@@ -65,7 +64,7 @@ class OptimumSlopes:
         fine = Transcription(problem, options, options.sensitivity.fine_blocks)
         guess = fine.scaled(unknowns)
         # The certificate decides which limits are active; all derivatives come from the solver's finer flights.
-        certificate = certify(problem.model, problem.wingbeat(unknowns), unknowns[:4], options.certificate.rtol)
+        certificate = fine.certificate(guess, problem.wingbeat(unknowns))
         newton = NewtonKKT(fine.uncorrected().matched_to(guess, certificate), guess)
         found = newton.converge(fine, guess, options.sensitivity.step_tolerance)
         if found is None:
@@ -227,15 +226,14 @@ class OptimumSlopes:
                 if stroke_map is None:
                     # Not the certifier's: its map is a difference of flights, and that error of 1e-6 is 1 % of a
                     # derivative.
-                    flight = programme.fly(unknowns[4:], unknowns[:4], self._options.sensitivity.fine_blocks)
-                    stroke_map = np.asarray(flight.end_jacobian)[2:, :4]
+                    stroke_map = programme.flown(scaled).stroke_map
                 found.append(np.max(quantity.of(stroke_map)))
             else:
                 if beat is None:
                     # `unpack` skips the constructor's checks: just outside a bound a wingbeat may be invalid, but
                     # it has derivatives.
                     wingbeat = unpack(problem.free, problem.species.wingbeat, unknowns[4:])
-                    flown = certify(problem.model, wingbeat, unknowns[:4], self._options.certificate.rtol)
+                    flown = programme.certificate(scaled, wingbeat)
                     beat = certified_beat(problem, wingbeat, flown)
                 found.append(np.max(quantity.of(beat)))
         return np.array(found, dtype=float)

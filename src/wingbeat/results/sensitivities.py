@@ -25,7 +25,7 @@ from wingbeat.orbits.options import DEFAULTS, SolverOptions, check_certified
 from wingbeat.orbits.problem.parameters import CURVES, Parameter, parameters_of
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import named_quantity
-from wingbeat.orbits.problem.quantity import Quantity
+from wingbeat.orbits.problem.quantity import MapQuantity, Quantity
 from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.uncertainty import (
     ErrorBar,
@@ -220,7 +220,8 @@ def sensitivities(
 
     Raises
     ------
-    InvalidInputError : an orbit that is not certified, an unknown quantity, an optimum without derivatives.
+    InvalidInputError : an orbit that is not certified, an unknown quantity, one that does not know the lag of the
+        wake of this orbit, an optimum without derivatives.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
@@ -228,11 +229,20 @@ def sensitivities(
     >>> [price.parameter.path for price in found.prices]
     ['bounds.flap_amplitude.upper']
     """
-    faults = FaultList()
+    known, faults = [named_quantity(q) if isinstance(q, str) else q for q in quantities], FaultList()
+    for unknowing in (q.name for q in known if isinstance(q, MapQuantity) and q.name != "spectral_radius"):
+        if (wake := orbit.problem.aero.wake) != "none":
+            rule = f"has states of the flight that {unknowing} does not know"
+            faults.add("aero.wake", wake, rule, f"leave out {unknowing}, or solve the orbit without the wake")
+    faults.raise_if_any()
+    return differentiated(orbit, known, options)
+
+
+def differentiated(orbit: Orbit, known: Sequence[Quantity], options: SolverOptions) -> Sensitivities:
+    """Return the derivatives of an orbit and of quantities, which may read the map of all states of the flight."""
+    faults, problem = FaultList(), orbit.problem
     check_certified(faults, orbit.status, orbit.message, "sensitivities")
     faults.raise_if_any()
-    known = [named_quantity(q) if isinstance(q, str) else q for q in quantities]
-    problem = orbit.problem
     optimum = OptimumSlopes(problem, orbit.unknowns, options)
     slopes = [optimum.by(one, known) for one in parameters_of(problem)]
     prices = [optimum.by(one, known) for one in optimum.active()]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +16,7 @@ from wingbeat.orbits.options import SolverOptions
 from wingbeat.orbits.problem.quantity import MAP_QUANTITIES, MapQuantity
 from wingbeat.plots.draw_influences import tornado_page
 from wingbeat.records.tables import table_of
-from wingbeat.results.sensitivities import Sensitivities, sensitivities
+from wingbeat.results.sensitivities import Sensitivities, differentiated
 from wingbeat.stability.reports import causes_report, pairs
 
 if TYPE_CHECKING:
@@ -31,7 +32,9 @@ def _entry(place: tuple[int, int], stroke_map: Any) -> Any:
     return stroke_map[place]
 
 
-_ENTRIES = tuple(MapQuantity(f"stroke_map{place}", functools.partial(_entry, place)) for place in np.ndindex(4, 4))
+def _entries(states: int) -> list[MapQuantity]:
+    places = np.ndindex(states, states)
+    return [MapQuantity(f"stroke_map{place}", functools.partial(_entry, place)) for place in places]
 
 
 @dataclass(frozen=True)
@@ -112,7 +115,8 @@ def stability_sensitivities(orbit: Orbit, options: SolverOptions = SOLVER) -> St
     InvalidInputError : an orbit that is not certified, an optimum without derivatives.
 
     A multiplier moves by ``w^H dA v / (w^H v)``, with its right and left eigenvectors v and w (Magnus 1985, doi
-    10.1017/S0266466600011129). Here dA is the change of the stroke map while the optimum moves along.
+    10.1017/S0266466600011129). Here dA is the change of the stroke map while the optimum moves along; with the lag
+    of the wake, the map has the states of the wake, too.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
@@ -120,15 +124,22 @@ def stability_sensitivities(orbit: Orbit, options: SolverOptions = SOLVER) -> St
     >>> found.sensitivities.ranked("spectral_radius")[0].parameter.path
     'wing.shoulder.x'
     """
-    found = sensitivities(orbit, [_RADIUS, *_ENTRIES], options)
+    model = orbit.problem.model
+    entries = _entries(4 if model.wake is None else 4 + 2 * model.strips)
+    found = differentiated(orbit, [_RADIUS, *entries], options)
     slopes, prices = (
         [one._replace(quantities={_RADIUS.name: one.quantities[_RADIUS.name]}) for one in part]
         for part in (found.slopes, found.prices)
     )
     radius = [_RADIUS], [found.values[_RADIUS.name]]
     alone = Sensitivities(found.problem, found.unknowns, *radius, slopes, prices)
-    stroke_map = _matrix(found.values)
-    by_parameter = {s.parameter.path: multiplier_slopes(stroke_map, _matrix(s.quantities)) for s in found.slopes}
+
+    def matrix(numbers: dict[str, float]) -> np.ndarray:
+        flat = np.array([numbers[one.name] for one in entries])
+        return flat.reshape(math.isqrt(flat.size), -1)
+
+    stroke_map = matrix(found.values)
+    by_parameter = {s.parameter.path: multiplier_slopes(stroke_map, matrix(s.quantities)) for s in found.slopes}
     return StabilitySensitivities(alone, multipliers_of(stroke_map), by_parameter)
 
 
@@ -137,11 +148,11 @@ def multiplier_slopes(stroke_map: np.ndarray, change: np.ndarray) -> np.ndarray:
 
     Theory: equation ``multiplier-slope``.
     """
-    values, right = np.linalg.eig(stroke_map)
-    moved = np.diag(np.linalg.solve(right, change @ right))
+    from scipy.linalg import eig
+
+    # Of a map with the wake, most multipliers are nearly 0, and the inverse of all eigenvectors would be inexact.
+    values, left, right = eig(stroke_map, left=True, right=True)
     order = [int(np.argmin(np.abs(values - one))) for one in multipliers_of(stroke_map)]
-    return moved[order].astype(complex)
-
-
-def _matrix(entries: dict[str, float]) -> np.ndarray:
-    return np.reshape([entries[one.name] for one in _ENTRIES], (4, 4))
+    left, right = left[:, order].conj().T, right[:, order]
+    with np.errstate(divide="ignore", invalid="ignore"):  # infinite where two multipliers meet
+        return (np.diag(left @ change @ right) / np.diag(left @ right)).astype(complex)

@@ -20,6 +20,7 @@ from wingbeat.mechanics.flights import RTOL, Steps, fly_through
 from wingbeat.orbits.flight.lagged import WakeStart
 from wingbeat.orbits.flight.march import ALONG, PLACES, WEIGHTS
 from wingbeat.orbits.flight.period import Flown, flier
+from wingbeat.orbits.search_options import WAKE, WakeOptions
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import Stretches, StretchMaps, StretchStates
@@ -82,10 +83,12 @@ def certify(
     *,
     rough: bool = False,
     near: WakeStart | None = None,
+    lag: WakeOptions = WAKE,
 ) -> Certificate:
     """Fly one period from x = z = 0 and the given (body_pitch, u, w, pitch_rate).
 
-    With the lag of the wake, the period is flown again until the states of the wake repeat, too.
+    With the lag of the wake, the period is flown again until the states of the wake repeat, too, or the flights of
+    `lag` are spent; `Certificate.wake_miss` says how nearly they repeat.
 
     Theory: equation ``certificate``.
 
@@ -96,6 +99,7 @@ def certify(
     rtol : relative tolerance of the flight.
     rough : whether to sample the path at only a few phases, which takes half the time.
     near : where to look for the states of the wake; the search knows it, and it saves flights.
+    lag : how exactly the states of the wake must repeat.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -113,23 +117,23 @@ def certify(
     def from_wake(wake: np.ndarray) -> tuple[np.ndarray, Steps]:
         return fly_through(model, wingbeat, start, phase, rtol, wake=(wake,))
 
-    states, steps = _repeating(from_wake, near, 2 * model.strips, _ROUGHLY if rough else _REPEATS)
+    states, steps = _repeating(from_wake, near, 2 * model.strips, lag.rough_repeats if rough else lag.repeats, lag)
     return Certificate(phase, states[:, :6], steps, states[:, 6:])
 
 
-# The states of the wake repeat within this [m/s], or the flights are as many.
-_REPEATS, _ROUGHLY, _FLIGHTS = 1e-9, 1e-6, 20
-
-
 def _repeating(
-    fly: Callable[[np.ndarray], tuple[np.ndarray, Steps]], near: WakeStart | None, size: int, tolerance: float
+    fly: Callable[[np.ndarray], tuple[np.ndarray, Steps]],
+    near: WakeStart | None,
+    size: int,
+    tolerance: float,
+    lag: WakeOptions,
 ) -> tuple[np.ndarray, Steps]:
     """Fly until the states of the wake repeat, by Broyden's method for the inverse; return the last flight."""
     wake, inverse = np.zeros(size), np.eye(size)
     if near is not None:
         wake, inverse = near.states, np.linalg.inv(np.eye(size) - near.slopes)
     states, steps = fly(wake)
-    for _ in range(_FLIGHTS):
+    for _ in range(lag.certifying_flights - 1):
         miss = states[-1, 6:] - wake
         if not np.abs(miss).max() > tolerance:  # or not a number
             break

@@ -17,6 +17,7 @@ import numpy as np
 
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat.orbits.flight.march import ALONG, AT_STAGES, STEPS, WEIGHTS, March, from_rows
+from wingbeat.orbits.search_options import WakeOptions
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import ByStripWake, Free, PerStrip, Scalar, TableRows, TableTangents
@@ -96,50 +97,56 @@ def _wake_columns(model: Any, by_wake: ByStripWake, pace: PerStrip) -> Any:
     return jnp.concatenate([jnp.zeros((1, *of_body.shape[1:])), of_body, of_wake])
 
 
-# A start of the wake is near enough if Newton's next step is at most this long [m/s]. That step is taken too, to
-# first order, so its square is what remains.
-_NEAR, _MOST = 1e-6, 8
-# Larger numbers are those of a flight that diverges.
-_TAME = 1e12
-
-
 class WakeStart(NamedTuple):
-    """The states of the wake at phase 0 that repeat [m/s], and the derivative of those after a beat by them."""
+    """The states of the wake at phase 0 of a flight [m/s], whether they repeat, and the flight's stroke map.
+
+    The map is the derivative of (body_pitch, u, w, pitch_rate) and the wake after a beat by those before it.
+    """
 
     states: np.ndarray
-    slopes: np.ndarray
+    repeats: bool
+    stroke_map: np.ndarray
+
+    @property
+    def slopes(self) -> np.ndarray:
+        """Derivative of the wake after a beat by that before it."""
+        return self.stroke_map[4:, 4:]
 
 
 class RepeatingWake:
     """A flier of the body alone: it finds the states of the wake that repeat, and condenses the derivatives.
 
     `fly` flies all states of one period, in blocks; `whole` says whether the path has all states, or body pitch.
+    A flier predicts the wake from its last flight, so a search has a copy of its own.
     """
 
-    def __init__(self, fly: Callable[..., Any], strips: int, whole: bool) -> None:
-        self._fly, self._size, self._whole = fly, 2 * strips, whole
+    def __init__(self, fly: Callable[..., Any], strips: int, whole: bool, options: WakeOptions) -> None:
+        self._fly, self._size, self._whole, self._options = fly, 2 * strips, whole, options
         self._last: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
 
     def __call__(self, values: np.ndarray, start: np.ndarray, blocks: int = 1) -> Any:
         """Fly one period from a pitch state; the result is that of `flier`."""
         place = np.concatenate([start, values])
-        states = self._predicted(place)
+        states, options = self._predicted(place), self._options
         flown: Any = None
-        step, along, slopes = np.zeros((self._size, 1)), np.zeros((self._size, place.size)), np.zeros(0)
-        for _ in range(_MOST):
+        repeats = False
+        step, along, jacobian = np.zeros((self._size, 1)), np.zeros((self._size, place.size)), np.zeros((0, 0))
+        for _ in range(options.most_flights):
             flown = self._fly(values, np.concatenate([start, states]), blocks)
             jacobian, miss = np.asarray(flown.end_jacobian), np.asarray(flown.end)[6:] - states
-            if not (np.abs(jacobian).max(initial=0.0) < _TAME and np.abs(miss).max() < _TAME):
+            if not max(np.abs(jacobian).max(initial=0.0), np.abs(miss).max()) < options.diverged:  # or not a number
                 return self._condensed(flown, np.zeros(self._size), np.zeros((self._size, place.size)))
             slopes, others = self._split(jacobian[6:])
             step, along = np.split(
                 np.linalg.solve(np.eye(self._size) - slopes, np.column_stack([miss, others])), [1], axis=1
             )
-            if np.abs(step).max() <= _NEAR:
+            repeats = bool(np.abs(step).max() <= options.near)
+            if repeats:
                 break
             states = states + step[:, 0]
         self._last = place, states + step[:, 0], along
-        return self._condensed(flown, step[:, 0], along)._replace(wake=WakeStart(self._last[1], slopes))
+        start_of = WakeStart(self._last[1], repeats, jacobian[2:, : 4 + self._size])
+        return self._condensed(flown, step[:, 0], along)._replace(wake=start_of)
 
     def _predicted(self, place: np.ndarray) -> np.ndarray:
         if self._last is None:

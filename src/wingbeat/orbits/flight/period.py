@@ -30,6 +30,7 @@ from wingbeat.mechanics.wing_shape import (
 )
 from wingbeat.orbits.flight.lagged import RepeatingWake, WakeStart, chained
 from wingbeat.orbits.flight.march import ALONG, AT_STAGES, STEPS, WEIGHTS, March, combined, from_rows
+from wingbeat.orbits.search_options import WAKE, WakeOptions
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import (
@@ -151,7 +152,13 @@ class Flown(NamedTuple):
     path_jacobian: PathJacobian
     stroke: StrokeRows = None
     stroke_jacobian: StrokeJacobian = None
-    wake: WakeStart | None = None  # at the start, with the lag of the wake
+    wake: WakeStart | None = None  # at the start, with the lag of the wake, unless the flight diverges
+
+    @property
+    def stroke_map(self) -> np.ndarray:
+        """Derivative of the pitch state, with the lag also of the wake, after the period by that before it."""
+        # With the lag, `end_jacobian` holds for wakes that repeat; a disturbance changes the wake, too.
+        return np.asarray(self.end_jacobian)[2:, :4] if self.wake is None else self.wake.stroke_map
 
 
 def tabulated(
@@ -306,12 +313,19 @@ def fly_part(
 
 
 def flier(
-    model: FlightModel, wingbeat: Wingbeat, free: tuple[str, ...], *, whole_path: bool = False, stroke: bool = False
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    free: tuple[str, ...],
+    *,
+    whole_path: bool = False,
+    stroke: bool = False,
+    lag: WakeOptions = WAKE,
 ) -> Callable[..., Flown]:
     """Return a function of free parameters and pitch state that flies one period in `blocks` times `STEPS` steps.
 
     `Flown.path` holds the body pitch alone, or with `whole_path` the whole pitch state, whose derivatives take a
-    tenth of a batch's time. With `stroke`, the flight has the distances of the stroke from its limits.
+    tenth of a batch's time. With `stroke`, the flight has the distances of the stroke from its limits. Options of
+    the lag of the wake are `lag`.
     """
     part = fly_part.bind(model, wingbeat, free=free, components=4 if whole_path else 1, stroke=stroke)
 
@@ -321,7 +335,7 @@ def flier(
             flown = _then(flown, part(values, flown.end[2:], i / blocks, (i + 1) / blocks))
         return flown
 
-    return fly if model.wake is None else RepeatingWake(fly, model.strips, whole_path)
+    return fly if model.wake is None else RepeatingWake(fly, model.strips, whole_path, lag)
 
 
 def _then(before: Flown, part: Flown) -> Flown:

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from wingbeat.animal.kinematics import Wingbeat
-from wingbeat.orbits.flight.certificate import Certificate, certify
+from wingbeat.orbits.flight.certificate import Certificate
 from wingbeat.orbits.flight.period import CLOSURE_SCALE
 from wingbeat.orbits.nlp.programme import Step
 
@@ -280,18 +280,9 @@ def _optimum(
 
 
 def _fly(programme: Transcription, scaled: np.ndarray, *, rough: bool = False) -> tuple[Wingbeat, Certificate]:
-    options = programme.options.certificate
-    physical = programme.physical(scaled)
     begun = time.perf_counter()
-    wingbeat = programme.problem.wingbeat(physical)
-    certificate = certify(
-        programme.model,
-        wingbeat,
-        physical[:4],
-        options.rough_rtol if rough else options.rtol,
-        rough=rough,
-        near=programme.wake_start(scaled),
-    )
+    wingbeat = programme.problem.wingbeat(programme.physical(scaled))
+    certificate = programme.certificate(scaled, wingbeat, rough=rough)
     programme.certifying.append(time.perf_counter() - begun)
     return wingbeat, certificate
 

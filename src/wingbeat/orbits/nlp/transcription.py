@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import dataclasses
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
@@ -74,7 +75,7 @@ class Transcription(Programme):
         low, high = problem.bounds["flap"]
         self._stroke = StrokeLimits(problem.vehicle, low, high, clearance, len(free), limited=limited)
         stroke = bool(self._stroke.names)
-        self.fly = flier(self.model, stock, free, whole_path=problem.has_outputs, stroke=stroke)
+        self.fly = flier(self.model, stock, free, whole_path=problem.has_outputs, stroke=stroke, lag=options.wake)
         self.outputs = None
         if problem.has_outputs:
             objective = [] if problem.minimise.parameter else [problem.minimise]
@@ -108,6 +109,7 @@ class Transcription(Programme):
         """Return a copy without the correction, for a parallel local search; the copy keeps the cached flights."""
         other = self._corrected(*self._no_correction)
         other._flights, other.certifying = dict(self._flights), []
+        other.fly = copy.copy(self.fly)  # with the lag of the wake it remembers its last flight
         other.steps = None if self.steps is None else []
         return other
 
@@ -132,6 +134,13 @@ class Transcription(Programme):
 
     def point(self, scaled: np.ndarray, read: bool = True) -> Point:
         """Return values and derivatives of the flight from one point; without `read`, outputs may be missing."""
+        return self._flight(scaled, read).point
+
+    def flown(self, scaled: np.ndarray) -> Flown:
+        """Return the flight from one point, whose derivatives are by the unknowns in SI."""
+        return self._flight(scaled, read=False).flown
+
+    def _flight(self, scaled: np.ndarray, read: bool) -> _Flight:
         key = scaled[: self.unknowns.lower.size].tobytes()
         if key not in self._flights:
             if len(self._flights) == _REMEMBERED:
@@ -142,14 +151,23 @@ class Transcription(Programme):
             with np.errstate(over="ignore", invalid="ignore"):
                 point = self._cut(flight.flown, flight.unknowns, self._blocks, read)
             flight = self._flights[key] = flight._replace(point=point, read=True)
-        return flight.point
+        return flight
 
     def wake_start(self, scaled: np.ndarray) -> WakeStart | None:
-        """Return the states of the wake that repeat in a flight from one point; None without the lag."""
-        if self.model.wake is None:
-            return None
-        unknowns = self.physical(scaled)
-        return self.fly(unknowns[4:], unknowns[:4], self._blocks).wake
+        """Return the wake at the start of a flight from one point; None without the lag, or if it diverges."""
+        return None if self.model.wake is None else self.flown(scaled).wake
+
+    def is_closed(self, scaled: np.ndarray, tolerance: float) -> bool:
+        """Return whether the wake repeats, and closure and inequalities hold, to a tolerance in SI units."""
+        wake = self.wake_start(scaled)
+        repeats = self.model.wake is None or (wake is not None and wake.repeats)
+        return repeats and super().is_closed(scaled, tolerance)
+
+    def certificate(self, scaled: np.ndarray, wingbeat: Wingbeat, *, rough: bool = False) -> Certificate:
+        """Return the certifier's flight of a wingbeat from one point."""
+        options, start, near = self.options.certificate, self.physical(scaled)[:4], self.wake_start(scaled)
+        rtol, lag = options.rough_rtol if rough else options.rtol, self.options.wake
+        return certify(self.model, wingbeat, start, rtol, rough=rough, near=near, lag=lag)
 
     def _fly(self, unknowns: np.ndarray, blocks: int, read: bool = True) -> _Flight:
         # A diverging flight may overflow here; `_cut` limits its numbers.
@@ -321,7 +339,8 @@ def load_programs(programme: Transcription, start: np.ndarray) -> None:
     with ThreadPoolExecutor(2) as pool:
         # The program of the search compiles the longest, so it goes first.
         searching = pool.submit(programme.closure_jacobian, programme.scaled(start))
-        pool.submit(certify, programme.model, wingbeat, start[:4]).result()
+        once = dataclasses.replace(programme.options.wake, certifying_flights=1)
+        pool.submit(certify, programme.model, wingbeat, start[:4], lag=once).result()
         searching.result()
 
 

@@ -2,6 +2,7 @@
 
 import dataclasses
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,6 +15,7 @@ from wingbeat.aero.blade_element import BladeElement
 from wingbeat.aero.derived_kernels import UpstrokeKernel, count_arm_strips
 from wingbeat.aero.strip_forces import strip_forces
 from wingbeat.records.inputs import inputs_of, problem_from
+from wingbeat.records.numbers import detached_share
 
 # Speeds along and across the chord [m/s]: six strips at five times, air from below and from above.
 ALONG = np.linspace(2.0, 9.0, 30).reshape(6, 5)
@@ -71,6 +73,16 @@ def test_air_from_above_meets_a_factor_and_air_from_below_does_not():
         for a in begin + step * np.arange(-2, 3)[:, None]
     ]
     assert np.abs(np.diff(change, 2)).max() / step**2 < 1.0
+
+
+@pytest.mark.parametrize("factor", [0.0, 0.1, 1.0])
+def test_flow_that_the_upstroke_lets_through_is_detached_beyond_the_angle_of_largest_lift(factor):
+    """The lift of Su and Fan is largest at 40 degrees and a bit, from above as from below."""
+    wing = wb.load_species("pigeon").vehicle.wing
+    aero = BladeElement("su-fan", upstroke_factor=factor)
+    for degrees, share in ((-10.0, 0.0), (-39.0, 0.0), (-42.0, 1.0), (39.0, 0.0), (42.0, 1.0)):
+        beat = SimpleNamespace(alpha=np.full((5, 10), np.radians(degrees)))
+        assert detached_share(aero, wing, beat) == pytest.approx(share)
 
 
 @pytest.mark.slow

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import TYPE_CHECKING, Any
 
@@ -144,7 +145,9 @@ def beat_numbers(
 def detached_share(aero: BladeElement, wing: Wing, beat: Beat) -> float:
     """Return the share of the beat in which the angle of attack is beyond that of largest lift, by wing area."""
     areas = strips_of(wing, aero.strips).chord
-    detached = is_stalled(aero.stall_numbers()[0], beat.alpha)
+    # A wing that lets air through in the upstroke has less lift there, but the same angle of largest lift.
+    whole = dataclasses.replace(aero, upstroke_factor=1.0)
+    detached = is_stalled(whole.stall_numbers()[0], beat.alpha)
     return beat_mean(np.asarray(detached @ (areas / areas.sum()), dtype=float))
 
 

@@ -18,6 +18,22 @@ ALWAYS = [
 ]
 
 
+@pytest.mark.slow
+def test_the_gait_of_an_orbit_with_the_lag_of_the_wake_is_that_of_its_series(tmp_path):
+    loads = wb.aero.BladeElement("su-fan", unsteady="thin-aerofoil", wake="jones-section")
+    bat = wb.load_species("bat")
+    orbit = wb.solve_orbit(wb.OrbitProblem(bat, speed=10.0, minimise="mean_positive_power", aero=loads), starts=2)
+    for suffix in ("mat", "xml"):
+        wb.export(orbit, tmp_path / f"gait.{suffix}", samples=SAMPLES)
+    wb.export(orbit, tmp_path / "gait.csv", samples=128)
+    frame, series = pd.read_csv(tmp_path / "gait.csv", comment="#"), orbit.dataset
+    for name in ("flap_torque", "hinge_power", "actuator_power"):
+        wanted = 0.5 * series[name].values[:-1:2]
+        np.testing.assert_allclose(frame[f"{name}_per_wing"], wanted, rtol=0, atol=1e-5 * np.abs(wanted).max())
+    with pytest.raises(wb.InvalidInputError, match="MuJoCo does not carry along"):
+        wb.MujocoFlight(orbit)
+
+
 @pytest.fixture
 def table(orbit, tmp_path):
     path = tmp_path / "gait.csv"

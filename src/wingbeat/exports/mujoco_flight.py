@@ -121,8 +121,7 @@ def wing_parts(wing: Wing, wingbeat: Wingbeat, count: int) -> Part:
     held = [part(i, 0.0) for i in range(count) if fraction[i] <= wrist]
     outer = tuple(part(i, wrist) for i in range(count) if fraction[i] > wrist)
     if outer:
-        reach = wing.semi_span * wrist
-        fold = Joint("fold", False, _FOLD, {"fold": 1.0})
+        reach, fold = wing.semi_span * wrist, Joint("fold", False, _FOLD, {"fold": 1.0})
         held.append(Part("hand", reach, (*slide("hand", reach), fold), (), outer))
     return Part("wing", 0.0, tuple(shoulder), (), tuple(held))
 
@@ -306,7 +305,7 @@ class MujocoFlight:
 
     Raises
     ------
-    InvalidInputError : an orbit that is not certified; steps that are not a whole number from 16 to 100000.
+    InvalidInputError : an orbit not certified, or with the lag of the wake; steps not whole, from 16 to 100000.
     FileError : MuJoCo is not installed.
 
     >>> import wingbeat as wb
@@ -321,10 +320,11 @@ class MujocoFlight:
         faults = FaultList()
         check_certified(faults, orbit.status, "export a certified orbit")
         faults.whole("steps", steps, 16, 100_000, "time steps of a beat")
+        if (wake := orbit.problem.aero.wake) != "none":
+            faults.add("aero.wake", wake, "has states that MuJoCo does not carry along", "export the gait (.xml)")
         faults.raise_if_any()
-        engine = _mujoco()
-        problem, self._gait, self._steps = orbit.problem, orbit.wingbeat, steps
-        self._flown = problem.model
+        engine, problem = _mujoco(), orbit.problem
+        self._gait, self._steps, self._flown = orbit.wingbeat, steps, problem.model
         self.model: Any = engine.MjModel.from_xml_string(mujoco_xml(gait_of(orbit, 2)))
         self.data: Any = engine.MjData(self.model)
         self._joints = WingJoints.of(wing_parts(problem.vehicle.wing, self._gait, problem.model.strips))

@@ -151,7 +151,8 @@ def multiplier_slopes(stroke_map: np.ndarray, change: np.ndarray) -> np.ndarray:
     from scipy.linalg import eig
 
     # Of a map with the wake, most multipliers are nearly 0, and the inverse of all eigenvectors would be inexact.
-    values, left, right = eig(stroke_map, left=True, right=True)
+    found: Any = eig(stroke_map, left=True, right=True)
+    values, left, right = found
     order = [int(np.argmin(np.abs(values - one))) for one in multipliers_of(stroke_map)]
     left, right = left[:, order].conj().T, right[:, order]
     with np.errstate(divide="ignore", invalid="ignore"):  # infinite where two multipliers meet

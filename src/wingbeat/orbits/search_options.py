@@ -235,7 +235,7 @@ class WakeOptions(Options):
     diverged : a flight has diverged if its numbers are larger than this.
     repeats : in a certificate the states repeat within this [m/s], a thousandth of `closure_tolerance`, so that
         they add nothing to what is certified.
-    rough_repeats : the same in flights that only serve the correction, which `rough_rtol` makes no more exact.
+    rough_repeats : the same in flights that only serve the correction, whose `rough_rtol` is as coarse [m/s].
     certifying_flights : largest number of flights of a certificate. From the states that the search knows it needed
         3 to 6, from air at rest 17 and more.
 

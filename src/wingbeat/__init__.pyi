@@ -17,6 +17,9 @@ from ._base.errors import WingbeatError as WingbeatError
 from ._base.errors import WorkerError as WorkerError
 from ._version import __version__ as __version__
 from .aero import winds as winds
+from .animal.drive import Motor as Motor
+from .animal.drive import Muscle as Muscle
+from .animal.drive import Springs as Springs
 from .animal.kinematics import Wingbeat as Wingbeat
 from .animal.species.making import bat as bat
 from .animal.species.making import bird as bird
@@ -26,9 +29,6 @@ from .animal.species.reading import species_names as species_names
 from .animal.species.species import Species as Species
 from .animal.vehicle import Air as Air
 from .animal.vehicle import Body as Body
-from .animal.vehicle import Motor as Motor
-from .animal.vehicle import Muscle as Muscle
-from .animal.vehicle import Springs as Springs
 from .animal.vehicle import Tail as Tail
 from .animal.vehicle import Vehicle as Vehicle
 from .animal.vehicle import Wing as Wing

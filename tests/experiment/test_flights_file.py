@@ -32,7 +32,7 @@ def test_the_example_of_the_explorer_is_read():
     assert flights.errors["mechanical_power"].tolist() == pytest.approx([1.612, np.nan], nan_ok=True)
     assert flights.labels[0].startswith("3 loaded pigeons, mean and one standard deviation")
     assert flights.notes == (
-        "column 'power [W]' is taken as mechanical power; call it metabolic power if it is that",
+        "column 'power [W]' is taken as mechanical power; call it metabolic rate if it is that",
     )
 
 
@@ -49,11 +49,11 @@ def test_the_example_of_the_explorer_is_read():
         ("speed,aerodynamic power [W]", "mechanical_power"),
         ("speed,pectoralis power (W)", "mechanical_power"),
         ("speed,P_mech_W", "mechanical_power"),
-        ("speed,metabolic power [W]", "metabolic_power"),
-        ("speed,P_met [W]", "metabolic_power"),
-        ("speed,metabolic rate [J/s]", "metabolic_power"),
-        ("speed,power input", "metabolic_power"),
-        ("speed,metabolic power of the flight muscle", "metabolic_power"),
+        ("speed,metabolic power [W]", "metabolic_rate"),
+        ("speed,P_met [W]", "metabolic_rate"),
+        ("speed,metabolic rate [J/s]", "metabolic_rate"),
+        ("speed,power input", "metabolic_rate"),
+        ("speed,metabolic power of the flight muscle", "metabolic_rate"),
     ],
 )
 def test_headers_are_read_forgivingly(tmp_path, header, quantity):
@@ -83,9 +83,9 @@ def test_mechanical_and_metabolic_power_are_two_columns_with_their_own_errors(tm
     header = "speed,mechanical power,metabolic power,metabolic power sd,mechanical power se,label,mass [kg]"
     flights = read(tmp_path, f"{header}\n8,10,60,6,1,a,0.3\n12,14,,,,b,0.3\n")
     assert flights.values["mechanical_power"].tolist() == [10.0, 14.0]
-    assert flights.values["metabolic_power"].tolist() == pytest.approx([60.0, np.nan], nan_ok=True)
+    assert flights.values["metabolic_rate"].tolist() == pytest.approx([60.0, np.nan], nan_ok=True)
     assert flights.errors["mechanical_power"].tolist() == pytest.approx([1.0, np.nan], nan_ok=True)
-    assert flights.errors["metabolic_power"].tolist() == pytest.approx([6.0, np.nan], nan_ok=True)
+    assert flights.errors["metabolic_rate"].tolist() == pytest.approx([6.0, np.nan], nan_ok=True)
     assert flights.labels == ("a", "b")
     assert flights.notes == (
         "column 'mass [kg]' is not read",

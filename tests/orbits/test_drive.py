@@ -5,7 +5,7 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.programmes import differences, stock_point
-from wingbeat.animal.actuators import best_efficiency, force_at, metabolic_rate
+from wingbeat.animal.actuators import best_efficiency, force_at, metabolic_ratio
 from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.problem.quantity import OF_MOTOR, OF_MUSCLE
 from wingbeat.orbits.solve import Settings, find_orbit
@@ -47,7 +47,7 @@ def test_metabolic_power_is_a_sum_over_the_samples_of_the_beat(cheap):
     for one, speed in zip(torque[:-1], rate[:-1], strict=True):
         share = float(np.sign(one) * speed / muscle.max_flap_rate)
         isometric = abs(one) / float(force_at(share, muscle.curvature))
-        total += isometric * muscle.max_flap_rate * float(metabolic_rate(share))
+        total += isometric * muscle.max_flap_rate * float(metabolic_ratio(share))
     pitching = np.maximum(np.asarray(beat.pitch_torque * beat.wing_pitch_rate), 0.0)[:-1].mean()
     expected = total / (len(torque) - 1) + pitching / float(best_efficiency(muscle.curvature))
     assert cheap.objective == pytest.approx(expected, rel=2e-3)
@@ -131,7 +131,7 @@ def test_quantities_of_a_beat_are_those_of_a_reference(cheap, crank):
     voltage = motor.resistance * current + motor.torque_constant * motor.gear_ratio * speed
     pitching = np.maximum(np.asarray(beat.pitch_torque * beat.wing_pitch_rate)[:-1], 0.0).mean()
     isometric = np.abs(left) / np.asarray(force_at(shares, muscle.curvature))
-    costs = (isometric * muscle.max_flap_rate * np.asarray(metabolic_rate(shares))).mean()
+    costs = (isometric * muscle.max_flap_rate * np.asarray(metabolic_ratio(shares))).mean()
     costs += pitching / float(best_efficiency(muscle.curvature))
     peaks = muscle.elevator_share * need[left > 0].max() + need[left < 0].max()
     waking = muscle.activation_energy * beat.frequency * muscle.mass * peaks

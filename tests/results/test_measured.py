@@ -61,13 +61,13 @@ def test_residuals_are_measured_less_interpolated_and_nothing_is_made_up_outside
 
 
 def test_powers_are_compared_with_their_own_kind():
-    given = flights([5.0], mechanical_power=[15.0], metabolic_power=[60.0])
+    given = flights([5.0], mechanical_power=[15.0], metabolic_rate=[60.0])
     without = measured_beside(curve_of(), given)
     assert [(p["quantity"], p["compared_with"], p["residual"]) for p in without["points"]] == [
         ("mechanical_power", "mean_positive_power", -3.0),
-        ("metabolic_power", "metabolic_rate", None),
+        ("metabolic_rate", "metabolic_rate", None),
     ]
-    assert "the curve has no metabolic power; --model animal gives one" in without["notes"][0]
+    assert "the curve has no metabolic rate; --model animal gives one" in without["notes"][0]
     whole = curve_of(metabolic_rate=[50.0, 40.0, 40.0, np.nan, 60.0])
     assert [point["residual"] for point in measured_beside(whole, given)["points"]] == [-3.0, 15.0]
     older = curve_of("metabolic_rate", objective_value=[50.0, 40.0, 40.0, np.nan, 60.0])
@@ -129,7 +129,7 @@ def test_each_kind_of_power_has_its_own_panel(columns):
         frequency=[9.0, 8.0, 7.0],
         frequency_error=[0.5, 0.2, np.nan],
         mechanical_power=[25.0, 15.0, 30.0],
-        metabolic_power=[90.0, 60.0, 100.0],
+        metabolic_rate=[90.0, 60.0, 100.0],
     )
     figure = curve_page(curve_of(**columns), measured=given)
     power, metabolic, frequency = figure.axes
@@ -139,10 +139,10 @@ def test_each_kind_of_power_has_its_own_panel(columns):
     }
     assert [[*those] for those in drawn.values()] == [
         ["measured mechanical power, mine.csv"],
-        ["measured metabolic power, mine.csv"],
+        ["measured metabolic rate, mine.csv"],
         ["measured frequency, mine.csv"],
     ]
-    for axes, name in ((power, "mechanical_power"), (metabolic, "metabolic_power"), (frequency, "frequency")):
+    for axes, name in ((power, "mechanical_power"), (metabolic, "metabolic_rate"), (frequency, "frequency")):
         (box,) = drawn[axes].values()
         assert box[0].get_xydata().tolist() == np.column_stack([given.speed, given.values[name]]).tolist()
         assert axes.get_ylim()[1] > given.values[name].max()
@@ -152,7 +152,7 @@ def test_each_kind_of_power_has_its_own_panel(columns):
     (bars,) = drawn[frequency]["measured frequency, mine.csv"][2]
     assert [np.ptp(bar[:, 1]) for bar in bars.get_segments()] == pytest.approx([1.0, 0.4, 0.0])
     words = metabolic.get_ylabel()
-    assert words.startswith("metabolic rate of the whole animal" if columns else "metabolic power, measured [W]")
+    assert words.startswith("metabolic rate of the whole animal" if columns else "metabolic rate, measured [W]")
     check_legends(figure)
 
 

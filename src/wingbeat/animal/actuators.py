@@ -13,7 +13,7 @@ from wingbeat._jax.arrays import jnp
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import Series
-    from wingbeat.animal.vehicle import Motor, Muscle, Springs
+    from wingbeat.animal.drive import Motor, Muscle, Springs
 
 # Largest eccentric force divided by isometric force, and the steepness of its rise: Alexander 1997, doi
 # 10.1006/jtbi.1996.0262, as implemented by others.
@@ -40,7 +40,7 @@ def force_at(shortening: Series, curvature: Any) -> Series:
     return jnp.where(shortening > 0.0, fast, slow)
 
 
-def metabolic_rate(shortening: Series) -> Series:
+def metabolic_ratio(shortening: Series) -> Series:
     """Return the metabolic power of fully active fibres divided by (isometric force times largest speed).
 
     Equation: ``(0.054 + 0.506 q + 2.46 q^2) / (1 - 1.13 q + 12.8 q^2 - 1.64 q^3)``, q as for `force_at`.
@@ -48,7 +48,7 @@ def metabolic_rate(shortening: Series) -> Series:
     Source: Minetti and Alexander 1997, J Theor Biol 186:467, doi 10.1006/jtbi.1997.0407, as other papers quote it;
     we did not read the paper itself.
 
-    >>> round(float(metabolic_rate(jnp.array(0.0))), 3), round(float(metabolic_rate(jnp.array(0.2))), 3)
+    >>> round(float(metabolic_ratio(jnp.array(0.0))), 3), round(float(metabolic_ratio(jnp.array(0.2))), 3)
     (0.054, 0.199)
     """
     q = jnp.clip(shortening, -1.0, 1.0)
@@ -79,7 +79,7 @@ def metabolic_power(
     """
 
     def cost(shortening: Series) -> Series:
-        per_torque = isometric_share(shortening, muscle.curvature) * metabolic_rate(shortening)
+        per_torque = isometric_share(shortening, muscle.curvature) * metabolic_ratio(shortening)
         return muscle.max_flap_rate * per_torque
 
     shortening = flap_rate / muscle.max_flap_rate
@@ -119,7 +119,7 @@ def activation_power(muscle: Muscle, up: Series, down: Series, frequency: Any) -
     Source of e: Barclay, Woledge and Curtin 2007, J Muscle Res Cell Motil 28:259, doi 10.1007/s10974-007-9116-7,
     abstract: pumping takes 30 to 40 % of the energy of isometric contraction.
 
-    >>> from wingbeat.animal.vehicle import Muscle
+    >>> from wingbeat.animal.drive import Muscle
     >>> muscle = Muscle(0.06, 0.2, 0.15, 20.0, 250e3, 0.36, activation_energy=5.0)
     >>> round(float(activation_power(muscle, jnp.array([-1.0, 0.5]), jnp.array([0.4, -1.0]), 6.0)), 3)
     0.9
@@ -135,7 +135,7 @@ def best_efficiency(curvature: Any) -> Any:
     0.5
     """
     shortening = jnp.linspace(0.05, 0.6, 56)
-    return jnp.max(force_at(shortening, curvature) * shortening / metabolic_rate(shortening))
+    return jnp.max(force_at(shortening, curvature) * shortening / metabolic_ratio(shortening))
 
 
 class MotorState(NamedTuple):

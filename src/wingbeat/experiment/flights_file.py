@@ -1,4 +1,4 @@
-"""The CSV file of flights that were measured at several speeds: frequency, mechanical and metabolic power."""
+"""The CSV file of flights that were measured at several speeds: frequency, mechanical power, metabolic rate."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from wingbeat._base.sheets import parse_numbers, read_sheet
 
 MAX_FLIGHTS = 5000
 # Unit of each column, and the spellings of the unit without spaces, points and signs of powers.
-UNITS = {"speed": "m/s", "frequency": "Hz", "mechanical_power": "W", "metabolic_power": "W"}
+UNITS = {"speed": "m/s", "frequency": "Hz", "mechanical_power": "W", "metabolic_rate": "W"}
 _SPELLED = {
     "m/s": {"m/s", "ms-1", "mps", "m/sec"},
     "Hz": {"hz", "1/s", "s-1", "beats/s", "wingbeats/s"},
@@ -60,7 +60,7 @@ class FlightPoints:
     ----------
     name : of the file.
     speed : shape (N,) [m/s].
-    values : by quantity, ``frequency`` [Hz], ``mechanical_power`` and ``metabolic_power`` [W], each of shape (N,);
+    values : by quantity, ``frequency`` [Hz], ``mechanical_power`` and ``metabolic_rate`` [W], each of shape (N,);
         not a number where it was not measured.
     errors : of the same quantities, in the same units; not a number where none is given.
     labels : a text for each flight, which may be empty.
@@ -99,7 +99,7 @@ def read_flights(path: str | Path) -> FlightPoints:
     ...     path = pathlib.Path(folder) / "flights.csv"
     ...     _ = path.write_text("speed [m/s],metabolic power [W],sd\n8,30,2\n12,35,3\n")
     ...     flights = wb.experiment.read_flights(path)
-    >>> flights.values["metabolic_power"].tolist(), flights.errors["metabolic_power"].tolist()
+    >>> flights.values["metabolic_rate"].tolist(), flights.errors["metabolic_rate"].tolist()
     ([30.0, 35.0], [2.0, 3.0])
     """
     sheet, faults = read_sheet(path), FaultList()
@@ -125,13 +125,11 @@ def read_flights(path: str | Path) -> FlightPoints:
             notes.append(f"column {cell!r} is not read: speed over ground is no airspeed")
         elif kind == "power":
             both = bool(_METABOLIC & {*words}) and bool(_MECHANICAL - {"muscle"} & {*words})
-            what = "metabolic_power" if _METABOLIC & {*words} else "mechanical_power"
+            what = "metabolic_rate" if _METABOLIC & {*words} else "mechanical_power"
             if both:
-                faults.add(
-                    where, cell, "names both kinds of power", "name one: mechanical power or metabolic power"
-                )
+                faults.add(where, cell, "names both kinds of power", "name one: mechanical power or metabolic rate")
             elif what == "mechanical_power" and not _MECHANICAL & {*words} and not is_error:
-                notes.append(f"column {cell!r} is taken as mechanical power; call it metabolic power if it is that")
+                notes.append(f"column {cell!r} is taken as mechanical power; call it metabolic rate if it is that")
             elif is_error and not (_METABOLIC | _MECHANICAL) & {*words}:
                 what = "power"
         elif kind:
@@ -145,7 +143,7 @@ def read_flights(path: str | Path) -> FlightPoints:
         if is_error and what:
             what = f"error of {what}"
         if what in columns and what and what != "label":
-            fix = "keep one; is one of them the metabolic power?" if what == "mechanical_power" else "keep one"
+            fix = "keep one; is one of them the metabolic rate?" if what == "mechanical_power" else "keep one"
             faults.add(where, cell, f"is a second column of {what.replace('_', ' ')}", fix)
         wanted = UNITS.get(what.removeprefix("error of "), "W" if "power" in what else "")
         if unit and wanted and unit not in _SPELLED[wanted]:
@@ -158,7 +156,7 @@ def read_flights(path: str | Path) -> FlightPoints:
         notes.append(f"no unit is stated for {', '.join(bare)}; the numbers are taken in these units")
     given = [what for what in UNITS if what in columns and what != "speed"]
     for place, what in enumerate(columns):
-        of = [one for one in given if what == "error of power" and one.endswith("power")]
+        of = [one for one in given if what == "error of power" and one != "frequency"]
         of = given if place in unnamed else of
         if place in unnamed or what == "error of power":
             if len(of) == 1 and f"error of {of[0]}" not in columns:
@@ -178,7 +176,7 @@ def read_flights(path: str | Path) -> FlightPoints:
     if "speed" not in columns:
         faults.add(where, ",".join(sheet.header), "has no column of airspeed", "name one speed [m/s]")
     if not given:
-        fix = "name one frequency [Hz], mechanical power [W] or metabolic power [W]"
+        fix = "name one frequency [Hz], mechanical power [W] or metabolic rate [W]"
         faults.add(where, ",".join(sheet.header), "has no column to compare with a curve", fix)
     faults.raise_if_any()
     names = [cell if what and what != "label" else "" for cell, what in zip(sheet.header, columns, strict=True)]

@@ -81,11 +81,11 @@ def curve_page(
     powers = ["mean_power", "mean_positive_power"] if minimised == "mean_power" else ["mean_positive_power"]
     own = minimised if minimised in (*powers, "frequency") else "objective_value"
     panels = [*powers, *([own] if own == "objective_value" else []), "frequency"]
-    # Metabolic power never stands in the panel of mechanical power, also if the curve has none of its own.
+    # A metabolic rate never stands in the panel of mechanical power, also if the curve has none of its own.
     metabolic = own if minimised == "metabolic_rate" else "metabolic_rate"
-    if measured is not None and "metabolic_power" in measured.values and metabolic not in panels:
+    if measured is not None and "metabolic_rate" in measured.values and metabolic not in panels:
         panels.insert(-1, metabolic)
-    places = COMPARED | {"metabolic_power": metabolic}
+    places = COMPARED | {"metabolic_rate": metabolic}
     # From 0 on, where the tangent of greatest range starts, unless that leaves much of the panel empty.
     start = 0.0 if speed[0] < _MOST_EMPTY * speed[-1] else speed[0]
     least, most = start, speed[-1]
@@ -100,7 +100,7 @@ def curve_page(
                 unit = plain(dataset[name].attrs["units"])
                 axes.set_ylabel(f"{in_words(minimised)} [{'-' if unit == '1' else unit}]")
             else:
-                axes.set_ylabel(axis_label(name) if name in dataset else "metabolic power, measured [W]")
+                axes.set_ylabel(axis_label(name) if name in dataset else "metabolic rate, measured [W]")
             limited = minimised if name == "objective_value" else name
             top = 0.0
             if name in dataset:

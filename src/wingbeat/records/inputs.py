@@ -28,11 +28,12 @@ from wingbeat.aero import (
     load_coefficients,
 )
 from wingbeat.aero.blade_element import OF_ELEMENTS
+from wingbeat.animal.drive import Motor, Muscle, Springs
 from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.animal.species.numbers import OwnFrequency, Range, number_from
 from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.species.species import Species
-from wingbeat.animal.vehicle import Air, Body, Motor, Muscle, Springs, Tail, Vehicle, Wing
+from wingbeat.animal.vehicle import Air, Body, Tail, Vehicle, Wing
 from wingbeat.orbits.options import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.origin import origin_from
 from wingbeat.orbits.problem.problem import OrbitProblem

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 COMPARED = {
     "frequency": "frequency",
     "mechanical_power": "mean_positive_power",
-    "metabolic_power": "metabolic_rate",  # a respirometer measures the whole animal
+    "metabolic_rate": "metabolic_rate",
 }
 
 

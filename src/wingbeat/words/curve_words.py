@@ -35,7 +35,7 @@ _LABELS = {
 # What measured powers are compared with; they are not the same quantities.
 _AGAINST = {
     "mechanical_power": ", beside the mean positive hinge power",
-    "metabolic_power": ", beside the estimate for the whole animal",
+    "metabolic_rate": ", beside the estimate for the whole animal",
 }
 _HEADINGS = ("U\n[m/s]", "f\n[Hz]", "P+\n[W]", "CoT\n[-]", "flap\n[deg]", "optima", "at the limit of")
 _OVER_FREQUENCY = ("f\n[Hz]", "P+\n[W]", "flap\n[deg]", "optima", "at the limit of")
@@ -110,7 +110,7 @@ def _measured(beside: dict[str, Any]) -> list[Block]:
     blocks: list[Block] = []
     for quantity in dict.fromkeys(point["quantity"] for point in beside["points"]):
         points = [point for point in beside["points"] if point["quantity"] == quantity]
-        unit = plain_unit("frequency" if quantity == "frequency" else "metabolic_power")
+        unit = plain_unit("frequency" if quantity == "frequency" else "metabolic_rate")
         name = quantity.replace("_", " ")
         against = _AGAINST.get(quantity, "")
         title = f"{beside['file']}: measured {name} [{unit}]{against}"

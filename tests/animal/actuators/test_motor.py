@@ -5,7 +5,7 @@ import pytest
 
 import wingbeat as wb
 from wingbeat.animal.actuators import actuated, motor_state, periodic_rate, spring_torque
-from wingbeat.animal.vehicle import Motor, Springs
+from wingbeat.animal.drive import Motor, Springs
 
 FREQUENCY = 5.0
 PHASE = np.linspace(0.0, 1.0, 257)

@@ -16,10 +16,10 @@ from wingbeat.animal.actuators import (
     force_at,
     isometric_share,
     metabolic_power,
-    metabolic_rate,
+    metabolic_ratio,
     tendon_recoil,
 )
-from wingbeat.animal.vehicle import Muscle
+from wingbeat.animal.drive import Muscle
 
 MUSCLE = Muscle(0.06, 0.15, 0.15, 20.0, 250e3, 0.36)
 
@@ -42,7 +42,7 @@ def test_the_metabolic_rate_is_that_of_minetti_and_alexander():
     """Values of the quotient of polynomials, by NumPy."""
     q = np.linspace(-1.0, 1.0, 81)
     reference = np.polyval([2.46, 0.506, 0.054], q) / np.polyval([-1.64, 12.8, -1.13, 1.0], q)
-    np.testing.assert_allclose(metabolic_rate(q), reference, rtol=1e-13)
+    np.testing.assert_allclose(metabolic_ratio(q), reference, rtol=1e-13)
     assert (reference > 0.0).all()
     assert [float(best_efficiency(k)) for k in (0.25, 0.361)] == pytest.approx([0.504, 0.553], abs=1e-3)
 
@@ -53,7 +53,7 @@ def test_cost_and_activation_are_those_of_the_pulling_muscle(torque, share):
     """The muscle pulls with the torque's sign; `share` is its speed of shortening over the largest."""
     rate = np.sign(torque) * share * MUSCLE.max_flap_rate
     isometric = abs(torque) / float(force_at(share, MUSCLE.curvature))
-    cost = isometric * MUSCLE.max_flap_rate * float(metabolic_rate(share))
+    cost = isometric * MUSCLE.max_flap_rate * float(metabolic_ratio(share))
     found = [max(float(part), 0.0) for part in metabolic_power(MUSCLE, torque, rate)]
     assert found == pytest.approx([cost, 0.0] if torque > 0.0 else [0.0, cost], rel=1e-12)
     up, down = (float(part) for part in activation(MUSCLE, torque, rate))

@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import Any, cast
 
 from wingbeat.aero.closed_forms import slender_slope
+from wingbeat.animal.drive import MUSCLE_DENSITY
 from wingbeat.animal.species.numbers import FREQUENCY, OUTSIDE, Number, OwnFrequency, frequency_of
-from wingbeat.animal.vehicle import MUSCLE_DENSITY
 
 _TABLE = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from wingbeat._jax.arrays import jax, jnp
-from wingbeat.animal.vehicle import Drive
+from wingbeat.animal.drive import Drive
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import (

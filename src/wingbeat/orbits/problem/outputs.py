@@ -18,7 +18,7 @@ import numpy as np
 from wingbeat._base import Fault, InvalidInputError, first_line
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported, jit_soon
-from wingbeat.animal.vehicle import Drive
+from wingbeat.animal.drive import Drive
 from wingbeat.orbits.flight.beat import BY_STRIP, NUMBERS, PARTS, Beat, WeightedSamples, highest
 from wingbeat.orbits.problem.quantity import MapQuantity, Quantity
 

@@ -20,7 +20,7 @@ from wingbeat.animal.actuators import (
     spring_torque,
     tendon_recoil,
 )
-from wingbeat.animal.vehicle import Springs
+from wingbeat.animal.drive import Springs
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import FiveExcesses, FourCoefficients, Moduli, Scalar, StrokeMatrix

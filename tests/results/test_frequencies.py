@@ -171,6 +171,7 @@ def test_ranges_are_those_of_the_straight_lines_between_points():
     frequency = np.arange(3.0, 9.0)
     for _ in range(200):
         value = random.uniform(0.0, 2.0, frequency.size)
+        value[random.integers(1, 5)] = value[0]  # flat beside the first, or level with it
         value[random.integers(frequency.size)] = math.nan
         joined = random.random(frequency.size - 1) < 0.8
         line = characteristic.BestLine("q", True, frequency, value, joined, [frozenset()] * 6, np.empty((0, 6)))

@@ -31,6 +31,7 @@ from wingbeat._base.nomenclature import (
     KIND,
     NOMENCLATURE,
     OVER,
+    PLURALS,
     PRECISION,
     RTOL,
     RUN,

@@ -353,6 +353,10 @@ def _significant(number: float, digits: int) -> str:
     return f"{float(round(number, digits - 1 - top)) + 0.0:.10g}"
 
 
+# What a curve, or a continuation, may run over, and its plural.
+PLURALS = {"speed": "speeds", "frequency": "frequencies", "share": "shares"}
+
+
 def over_of(attributes: Mapping[Any, Any]) -> str:
     """Return what the curve with these attributes runs over: ``speed`` or ``frequency``."""
     return str(attributes.get(OVER, "speed"))

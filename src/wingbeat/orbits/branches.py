@@ -13,6 +13,7 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
+from wingbeat._base import PLURALS
 from wingbeat._workers.tuning import core_count
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT, ReducedHessian
 from wingbeat.orbits.nlp.transcription import Candidate, Transcription, as_candidate, refine
@@ -27,7 +28,6 @@ class Along(NamedTuple):
     """A number of a problem along which orbits are continued, and its first and smallest `steps` from a value."""
 
     name: str
-    plural: str
     unit: str
     of: Callable[[OrbitProblem], float]
     moved: Callable[[OrbitProblem, float], OrbitProblem]
@@ -49,7 +49,6 @@ def fixed_frequency(problem: OrbitProblem) -> dict[str, Any]:
 
 SPEED = Along(
     "speed",
-    "speeds",
     "m/s",
     lambda problem: problem.speed,
     lambda problem, speed: problem.at_speed(speed),
@@ -57,7 +56,6 @@ SPEED = Along(
 )
 FREQUENCY = Along(
     "frequency",
-    "frequencies",
     "Hz",
     lambda problem: problem.species.wingbeat.frequency,
     at_frequency,
@@ -67,7 +65,6 @@ FREQUENCY = Along(
 # From 0 for none of the terms to 1 for all of each.
 SHARE = Along(
     "share",
-    "shares",
     "",
     lambda problem: problem.aero.share,
     lambda problem, share: dataclasses.replace(problem, aero=dataclasses.replace(problem.aero, share=share)),
@@ -386,7 +383,7 @@ def marks_of(branches: Branches) -> list[Mark]:
     for interval, (below, above) in enumerate(itertools.pairwise(optima[0] for optima in branches.optima)):
         ends = along.of(below.problem), along.of(above.problem)
         if not certified(below) or not certified(above):
-            marks.append(Mark("gap", *ends, f"no certified orbit at one of these {along.plural}"))
+            marks.append(Mark("gap", *ends, f"no certified orbit at one of these {PLURALS[along.name]}"))
             continue
         if interval not in joined:
             marks.append(Mark("branch", *ends, _how_it_changes(branches, interval)))

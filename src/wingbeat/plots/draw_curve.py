@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 _PANEL, _LEGEND, _OWN = 62.0, 36.0, 8.0  # mm; the last for the legend of measured flights
 _LETTERS = 62  # of a line of the legend
 _MOST_LIMITS = 1  # for whose words the title has room
+_LINE = 116  # letters of a line of the title
 _MOST_EMPTY = 0.35  # share of the axis that may lie below the slowest speed
 _OTHER, _SPEEDS = "0.6", VERMILION
 _BREAK: dict[str, Any] = {"color": "0.3", "linewidth": 0.5, "linestyle": (0, (2, 2)), "zorder": 1}
@@ -116,15 +117,21 @@ def curve_page(
         all_axes[-1].locator_params(axis="x", steps=[1, 2, 5, 10])
         letter_panels(all_axes)
         legend_below(figure, all_axes, columns=2)
-        aero, kept = (json.loads(about[name]) for name in ("aero", "constraints"))
-        limits = "".join(f", {in_words(readable_limit(text))}" for text in kept)
-        limits = limits.replace("<=", " ≤ ").replace(">=", " ≥ ")
-        if len(kept) > _MOST_LIMITS:
-            limits = f", within {len(kept)} limits"
-        title = f"{heading(about['species'])}{climb_text(about['climb'])}: wingbeats of minimum"
-        loads = f"{in_words(aero['coefficients'])} coefficients, {in_words(aero['extension'])}"
-        figure.suptitle(f"{title} {in_words(minimised)}{limits}; {loads}", fontsize=8, x=0.01, ha="left")
+        figure.suptitle(curve_title(about), fontsize=8, x=0.01, ha="left")
     return figure
+
+
+def curve_title(about: Mapping[str, Any]) -> str:
+    """Return the title of a page from the attributes of a curve: what is minimised, within what, by what loads."""
+    aero, kept = (json.loads(about[name]) for name in ("aero", "constraints"))
+    limits = "".join(f", {in_words(readable_limit(text))}" for text in kept)
+    limits = limits.replace("<=", " ≤ ").replace(">=", " ≥ ")
+    if len(kept) > _MOST_LIMITS:
+        limits = f", within {len(kept)} limits"
+    at = f" at {about['speed']:g} m/s" if over_of(about) == "frequency" else ""
+    who = f"{heading(about['species'])}{at}{climb_text(about['climb'])}"
+    loads = f"{in_words(aero['coefficients'])} coefficients, {in_words(aero['extension'])}"
+    return textwrap.fill(f"{who}: wingbeats of minimum {in_words(about['objective'])}{limits}; {loads}", _LINE)
 
 
 def draw_optima(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, axis_label, climb_text, heading, in_words, over_of, readable_limit
+from wingbeat._base import FaultList, axis_label, in_words, over_of
 from wingbeat._base.style import (
     BLUE,
     GREEN,
@@ -24,7 +24,7 @@ from wingbeat._base.style import (
     letter_panels,
     new_figure,
 )
-from wingbeat.plots.draw_curve import draw_optima
+from wingbeat.plots.draw_curve import curve_title, draw_optima
 from wingbeat.records.inputs import vehicle_from
 from wingbeat.records.judgements import set_by_limits_along
 from wingbeat.words.curve_words import own_in_words, ranges_in_words, work_in_words
@@ -108,11 +108,7 @@ def frequency_page(dataset: xr.Dataset) -> Figure:
             axes.set_xlabel(axis_label("frequency", full=True))
         letter_panels(panels)
         legend_below(figure, panels, columns=2)
-        limits_given = [in_words(readable_limit(text)) for text in json.loads(about["constraints"])]
-        within = f" within {len(limits_given)} limits" if len(limits_given) > 1 else "".join(limits_given)
-        where = f"{heading(about['species'])} at {about['speed']:g} m/s{climb_text(about['climb'])}"
-        title = f"{where}: wingbeats of minimum {in_words(about['objective'])} at each frequency"
-        figure.suptitle(f"{title}{', ' if within else ''}{within.strip()}", fontsize=8, x=0.01, ha="left")
+        figure.suptitle(curve_title(about), fontsize=8, x=0.01, ha="left")
     return figure
 
 

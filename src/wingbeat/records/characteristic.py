@@ -326,11 +326,15 @@ def _ranges(line: BestLine, value: np.ndarray, low: float, high: float) -> list[
     for k, here in enumerate(line.speed.tolist()):
         if low <= value[k] <= high:
             add(here, here)
-        if not (line.reaches(k, 1) and np.isfinite(value[k : k + 2]).all()) or value[k] == value[k + 1]:
+        if not (line.reaches(k, 1) and np.isfinite(value[k : k + 2]).all()):
             continue
-        first, last = sorted((limit - value[k]) / (value[k + 1] - value[k]) for limit in (low, high))
+        step, rise = float(line.speed[k + 1]) - here, value[k + 1] - value[k]
+        if rise == 0.0:  # a flat piece
+            if low <= value[k] <= high:
+                add(here, here + step)
+            continue
+        first, last = sorted((limit - value[k]) / rise for limit in (low, high))
         if first <= 1.0 and last >= 0.0:
-            step = float(line.speed[k + 1]) - here
             add(here + max(first, 0.0) * step, here + min(last, 1.0) * step)
     return found
 

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import OVER, FaultList, Report, Reported, over_of
+from wingbeat._base import OVER, PLURALS, FaultList, Report, Reported, over_of
 from wingbeat._workers.tuning import core_count
 from wingbeat.experiment.flights_file import FlightPoints
 from wingbeat.orbits.branches import FREQUENCY, SPEED, Along, Branches, certified, fixed_frequency, marks_of, trace
@@ -78,7 +78,7 @@ class Curve(Saveable, Reported):
 
     def __repr__(self) -> str:
         data = self._dataset
-        what = f"minimum {data.attrs['objective']} at {data.sizes[self.over]} {_ALONG[self.over].plural}"
+        what = f"minimum {data.attrs['objective']} at {data.sizes[self.over]} {PLURALS[self.over]}"
         return f"<Curve {data.attrs['species']}: {what}, {len(self.gaps)} without an orbit>"
 
     @property
@@ -146,7 +146,7 @@ class Curve(Saveable, Reported):
         """Return measured flights beside this curve, with the residuals: measured less computed.
 
         The curve is interpolated linearly between its speeds. Mechanical power is compared with the mean positive
-        hinge power, metabolic power with that of the flight muscle alone (only models with a muscle have one).
+        hinge power, a metabolic rate with that of the whole animal (only models with a muscle have one).
 
         Parameters
         ----------
@@ -304,7 +304,7 @@ def solve_curve(
 
 
 def _check_values(faults: FaultList, along: Along, values: list[float]) -> None:
-    name = along.plural
+    name = PLURALS[along.name]
     limits: dict[str, Any] = SPEED_LIMITS if along is SPEED else {"above": 0.0, "unit": along.unit}
     good = all([faults.number(f"{name}[{i}]", value, **limits) for i, value in enumerate(values)])
     if not 2 <= len(values) <= MOST_POINTS:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import functools
 import itertools
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 from wingbeat._base import (
+    PLURALS,
     Block,
     Line,
     Notes,
@@ -44,60 +45,43 @@ _NEAR = 0.02  # share of a speed within which the lowest computed point stands f
 _MINIMISED_AT = 3  # column of the minimised quantity, after the power
 
 
-class Along(NamedTuple):
-    """What a curve runs over, in words."""
-
-    name: str
-    plural: str
-    unit: str
-
-
-_PLURAL = {"speed": "speeds", "frequency": "frequencies"}
-
-
-def along_of(record: dict[str, Any]) -> Along:
-    """Return what the curve of a record runs over."""
-    name = over_of(record)
-    return Along(name, _PLURAL[name], plain_unit(name))
-
-
 def curve_report(record: dict[str, Any]) -> Report:
     """Return a row for each speed, changes of the best orbit between them, characteristic speeds and warnings.
 
     A curve over frequency has a row for each frequency, and says what is known of the frequency.
     """
-    points, along = record["points"], along_of(record)
+    points, over = record["points"], over_of(record)
     animal, minimised = record["species"] + climb_text(record["climb"]), in_words(record["objective"])
     certified = len(points) - len(record["gaps"])
     headings: list[str] = list(_HEADINGS)
     factor, unit = _unit(record["objective"])
     other = record["objective"] not in ("frequency", "mean_positive_power")  # which have columns of their own
-    if along.name == "frequency":
+    if over == "frequency":
         animal += f" at {record['speed']:g} m/s"
         headings = list(_OVER_FREQUENCY)
         if "activation" in record["characteristic_frequencies"]:
             headings[3:3] = _OF_MUSCLE
     if other:
-        headings.insert(_MINIMISED_AT - (along.name == "frequency"), f"minimised\n[{unit or '-'}]")
-    row = _row if along.name == "speed" else functools.partial(_frequency_row, cells=len(headings))
+        headings.insert(_MINIMISED_AT - (over == "frequency"), f"minimised\n[{unit or '-'}]")
+    row = _row if over == "speed" else functools.partial(_frequency_row, cells=len(headings))
     rows = tuple(Row(row(point, factor if other else None)) for point in points)
     blocks: list[Block] = [
-        Line(f"{animal}, minimum {minimised}: {certified} of {len(points)} {along.plural} certified"),
+        Line(f"{animal}, minimum {minimised}: {certified} of {len(points)} {PLURALS[over]} certified"),
         *([Line(f"air: {air_in_words(record['air'])}")] if record["air"] != DEFAULT_AIR else []),
         Table(rows, tuple(headings), "r" * (len(headings) - 1) + "l"),
         *([Line("* added to find the characteristic speeds")] if any(point["refined"] for point in points) else []),
-        *_limited(record, along),
-        *_implausible(points, along),
+        *_limited(record, over),
+        *_implausible(points, over),
         Line(""),
-        Line(f"changes from one {along.name} to the next", tone="title"),
+        Line(f"changes from one {over} to the next", tone="title"),
     ]
     for mark in record["marks"]:
-        where = f"{mark[f'lower_{along.name}']:g} to {mark[f'upper_{along.name}']:g} {along.unit}"
+        where = f"{mark[f'lower_{over}']:g} to {mark[f'upper_{over}']:g} {plain_unit(over)}"
         text = f"  {mark['kind']}, {where}: {mark['what']}"
         blocks.append(Line(text, tone="" if mark["kind"] == "bounds" else "warning"))
     if not record["marks"]:
         blocks.append(Line("  one branch, always at the same bounds"))
-    blocks += _characteristic(record) if along.name == "speed" else _of_frequency(record)
+    blocks += _characteristic(record) if over == "speed" else _of_frequency(record)
     if record.get("measured"):
         blocks += _measured(record["measured"])
     if record["warnings"]:
@@ -142,20 +126,20 @@ def _measured(beside: dict[str, Any]) -> list[Block]:
     return [*blocks, *([Notes(tuple(beside["notes"]))] if beside["notes"] else [])]
 
 
-def _implausible(points: list[dict[str, Any]], along: Along) -> list[Block]:
+def _implausible(points: list[dict[str, Any]], over: str) -> list[Block]:
     """Say where the best orbit is outside which plausible ranges; nothing if no point has an orbit."""
-    judged = [(point[along.name], point["optima"][0]["outside_ranges"]) for point in points if point["optima"]]
+    judged = [(point[over], point["optima"][0]["outside_ranges"]) for point in points if point["optima"]]
     if not judged:
         return []
     lines: list[Block] = [Line(""), Line("outside plausible ranges", tone="title")]
     for names, group in itertools.groupby(judged, key=lambda one: one[1]):
-        where = f"{span_in_words([value for value, _ in group])} {along.unit}"
+        where = f"{span_in_words([value for value, _ in group])} {plain_unit(over)}"
         if names:
             lines.append(Line(f"  at {where}: {str(names).replace('_', ' ')}", tone="warning"))
-    return lines if len(lines) > 2 else [*lines, Line(f"  at no {along.name}")]
+    return lines if len(lines) > 2 else [*lines, Line(f"  at no {over}")]
 
 
-def _limited(record: dict[str, Any], along: Along) -> list[Block]:
+def _limited(record: dict[str, Any], over: str) -> list[Block]:
     """Say where limits have set which numbers of the best orbit, which are then no predictions."""
     spans: dict[tuple[str, str], list[list[float]]] = {}
     for place, point in enumerate(record["points"]):
@@ -167,13 +151,13 @@ def _limited(record: dict[str, Any], along: Along) -> list[Block]:
         for name, what in found.items():
             own = what.by == (name,)  # also of a limit along the path, whose value the curve does not hold
             runs = spans.setdefault((called(name), "set by the limit" if own else what.words), [])
-            if not runs or runs[-1][-1] != record["points"][place - 1][along.name]:
+            if not runs or runs[-1][-1] != record["points"][place - 1][over]:
                 runs.append([])
-            runs[-1].append(point[along.name])
+            runs[-1].append(point[over])
     if not spans:
         return []
     told = [
-        Line(f"  {name} {words} at {' and '.join(map(span_in_words, runs))} {along.unit}")
+        Line(f"  {name} {words} at {' and '.join(map(span_in_words, runs))} {plain_unit(over)}")
         for (name, words), runs in spans.items()
     ]
     return [Line(""), Line("set by limits, so not predicted", tone="title"), *told]

@@ -69,7 +69,7 @@ BAT = Kind(
     (
         0.23,
         "at most 0.23 of a bat is flight muscle, 0.09 to 0.23 of 29 Australian species "
-        "(A: Bullen and McKenzie 2004, Aust J Zool 52:605, abstract, doi 10.1071/ZO04036)",
+        "(B: Bullen and McKenzie 2004, Aust J Zool 52:605, abstract, doi 10.1071/ZO04036)",
     ),
 )
 ROBOT = Kind(

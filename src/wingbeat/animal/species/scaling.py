@@ -280,7 +280,8 @@ def _rigid(mass: float, bat: bool) -> str:
     if bat:
         return "guess: the muscles that raise a bat's wing have no long tendon"
     known = TENDON_COMPLIANCE.number(mass)
-    return f"rigid: {known.value:.2g} rad/(N m) changes a pigeon's power by 0.01 %; {known.source}"
+    pigeon = TENDON_COMPLIANCE(0.316)
+    return f"rigid: {pigeon:.2g} rad/(N m) changes a pigeon's power by 0.01 %; {known.source}"
 
 
 def muscle_numbers(mass: float, bat: bool = False) -> dict[str, Number]:

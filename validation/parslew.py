@@ -65,12 +65,14 @@ def flown(flight: str, speed: float, climb: float = 0.0, held: float | None = No
     live : whether the frequency is at most that of live pigeons.
     """
     pigeon = wb.load_species("pigeon")
-    model = wb.models.animal(pigeon)
+    model = wb.models.animal(pigeon, "free")
     species = model.species(pigeon)
     bounds = {"stroke_plane_tilt": (-math.radians(60), math.radians(60))}
+    free = dict.fromkeys((*species.free, *bounds, "span_retraction"))
     if held is None:
         bounds["span_retraction"] = (0.0, RETRACTED)
     else:
+        del free["span_retraction"]
         wingbeat = dataclasses.replace(species.wingbeat, span_retraction=held)
         species = dataclasses.replace(species, wingbeat=wingbeat)
     problem = model.problem(
@@ -79,7 +81,7 @@ def flown(flight: str, speed: float, climb: float = 0.0, held: float | None = No
         climb,
         minimise="mean_positive_power",
         subject_to=f"frequency<={HIGHEST}" if live else (),
-        free=(*species.free, *bounds),
+        free=tuple(free),
         bounds=bounds,
     )
     orbit = wb.solve_orbit(problem, starts=STARTS)

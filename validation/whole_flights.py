@@ -3,7 +3,8 @@
     python validation/whole_flights.py [--draws 0] [--processes 1] [ANIMAL ...]
 
 Flights are kept in ``data/whole_flights``, one file for each animal. Animals that are named are flown anew, the
-others only where their file is missing; the page is then written from the files. Without draws, each flight is
+others only where their file is missing; the page is then written from the files, with what follows from them in
+``pages/whole_flights.md``, which is written by hand. Without draws, each flight is
 flown again at both ends of the range of its frequency.
 """
 
@@ -14,6 +15,8 @@ import json
 import sys
 import time
 from pathlib import Path
+
+from page_script import filled
 
 from wingbeat._base import make_folder, write_atomically
 from wingbeat.plots import save_figure
@@ -51,7 +54,7 @@ def main() -> None:
     figures = [f"flight_{one.flights.species}.png" for one in found]
     for one, figure in zip(found, figures, strict=True):
         save_figure(flights_page(one), DOCS / figure)
-    write_atomically(DOCS / "whole_flights.md", overview_text(found, figures))
+    write_atomically(DOCS / "whole_flights.md", overview_text(found, figures, filled("whole_flights").strip()))
 
 
 if __name__ == "__main__":

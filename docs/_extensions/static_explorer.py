@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from sphinx.application import Sphinx
 
 # One start at each speed, and the neighbours' results, keep the build short; the command has more starts. Within
-# plausible ranges one start misses the bat's best wingbeat at 7 m/s by 5 % of its metabolic power; two find it.
+# plausible ranges, where few wingbeats fly, there are two; at 4 and 7 m/s one finds the bat's best, too.
 STARTS = {"plausible": 2}
 SPEEDS = {
     "pigeon": (7.0, 8.0, 10.0, 11.0, 12.0, 14.0, 16.0, 18.0),
@@ -28,7 +28,8 @@ SPEEDS = {
     "annas-hummingbird": (0.0, 1.0, 2.0, 4.0, 6.0, 8.0, 10.0, 12.0),
     "robofalcon2": (4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 12.0),
 }
-# Within plausible ranges the muscle is strong enough at these speeds; elsewhere a search takes minutes.
+# Plausible wingbeats exist at these speeds. At 8 m/s the pigeon's muscle is too weak, at 16 m/s it beats too seldom
+# for its speed (Strouhal number); a search that finds none takes longest.
 WITHIN = {"pigeon": (10.5, 11.0, 11.5, 12.0, 12.5, 13.0, 13.5, 14.0), "bat": (3.5, 4.0, 4.5, 5.0, 5.5, 6.0)}
 # The first flies as a live animal could; with the others, the four guided tours have what they need. All models of
 # each flyer, with gusts, would take some minutes longer.

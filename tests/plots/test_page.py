@@ -134,6 +134,20 @@ def test_the_title_says_what_flies(orbit, page):
     for part in ("Pigeon at 10 m/s", f"{beat:.4g} Hz", "Su-Fan", "mirrored", "Certified: closes to"):
         assert part in text
     assert "NOT CERTIFIED" not in text
+    assert "Given, not predicted" not in text
+
+
+def test_the_title_says_that_a_frequency_was_given(orbit):
+    beat = orbit.record()["wingbeat"]["frequency"]
+    for basis, words in {
+        "measured": "measured on the animal",
+        "law": "by a law of its kind",
+        "given": "as asked",
+    }.items():
+        given = orbit.dataset.assign_attrs(frequency_basis=basis)
+        texts = [each.get_text() for each in wingbeat_page(given).texts]
+        (said,) = [text for text in texts if text.startswith("Given, not predicted: ")]
+        assert f"frequency {beat:.4g} Hz, {words}" in said
 
 
 def test_an_orbit_that_is_not_certified_says_so_in_red(orbit):

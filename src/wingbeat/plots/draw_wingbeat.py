@@ -28,7 +28,7 @@ from wingbeat._base.style import (
     shade_downstrokes,
 )
 from wingbeat.records.judgements import statements
-from wingbeat.words.orbit_words import limits_in_words, mass_of
+from wingbeat.words.orbit_words import frequency_in_words, limits_in_words, mass_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -122,10 +122,12 @@ def _orbit_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[st
     if about["status"] == "converged":
         # Files of early versions have no `plausibility`.
         record = {name: json.loads(about.get(name, "null")) for name in _READ}
-        record |= {name: about[name] for name in ("status", "objective")}
+        record |= {name: about[name] for name in ("status", "objective", "frequency_basis") if name in about}
         said = statements(record)
         parts = [(f"Certified: {said.closes}", _GOOD if said.good else _TEXT)]
         parts.append((said.plausible[:1].upper() + said.plausible[1:], _GOOD if said.good else _ALARM))
+        if frequency := frequency_in_words(record):
+            parts.append((f"Given, not predicted: {frequency}", _TEXT))
         if limits := limits_in_words(record):
             parts.append((f"Set by limits, not predicted: {limits}", _TEXT))
     else:

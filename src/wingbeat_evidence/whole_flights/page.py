@@ -50,7 +50,7 @@ _THEN = {
     "flap_amplitude_deg": (1, 9),
     "positive_power_per_mass": (1, 1),
     "muscle_power_per_mass": (0, 2),
-    "muscle_efficiency": (0, 2),
+    "net_muscle_efficiency": (0, 2),  # then called muscle_efficiency
     "minimum_power_speed": (2, 2),
 }
 _FLIGHT = """# Whole flights: {name}
@@ -177,7 +177,7 @@ def _then(known: Sequence[Score]) -> str:
     rows = []
     for name, words in IN_SHORT.items():
         now = [one.agrees for one in known if one.measurement.quantity == name]
-        before = _THEN.get(name) if name != "net_muscle_efficiency" else _THEN["muscle_efficiency"]
+        before = _THEN.get(name)
         if now or before:
             said = "-" if before is None else "{} of {}".format(*before)
             rows.append([words.split(" [")[0], said, f"{sum(map(bool, now))} of {len(now)}" if now else "input"])

@@ -46,7 +46,7 @@ def first_scenario() -> Scenario:
     from wingbeat_explorer.app.controls import choices_of  # here, because what reads the file needs no form
 
     choices = choices_of("animal", load_species("pigeon"))
-    # At 8 m/s and from 14.5 m/s on, every wingbeat needs more fibres than the muscle of this model has.
+    # At 8 m/s every wingbeat needs more fibres than the muscle has; at 16 m/s the Strouhal number is too small.
     return Scenario(speed=12.0, model="animal", within_plausible=True, sweep=(10.5, 14.0, 0.5), **choices)
 
 

@@ -5,6 +5,7 @@ import json
 
 import pytest
 
+from tests.helpers.places import ROOT
 from wingbeat.plots import save_figure
 from wingbeat_evidence.whole_flights import Flown, MeasuredFlights, Measurement, Prediction, compared
 from wingbeat_evidence.whole_flights.comparison import words_of
@@ -141,3 +142,9 @@ def test_pages_hold_every_number(tmp_path):
     labels = [axes.get_ylabel() for axes in flights_page(found).axes]
     assert len(labels) == 4
     assert all("[" in label for label in labels)
+
+
+def test_the_script_keeps_what_the_page_says_of_its_comparisons():
+    findings = (ROOT / "validation" / "pages" / "whole_flights.md").read_text(encoding="utf-8").strip()
+    assert findings in (ROOT / "docs" / "evidence" / "whole_flights.md").read_text(encoding="utf-8")
+    assert findings in overview_text([], findings=findings)

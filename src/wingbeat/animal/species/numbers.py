@@ -376,6 +376,15 @@ def in_order(numbers: Mapping[str, Number]) -> dict[str, Number]:
     return {key.path: numbers[key.path] for key in KEYS if key.path in numbers}
 
 
+def jsonable(value: Any) -> Any:
+    """Return a value as JSON holds it: records as dictionaries, tuples as lists."""
+    if hasattr(value, "_asdict"):
+        value = value._asdict()
+    if isinstance(value, dict):
+        return {key: jsonable(item) for key, item in value.items()}
+    return [jsonable(item) for item in value] if isinstance(value, tuple | list) else value
+
+
 def words(path: str, number: Number) -> str:
     """Return value and unit as text for a reader, angles in degrees."""
     _, shown = display(path, number)

@@ -10,7 +10,9 @@ from typing import Any, cast
 
 from wingbeat._base import (
     TRACED,
+    Block,
     FaultList,
+    Line,
     Report,
     Reported,
     is_traced,
@@ -49,11 +51,12 @@ from wingbeat.animal.species.numbers import (
     frequency_between,
     frequency_of,
     in_order,
+    jsonable,
     range_of,
     range_of_tilt,
     to_si,
 )
-from wingbeat.animal.species.report import report_of
+from wingbeat.animal.species.report import bound_blocks, frequency_blocks, last_blocks, number_blocks, range_blocks
 from wingbeat.animal.species.scaling import frequencies_by_law, muscle_numbers, tail_numbers
 from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.vehicle import Air, Vehicle
@@ -419,29 +422,21 @@ class Species(Reported):
         plain["vehicle"] = {part: record for part, record in plain["vehicle"].items() if record is not None}
         plain["guessed_bounds"] = sorted(self.guessed_bounds)
         plain["shape"] = self.shape and self.shape.drawn() | {"numbers": self.shape.numbers}
-        return _jsonable(plain)
-
-
-def _jsonable(value: Any) -> Any:
-    if hasattr(value, "_asdict"):
-        value = value._asdict()
-    if isinstance(value, dict):
-        return {key: _jsonable(item) for key, item in value.items()}
-    return [_jsonable(item) for item in value] if isinstance(value, tuple | list) else value
+        return jsonable(plain)
 
 
 def species_report(animal: Species) -> Report:
     """Return every number of a species with its source, the bounds of free parameters, and the plausible ranges."""
     names = ", ".join(name for name in (animal.common_name, animal.scientific_name, animal.kind) if name)
     bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()} | animal.path_bounds
-    told = {path: path.removeprefix("wingbeat.") for path in bounds}
-    return report_of(
-        f"{animal.name}{': ' if names else ''}{names}",
-        animal.numbers,
-        {path: Bound(bounds[path], animal.reasons[n], n in animal.guessed_bounds) for path, n in told.items()},
-        animal.plausible,
-        animal.frequencies,
-        animal.alternatives,
-        animal.shape.numbers if animal.shape else {},
-        animal.warnings,
-    )
+    own = {path: path.removeprefix("wingbeat.") for path in bounds}
+    told = {path: Bound(bounds[path], animal.reasons[n], n in animal.guessed_bounds) for path, n in own.items()}
+    sources: dict[str, int] = {}
+    blocks: list[Block] = [Line(f"{animal.name}{': ' if names else ''}{names}")]
+    blocks += [*number_blocks("numbers", animal.numbers, sources), *bound_blocks(told)]
+    blocks += [*range_blocks(animal.plausible, sources), *frequency_blocks(animal.frequencies, sources)]
+    for name, other in animal.alternatives.items():
+        blocks += number_blocks(f"alternative {name}: {other.reason}", other.numbers, sources)
+    if animal.shape is not None:
+        blocks += number_blocks("shape, which only drawings use", animal.shape.numbers, sources)
+    return [*blocks, *last_blocks(sources, animal.warnings)]

@@ -9,6 +9,7 @@ import wingbeat as wb
 from wingbeat.animal.species.numbers import Number, OwnFrequency, frequency_between, frequency_of
 from wingbeat.animal.species.writing import species_text
 from wingbeat.cli.app import main
+from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.records.inputs import inputs_of, problem_from
 from wingbeat.words.orbit_words import frequency_in_words
 
@@ -40,8 +41,6 @@ def test_an_animal_flies_at_its_own_frequency_and_its_band_is_the_error_bar():
     assert problem.frequency_basis == "law"
     assert "frequency" not in problem.free
     assert problem.species.wingbeat.frequency == 6.15
-    from wingbeat.orbits.problem.parameters import parameters_of
-
     frequency = next(one for one in parameters_of(problem) if one.path == "wingbeat.frequency")
     assert frequency.plausible == (5.4, 6.9)
     slow = problem.at_speed(4.0)
@@ -178,6 +177,14 @@ def test_a_problem_says_itself_that_frequency_and_posture_are_the_animals_own():
         wb.OrbitProblem(PIGEON, 12.0, free=("frequency",), own_frequency=True)
     with pytest.raises(wb.InvalidInputError, match="own_posture = 'yes': must be True or False"):
         wb.OrbitProblem(PIGEON, 12.0, own_posture="yes")  # type: ignore[arg-type]
+
+
+def test_a_derivative_by_speed_holds_the_frequency():
+    problem = wb.models.animal(BAT).problem(BAT, 8.0)
+    speed = next(one for one in parameters_of(problem) if one.path == "speed")
+    changed = speed.changed(problem, 9.0)
+    assert changed.species.wingbeat == problem.species.wingbeat
+    assert (changed.speed, changed.bounds) == (9.0, problem.bounds)
 
 
 def test_entries_survive_the_species_file_and_the_orbits_file(tmp_path):

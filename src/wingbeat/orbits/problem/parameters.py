@@ -50,7 +50,9 @@ def with_number(record: Any, place: Place, value: float) -> Any:
     changed = with_number(getattr(record, head), rest, value)
     if isinstance(record, Species):
         return record.with_record(changed)
-    return dataclasses.replace(record, **{head: changed})
+    # Nothing else changes with the speed: neither an animal's own frequency nor its posture.
+    held = {"own_frequency": False, "own_posture": False} if place == ("speed",) else {}
+    return dataclasses.replace(record, **{head: changed}, **held)
 
 
 def parameters_of(problem: OrbitProblem) -> list[Parameter]:

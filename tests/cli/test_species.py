@@ -89,6 +89,10 @@ def test_version_and_no_command() -> None:
         (["species", "pigeon", "--alternative", "x"], "error: alternative = 'x': is unknown; use one of avin"),
         (["species", "new"], "error: "),
         (["species", "new", "no/such/folder/x.toml"], "error: cannot write 'no/such/folder/x.toml': no such"),
+        (
+            ["species", "new", "mine.txt"],
+            "error: PATH = 'mine.txt': is not the name of a species file; end it in .toml",
+        ),
     ],
 )
 def test_bad_input_is_one_line_and_exit_code_2(run: Any, words: list[str], line: str) -> None:

@@ -1,4 +1,4 @@
-"""The head of a measurement file: ``# key = value`` lines, and the names of columns with their units."""
+"""Tables of measurements: ``# key = value`` lines above them, columns with units, separators, cells and numbers."""
 
 from __future__ import annotations
 

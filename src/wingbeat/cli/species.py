@@ -100,6 +100,8 @@ def new(
     from wingbeat.animal.species.writing import species_text
 
     faults, size = FaultList(), {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
+    if path.suffix != ".toml" and not path.is_dir():  # a folder is refused when it is written
+        faults.add("PATH", str(path), "is not the name of a species file", "end it in .toml")
     for key, value in size.items():
         flagged = f"--{key.replace('_', '-')}"
         if kind is None and value is not None:

@@ -71,9 +71,8 @@ def read_film(path: str | Path, side: str = "both") -> Film:
     Times and frames need a line ``# frequency [Hz] = 6.1`` above the table if the clip has fewer than two beats. A
     longer clip determines its frequency; one that disagrees is refused. A line ``# wrist = 0.5`` says where the
     hand folds, as a fraction of the span; a line ``# semi_span [m] = 0.31``, how long the spread wing is. The
-    other columns are any of those of `Film`, each for both wings
-    together or for one wing: ``left_flap_deg``, ``right_flap_deg``; unknown columns are refused. A cell is empty,
-    NaN or NA where the wing was not seen.
+    other columns are any of those of `Film`, each for both wings together or for one wing: ``left_flap_deg``,
+    ``right_flap_deg``; unknown columns are refused. A cell is empty, NaN or NA where the wing was not seen.
 
     Parameters
     ----------

@@ -18,7 +18,7 @@ export class Face {
   constructor(element, { theme = "system", snap = true } = {}) {
     this.onask = () => {};
     // Set before `setChoices` by a page that can: `onpush()` brings flights of the answer on the page through gusts, by
-    // `showPushes`; `onfile(file)` takes a species file.
+    // `showPushes`; `onfile(file)` takes a species file or a polar.
     this.onpush = undefined;
     this.onfile = undefined;
     this.onpushed = () => {}; // a push is shown, or no longer: what `linked` names

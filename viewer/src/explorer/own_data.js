@@ -1,4 +1,4 @@
-// The reader's own files: measured flights behind the curve, a wing's motion in the plots, and species files.
+// The reader's own files: measured flights behind the curve, a wing's motion in the plots, species files and polars.
 
 import { Faults, isPolar, tableOf, tooLarge } from "./csv.js";
 import { flightsOf, kindOf, motionOf } from "./own_tables.js";

@@ -70,7 +70,9 @@ def polar(
     ] = 1.0,
     csv: Annotated[bool, flag("Print CSV.")] = False,
     json: Annotated[bool, flag("Print one JSON object of lists.")] = False,
-    output: Annotated[Path | None, written_to("Draw a figure: .png, .pdf or .svg. With --section, write the table: .csv.")] = None,
+    output: Annotated[
+        Path | None, written_to("Draw a figure: .png, .pdf or .svg. With --section, write the table: .csv.")
+    ] = None,
 ) -> None:
     """Print or draw lift, drag, moment and centre of pressure of a coefficient model.
 

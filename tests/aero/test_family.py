@@ -16,6 +16,8 @@ from wingbeat.aero import FamilyCoefficients, TableCoefficients, load_coefficien
 from wingbeat.aero.family import at_reynolds, depends_on_reynolds
 from wingbeat.aero.strip_forces import strip_forces
 from wingbeat.cli.app import main
+from wingbeat.orbits.problem.origin import loads_in_words
+from wingbeat.records.inputs import aero_from, aero_inputs
 
 OWN = Path(__file__).parent / "polars"
 XFOIL = [str(OWN / f"xfoil_naca4412_re{re}.pol") for re in (50000, 100000, 200000)]
@@ -90,20 +92,13 @@ def test_two_derivatives_over_reynolds_are_continuous_at_polars_and_at_both_ends
     assert abs(float(curvature(ends[0] + 0.025))) > 1  # it is not flat inside
 
 
-def test_the_polar_in_the_middle_of_three_is_found_from_the_other_two(capsys):
+def test_the_polar_in_the_middle_of_three_is_found_from_the_other_two():
     outer, left_out = load_coefficients([XFOIL[0], XFOIL[2]], "viterna"), load_coefficients(XFOIL[1], "viterna")
     alpha = np.radians(np.array([a for a in left_out.alpha_deg if -5 <= a <= 10]))
     lift = outer.at(1e5).lift(alpha) - left_out.lift(alpha)
     drag = np.log(outer.at(1e5).drag(alpha) / left_out.drag(alpha))
     nearer = [float(np.sqrt(np.mean((m.lift(alpha) - left_out.lift(alpha)) ** 2))) for m in outer.members]
     told = [float(np.sqrt(np.mean(one**2))) for one in (lift, drag)]
-    with capsys.disabled():
-        print(
-            f"\nNACA 4412 at Re 1e5 from XFOIL's polars at 5e4 and 2e5, -5 to 10 degrees: C_L within"
-            f" {told[0]:.3f}, "
-            f"at most {np.abs(lift).max():.3f} (the two polars: {nearer[0]:.3f}, {nearer[1]:.3f}); C_D within "
-            f"{100 * told[1]:.0f} %, at most {100 * np.abs(drag).max():.0f} %"
-        )
     # Between 5e4 and 1e5 XFOIL's bubble closes; two polars cannot know where, and the upper one is nearer.
     assert told[0] < 0.14 < max(nearer)
     assert told[1] < 0.25
@@ -185,6 +180,34 @@ def test_with_inflow_a_family_of_finite_wings_is_one_of_sections():
         np.testing.assert_allclose(one, other, rtol=1e-12)
 
 
+def test_a_family_at_one_reynolds_number_is_one_model_with_inflow_and_in_records():
+    """Its sections are those of the wing at this number, whatever the strips' own numbers are."""
+    wings = tuple(dataclasses.replace(plate(d), aspect_ratio=6.0) for d in (0.08, 0.05))
+    found = FamilyCoefficients("wings", (1e4, 4e4), wings).at(4e4)
+    assert (found.extension, found.blend_width_deg, found.aspect_ratio) == ("mirrored", 1.0, 6.0)
+    assert (found.reynolds_range, found.alpha_range_deg) == ((1e4, 4e4), (0.0, 90.0))
+    with pytest.raises(AttributeError):
+        _ = found.members
+    aero = wb.aero.BladeElement(found, inflow="momentum")
+    assert not depends_on_reynolds(aero.kernel())
+    alone = wb.aero.BladeElement(wings[1], inflow="momentum").kernel()
+    alpha = jnp.linspace(-0.5, 0.5, 11)
+    for one, other in zip(aero.kernel().lift_drag(alpha), alone.lift_drag(alpha), strict=True):
+        np.testing.assert_allclose(one, other, rtol=1e-9, atol=1e-12)
+    inputs = aero_inputs(aero)
+    assert aero_from(json.loads(json.dumps(inputs))) == aero
+    assert loads_in_words(inputs).startswith("wings (2 polars, Re 10000 to 40000, at Re 40000)")
+
+
+def test_the_members_of_a_family_are_tables():
+    good = plate(0.05)
+    for member in (wb.aero.SuFan(), plates(1e4, 2e4), plates(1e4, 2e4).at(1e4), 3.0):
+        with pytest.raises(
+            wb.InvalidInputError, match=r"members\[1\] = .*is no polar as a table; give a TableCoeff"
+        ):
+            FamilyCoefficients("mixed", (1e4, 4e4), (good, member))
+
+
 HEAD = "alpha_deg,C_L,C_D,reynolds"
 ROWS = {
     re: [f"{a},{0.02 * a if a < 45 else 1.8 - 0.02 * a},{0.05 + 0.0002 * a * a},{re}" for a in range(0, 91, 15)]
@@ -215,12 +238,17 @@ def test_what_is_no_family_is_refused_with_what_to_do(tmp_path):
         tmp_path, "twisted.csv", HEAD, *(r.replace("20000.0", f"{2 + i}e4") for i, r in enumerate(ROWS[2e4]))
     )
     ends = written(tmp_path, "ends.csv", HEAD, *ROWS[4e4][:5])
+    short = written(tmp_path, "short.csv", HEAD, *ROWS[2e4][:5])
     wing = written(tmp_path, "wing.csv", "# aspect_ratio = 6", HEAD, *ROWS[4e4])
     cases = {
         (low, plain): "states no Reynolds number; state it in a column reynolds",
         (low, twisted): "is the Reynolds number along one polar; a family is made of polars at fixed Reynolds",
         (low, low): "must be above the 20000 before it by 2 per cent or more; keep one polar of each",
         (low, ends): "must reach at least 90 degrees; complete each polar by Viterna's rule: --extension viterna",
+        (
+            short,
+            ends,
+        ): "must reach at least 90 degrees (2 polars do not: short.csv, ends.csv); complete each polar by",
         (low, wing): "differ in aspect_ratio; all polars of a family are of one wing",
         (low, "su-fan"): "is not a polar; several files must be polars of one wing",
         (XFOIL[0], str(OWN / "xfoil_naca0012_re50k.pol")): "are names of several sections",

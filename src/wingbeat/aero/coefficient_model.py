@@ -23,6 +23,8 @@ MAX_LIFT, MAX_DRAG, CENTRE_RANGE = 5.0, 5.0, (-1.0, 2.0)
 # state it, and a drag of 0; tables, which are measurements, may not.
 IDEAL_LIFT = 2 * math.pi
 _ROUNDING = 1e-9
+# The centre of pressure comes from the moment where the normal force coefficient is at least this.
+_LEAST_NORMAL = 0.1
 # How far a model is to be trusted, and what its name then says.
 GRADES = {"A": "", "B": ", cited second-hand", "C": ", in part a guess"}
 
@@ -98,6 +100,21 @@ def check_possible(faults: FaultList, quantity: str, values: Sequence[float], wh
         fix = "give it without a unit; per cent divided by 100 are coefficients"
         fix = "the column looks like drag counts: divide it by 10000" if counts else fix
     faults.add(where(row), worst, rule + (f" ({len(bad)} of {len(values)} rows)" if len(bad) > 1 else ""), fix)
+
+
+def centre_from_moment(
+    alpha_deg: NDArray[np.float64],
+    lift: NDArray[np.float64],
+    drag: NDArray[np.float64],
+    moment: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Return x_cp from the moment coefficient about mid-chord; NaN where the normal force is too small for it."""
+    turn = np.radians(alpha_deg)
+    normal = lift * np.cos(turn) + drag * np.sin(turn)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        centre = 0.5 - moment / normal
+    low, high = CENTRE_RANGE
+    return np.where((np.abs(normal) >= _LEAST_NORMAL) & (low <= centre) & (centre <= high), centre, np.nan)
 
 
 def check_curve(faults: FaultList, where: str, name: str, degrees: Angles, lift: Angles, drag: Angles) -> None:

@@ -1,10 +1,11 @@
 """Coefficients that depend on the Reynolds number: a family of polars becomes one model.
 
 Between the polars, C_L, x_cp and the logarithm of C_D are quintics in the logarithm of Re. At each polar they have
-its values, no curvature and the slope between its two neighbours. So C_D is positive, laws such as Re^-1/2 are
-exact, and second derivatives are continuous. Of eight polars of XFOIL (NACA 0012 and 4412, Re 2e4 to 4e5) each was
-left out in turn: the others give C_L within 0.053 and 0.054 (root mean square up to 9 degrees) and C_D within 5 and
-12 per cent. Straight lines give 0.057, 0.060, 5 and 13; not-a-knot splines 0.059, 0.067, 5 and 20.
+its values, no curvature and the slope between its two neighbours. So C_D is positive, second derivatives are
+continuous, and laws such as Re^-1/2 are exact, except within 5 per cent of both ends, where the model goes over to
+the constant beyond. Of eight polars of XFOIL (NACA 0012 and 4412, Re 2e4 to 4e5) each was left out in turn: the
+others give C_L within 0.053 and 0.054 (root mean square up to 9 degrees) and C_D within 5 and 12 per cent.
+Straight lines give 0.057, 0.060, 5 and 13; not-a-knot splines 0.059, 0.067, 5 and 20.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from wingbeat._base import FaultList
 from wingbeat._jax.arrays import horner, jnp
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
 from wingbeat.aero.derived_kernels import ArmHandKernel, UpstrokeKernel
+from wingbeat.aero.table import TableCoefficients
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import Angles, FamilyBasis, FamilyEnds, FamilyNodes, FamilyWeights, Scalar
@@ -144,12 +146,13 @@ class FamilyCoefficients(CoefficientModel):
     ----------
     name : name of the model.
     reynolds : chord Reynolds numbers of the polars, rising by 2 per cent or more, shape (n,).
-    members : the polar at each, of one extension and one aspect ratio, shape (n,).
+    members : the polar at each, a `TableCoefficients`, of one extension and one aspect ratio, shape (n,).
     notes : what a reader of the files should know.
 
     Raises
     ------
-    InvalidInputError : fewer than two polars, Reynolds numbers that do not rise, polars that do not go together.
+    InvalidInputError : fewer than two polars, Reynolds numbers that do not rise, polars that are no tables or that
+        do not go together.
 
     >>> from wingbeat.aero import TableCoefficients
     >>> alpha = np.arange(0.0, 91.0, 5.0)
@@ -161,7 +164,7 @@ class FamilyCoefficients(CoefficientModel):
 
     name: str
     reynolds: tuple[float, ...]
-    members: tuple[CoefficientModel, ...]
+    members: tuple[TableCoefficients, ...]
     notes: tuple[str, ...] = field(default=(), compare=False)
 
     def __post_init__(self) -> None:
@@ -171,6 +174,10 @@ class FamilyCoefficients(CoefficientModel):
             rule = f"are Reynolds numbers of {len(self.members)} polars"
             faults.add(where, list(self.reynolds), rule, "give two polars or more, each with its Reynolds number")
             faults.raise_if_any()
+        for i, member in enumerate(self.members):
+            if not isinstance(member, TableCoefficients):
+                said = getattr(member, "name", type(member).__name__)
+                faults.add(f"{where}, members[{i}]", said, "is no polar as a table", "give a TableCoefficients")
         for i, value in enumerate(self.reynolds):
             faults.number(f"{where}, reynolds[{i}]", value, at_least=1, fix="give chord times speed over viscosity")
         faults.raise_if_any()
@@ -189,6 +196,7 @@ class FamilyCoefficients(CoefficientModel):
                 faults.add(where, shown, f"differ in {what}", fix)
         faults.raise_if_any()
         object.__setattr__(self, "reynolds", tuple(float(value) for value in self.reynolds))
+        object.__setattr__(self, "members", tuple(self.members))
 
     @property
     def extension(self) -> str:  # type: ignore[override]
@@ -263,10 +271,17 @@ class AtOneReynolds(CoefficientModel):
     family: FamilyCoefficients
     reynolds: float
 
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("__") or name == "family":
-            raise AttributeError(name)
-        return getattr(self.family, name)
+    def __post_init__(self) -> None:
+        # What is that of the family; it has no members to make sections of, so its own curve is made sectional.
+        for what in (
+            "citation",
+            "extension",
+            "blend_width_deg",
+            "reynolds_range",
+            "alpha_range_deg",
+            "aspect_ratio",
+        ):
+            object.__setattr__(self, what, getattr(self.family, what))
 
     @property
     def name(self) -> str:  # type: ignore[override]

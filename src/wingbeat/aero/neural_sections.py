@@ -25,6 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from wingbeat._base import FaultList, FileError, install_extra, read_text
+from wingbeat.aero.coefficient_model import centre_from_moment
 
 LEAST_CONFIDENCE, GOOD_CONFIDENCE = 0.5, 0.9
 # NeuralFoil was trained from Re 1e3 on; below 5e3 its confidence falls under a half.
@@ -33,7 +34,6 @@ _ANGLES = np.arange(-30.0, 30.5, 1.0)
 _POINTS = 121
 # A polar ends where so many rows in a row have too little confidence.
 _MISSED = 3
-_NORMAL = 0.1
 _PLATE = re.compile(r"(?i)plate[:= _-]?([\d.]+)$")
 
 
@@ -203,11 +203,9 @@ def sections_csv(title: str, polars: Sequence[SectionPolar]) -> str:
     lines = [f"# {title} by NeuralFoil, section", "# aspect_ratio = inf"]
     lines.append("alpha_deg,reynolds,C_L,C_D,C_M,x_cp,analysis_confidence")
     for one in polars:
+        centres = centre_from_moment(one.alpha_deg, one.lift, one.drag, one.moment)
         for k in np.flatnonzero(one.kept):
-            turn = math.radians(one.alpha_deg[k])
-            normal = one.lift[k] * math.cos(turn) + one.drag[k] * math.sin(turn)
-            centre = f"{0.5 - one.moment[k] / normal:.4f}" if abs(normal) >= _NORMAL else ""
-            centre = "" if centre and abs(float(centre) - 0.5) > 1.5 else centre
+            centre = "" if math.isnan(centres[k]) else f"{centres[k]:.4f}"
             cells = (one.alpha_deg[k], one.reynolds, one.lift[k], one.drag[k], one.moment[k])
             lines.append(",".join([*(f"{cell:.6g}" for cell in cells), centre, f"{one.confidence[k]:.3f}"]))
     return "\n".join(lines) + "\n"

@@ -12,7 +12,7 @@ import numpy as np
 
 from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat._base.sheets import Sheet, same_name
-from wingbeat.aero.coefficient_model import check_aspect_ratio
+from wingbeat.aero.coefficient_model import centre_from_moment, check_aspect_ratio
 from wingbeat.aero.completion import VITERNA, closed_turn, viterna
 from wingbeat.aero.extension import check_extension
 from wingbeat.aero.family import FamilyCoefficients
@@ -46,19 +46,13 @@ _HEAD = re.compile(r"[\w ]+: (.+?), Re \d+(?:, Ncrit ([\d.]+))?")
 _RE_OF_NAME = re.compile(r"(?i)([ _.-]+(re)?|re)[ _.-]*[\d.]+(e\d+|k)?$")
 _BY_VITERNA = "--extension viterna"
 _COMPLETED = "a fit completes it: {}; or complete it by Viterna's rule: {}"
-# The centre of pressure comes from the moment where the normal force coefficient is at least this.
-_LEAST_NORMAL = 0.1
 
 
 def _whole_centre(polar: PolarSheet) -> tuple[list[float] | None, tuple[str, ...]]:
     """Return x_cp in every row, and notes; empty cells, where there is no force, are filled from neighbours."""
     given = polar.columns.get("x_cp")
     if given is None and polar.of_program and "C_M" in polar.columns:
-        turn = np.radians(polar.columns["alpha_deg"])
-        normal = polar.columns["C_L"] * np.cos(turn) + polar.columns["C_D"] * np.sin(turn)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            given = 0.5 - polar.columns["C_M"] / normal
-        given = np.where((np.abs(normal) >= _LEAST_NORMAL) & (np.abs(given - 0.5) <= 1.5), given, np.nan)
+        given = centre_from_moment(*(polar.columns[name] for name in ("alpha_deg", "C_L", "C_D", "C_M")))
     if given is None:
         return None, ()
     known, alpha = np.isfinite(given), polar.columns["alpha_deg"]
@@ -100,7 +94,7 @@ def load_table(
     wrong: list[Fault] = []
     found: list[tuple[float, TableCoefficients]] = []
     paths = [Path(path)] if isinstance(path, str | Path) else [Path(one) for one in path]
-    advice = ""
+    advised: set[str] = set()
     for one in paths:
         faults = FaultList()
         check_extension(faults, "signed" if extension == VITERNA else extension, blend_width_deg)
@@ -111,6 +105,7 @@ def load_table(
             stream = parts[0][1].columns["reynolds"]
             only = f" --reynolds-range {math.floor(stream.min())} {math.ceil(stream.max())}"
             advice += f"; or fit one of them: {fitting(one, parts[0][1], more=only)}"
+        advised.add(advice)
         for reynolds, part in parts or [(None, polar)]:
             own = FaultList()
             own.faults += faults.faults
@@ -123,9 +118,11 @@ def load_table(
                 reynolds = _stream_of(own, part)
                 wrong += own.faults
             found.append((reynolds or 0.0, table))
-    short = [fault for fault in wrong if fault.fix == advice]
+    short = [fault for fault in wrong if fault.fix and fault.fix in advised]
     if len(short) > 1:
-        told = dataclasses.replace(short[0], rule=f"{short[0].rule} ({len(short)} polars do not)")
+        files = dict.fromkeys(fault.where.partition(" row ")[0] for fault in short)
+        which = f": {', '.join(files)}" if len(files) > 1 else ""
+        told = dataclasses.replace(short[0], rule=f"{short[0].rule} ({len(short)} polars do not{which})")
         wrong = [told, *(fault for fault in wrong if fault not in short)]
     if wrong:
         raise InvalidInputError(wrong)

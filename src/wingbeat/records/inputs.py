@@ -28,6 +28,7 @@ from wingbeat.aero import (
     load_coefficients,
 )
 from wingbeat.aero.blade_element import OF_ELEMENTS
+from wingbeat.aero.family import AtOneReynolds
 from wingbeat.animal.drive import Motor, Muscle, Springs
 from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.animal.species.numbers import OwnFrequency, Range, number_from
@@ -96,6 +97,9 @@ def _named(coefficients: CoefficientModel) -> dict[str, Any]:
     """Return name, extension and blend width of a coefficient model, and a digest if it is a function."""
     how = {name: getattr(coefficients, name) for name in ("extension", "blend_width_deg")}
     named = {"coefficients": coefficients.name, **how}
+    if isinstance(coefficients, AtOneReynolds):
+        at, coefficients = coefficients.reynolds, coefficients.family
+        named |= {"coefficients": coefficients.name, "at_reynolds": at}
     if isinstance(coefficients, FamilyCoefficients):
         named["reynolds_of_polars"] = list(coefficients.reynolds)
     if isinstance(coefficients, FunctionCoefficients):
@@ -105,6 +109,8 @@ def _named(coefficients: CoefficientModel) -> dict[str, Any]:
 
 def _numbers(coefficients: CoefficientModel) -> dict[str, Any]:
     """Return the numbers from which a coefficient model can be set up; none if its name suffices."""
+    if isinstance(coefficients, AtOneReynolds):
+        coefficients = coefficients.family
     if isinstance(coefficients, FamilyCoefficients):
         return {"family": [_numbers(member)["table"] for member in coefficients.members]}
     kind = next((kind for kind, (made, _) in _MODELS.items() if isinstance(coefficients, made)), "")
@@ -130,7 +136,8 @@ def _coefficients(given: dict[str, Any]) -> Any:
         raise NotInFileError(f"{OWN} function {given['coefficients']!r} {SET_ANEW}")
     if "family" in given:
         members = tuple(TableCoefficients(**_tuples(member), **how) for member in given["family"])
-        return FamilyCoefficients(given["coefficients"], tuple(given["reynolds_of_polars"]), members)
+        family = FamilyCoefficients(given["coefficients"], tuple(given["reynolds_of_polars"]), members)
+        return family.at(given["at_reynolds"]) if "at_reynolds" in given else family
     if "table" in given:
         return TableCoefficients(**_tuples(given["table"]), **how)
     if "cambered" in given:

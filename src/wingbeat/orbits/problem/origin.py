@@ -55,7 +55,8 @@ def loads_in_words(aero: Mapping[str, Any]) -> str:
     named = [str(aero[name]) for name in ("coefficients", "extension", "force_point") if name in aero]
     terms = [f"{aero[name]} {name}" for name in TERMS if name in aero]
     if family := aero.get("reynolds_of_polars"):
-        named[0] += f" ({len(family)} polars, Re {family[0]:.0f} to {family[-1]:.0f})"
+        at = f", at Re {aero['at_reynolds']:.0f}" if "at_reynolds" in aero else ""
+        named[0] += f" ({len(family)} polars, Re {family[0]:.0f} to {family[-1]:.0f}{at})"
     return ", ".join([*named, *(["full airspeed"] if aero.get("airspeed") == "full" else []), *terms])
 
 

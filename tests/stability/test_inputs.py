@@ -1,5 +1,7 @@
 """Inputs from beat to beat leave the wing where it is at the top of the stroke, and as fast."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -13,6 +15,7 @@ from wingbeat.animal.kinematics import (
     tip_twist,
     with_parameters,
 )
+from wingbeat.stability.gust_flights import fly_gust, fly_pushes
 from wingbeat.stability.inputs import compensation, smooth_ones
 
 STOCK = ("frequency", "flap_mean", "flap_amplitude", "pitch_mean", "pitch_amplitude")
@@ -99,3 +102,27 @@ def test_a_law_without_mass_or_motion_at_the_top_needs_nothing():
     found = compensation(beat, ("chord_retraction",))
     assert found.names == ()
     assert found.shares.shape == (0, 1)
+
+
+def test_what_knows_four_states_refuses_an_orbit_with_the_lag_of_the_wake(pigeon_orbit):
+    """The door asks for the air loads alone, so any record that says converged will do."""
+    problem = dataclasses.replace(
+        pigeon_orbit.problem, aero=wb.aero.BladeElement("su-fan", unsteady="thin-aerofoil", wake="jones-section")
+    )
+    lagged = wb.Orbit.of_record(pigeon_orbit.orbit.record(), problem, starts=1)
+    doors = [
+        lambda: wb.linearise(lagged),
+        lambda: wb.feedback(lagged),
+        lambda: wb.feedback_in_beat(lagged),
+        lambda: wb.manoeuvre(lagged, [11.0]),
+        lambda: wb.simulate_many(lagged, [(0.0, 0.0)]),
+        lambda: wb.survey_gusts(lagged, flights=2),
+        lambda: fly_pushes(lagged),
+    ]
+    for door in doors:
+        with pytest.raises(
+            wb.InvalidInputError, match=r"aero.wake.*stability does not know; solve"
+        ):
+            door()
+    with pytest.raises(wb.InvalidInputError, match="leave the wake out here"):
+        fly_gust(lagged, (0.0, 0.0), beats=1)

@@ -190,6 +190,10 @@ def equations_of_motion(
     EquationsOfMotion : ``mass_matrix`` D and ``velocity_matrix`` C of shape (..., 5, 5), ``time_force`` h and
         ``gravity_force`` g of shape (..., 5); JAX arrays, so that they can be differentiated.
 
+    Raises
+    ------
+    InvalidInputError : a model with the lag of the wake.
+
     >>> import numpy as np, wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
     >>> model = wb.FlightModel(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))
@@ -219,6 +223,10 @@ def air_forces(
     Returns
     -------
     AirForces : ``generalised`` is f_aero, shape (..., 5) [N, N m].
+
+    Raises
+    ------
+    InvalidInputError : a model with the lag of the wake.
 
     >>> import numpy as np, wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
@@ -253,6 +261,10 @@ def generalised_torques(
     -------
     tau of shape (..., 5). The first three components are zero in free flight [N, N, N m]; the others are the flap
     and pitch hinge torques of both wings together [N m].
+
+    Raises
+    ------
+    InvalidInputError : a model with the lag of the wake.
 
     >>> import numpy as np, wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")

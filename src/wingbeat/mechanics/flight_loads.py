@@ -127,6 +127,10 @@ def flight_loads(
     -------
     Loads : every quantity with the axes of `phase` first; JAX arrays, so that they can be differentiated.
 
+    Raises
+    ------
+    InvalidInputError : a model with the lag of the wake, without the states of the wake.
+
     >>> import numpy as np, wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
     >>> model = wb.FlightModel(pigeon.vehicle, wb.aero.BladeElement(wb.aero.SuFan()))

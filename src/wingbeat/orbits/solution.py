@@ -159,7 +159,7 @@ class Solution:
 
     @functools.cached_property
     def monodromy(self) -> np.ndarray:
-        """Derivative of (body_pitch, u, w, pitch_rate) after a beat by those before it, computed on first use."""
+        """Derivative of the pitch state, and of a wake that lags, after a beat by that before it; kept."""
         return monodromy(self.problem.model, self.wingbeat, self.certificate.steps)
 
     @functools.cached_property

@@ -133,7 +133,7 @@ def simulate(
     Raises
     ------
     InvalidInputError : a state that is not six finite numbers, a body pitch above pi, which is most likely in
-        degrees, beats or samples that are not whole numbers of at least 1, a
+        degrees, beats or samples that are not whole numbers of at least 1, a model with the lag of the wake, a
         wind that is not finite or has another shape than its times, a controller that returns no wingbeat.
 
     >>> import wingbeat as wb
@@ -222,7 +222,7 @@ def simulate_torque_driven(
 
     Raises
     ------
-    InvalidInputError : wrong shapes, not finite, or times that do not increase.
+    InvalidInputError : wrong shapes, not finite, times that do not increase, or a model with the lag of the wake.
 
     The equations are ``D(q) q'' + C(q, q') q' + g = Q_air + B tau`` of Su et al. 2023
     (doi 10.48550/arXiv.2302.09602).
@@ -349,7 +349,8 @@ def carry(
 
     Raises
     ------
-    InvalidInputError : beats or samples that are not whole numbers of at least 1.
+    InvalidInputError : beats or samples that are not whole numbers of at least 1; a model with the lag of the
+        wake.
     """
     faults = FaultList()
     check_samples(faults, beats, samples)

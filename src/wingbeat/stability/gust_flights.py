@@ -115,8 +115,9 @@ def fly_pushes(
 
     Raises
     ------
-    InvalidInputError : an orbit that is not certified; beats that are no whole number from 3 to 100; an unknown
-        direction; a size that is not positive; what `feedback` refuses, such as a mode that no input reaches.
+    InvalidInputError : an orbit that is not certified or has the lag of the wake; beats that are no whole number
+        from 3 to 100; an unknown direction; a size that is not positive; what `feedback` refuses, such as a mode
+        that no input reaches.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)

@@ -330,9 +330,9 @@ def linearise(
 
     Raises
     ------
-    InvalidInputError : an orbit that is not certified, or that does not close when this version flies it; inputs
-        that are no parameters of the wingbeat, that are given twice or change nothing, or whose jumps no harmonic
-        can undo.
+    InvalidInputError : an orbit that is not certified, has the lag of the wake, or does not close when this
+        version flies it; inputs that are no parameters of the wingbeat, that are given twice or change nothing, or
+        whose jumps no harmonic can undo.
 
     The map is the derivative of the flight of one beat. Loads depend only on the velocity relative to the air, so
     ``G = (I - A)[:, (u, w)]`` for a gust that is uniform and constant for one beat; with the height, the air also

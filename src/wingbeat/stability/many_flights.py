@@ -180,9 +180,9 @@ def simulate_many(
 
     Raises
     ------
-    InvalidInputError : an orbit that is not certified, no winds, winds that are not finite, beats or lateness that
-        are no whole numbers, feedback of another orbit, lateness of feedback within a beat, noise of an unknown
-        state or that is negative.
+    InvalidInputError : an orbit that is not certified or has the lag of the wake, no winds, winds that are not
+        finite, beats or lateness that are no whole numbers, feedback of another orbit, lateness of feedback within
+        a beat, noise of an unknown state or that is negative.
 
     One flight was compared with the adaptive `simulate`: a pigeon with feedback, 30 beats through a gust of 3 m/s.
     With 64 steps of the classical Runge-Kutta method in a beat, the states at the tops of the stroke differ by less

@@ -145,7 +145,8 @@ def feedback_in_beat(orbit: Orbit, segments: int = 4, *, options: FeedbackOption
 
     Raises
     ------
-    InvalidInputError : an orbit that is not certified, segments that are no whole number from 2 to 8.
+    InvalidInputError : an orbit that is not certified or has the lag of the wake, segments that are no whole
+        number from 2 to 8.
 
     The gains minimise the sum over all segments of squared deviations in scales and squared bumps in units; they
     solve the periodic discrete Riccati equation (Bittanti, Colaneri & De Nicolao 1991, in The Riccati Equation).

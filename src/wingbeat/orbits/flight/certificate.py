@@ -1,7 +1,7 @@
 """The certificate: an independent adaptive flight of one period.
 
-It shares nothing with the solver's flights: Dopri8, with error control at rtol 1e-10, evaluates the wing's motion
-at its own instants.
+It shares no step with the solver's flights: Dopri8, with error control at rtol 1e-10, evaluates the wing's motion
+at its own instants. With the lag, the solver's flight says only where to look for the wake that repeats.
 """
 
 from __future__ import annotations
@@ -150,8 +150,9 @@ def _repeating(
 # Number of steps in each step of the certifier, whose steps are short at the kinks of the loads. With two, the
 # multipliers of unstable bats are within 1e-5 of those of an adaptive flight.
 _STEPS = 2
-# Distances from the path at which flights start: (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s]. The first
-# derivatives of a flight are exact to 1e-13, so one-sided differences of them can have steps as short as this.
+# Distances from the path at which flights start: (body_pitch, u, w, pitch_rate) [rad, m/s, m/s, rad/s], and that
+# of u for the wake. The first derivatives of a flight are exact to 1e-13, so one-sided differences of them can
+# have steps as short as this.
 _BESIDE = np.array([1e-7, 1e-6, 1e-6, 1e-6])
 # Number of stretches of the path that are flown at once, as lanes: few enough for the processor's first cache.
 _LANES = 64
@@ -161,7 +162,7 @@ _LANES = 64
 def _state_maps(
     model: FlightModel, wingbeat: Wingbeat, begin: Stretches, end: Stretches, path: StretchStates
 ) -> StretchMaps:
-    """Return the derivative of each stretch's last pitch state by its first, by flights from near the path."""
+    """Return the derivative of each stretch's last state (pitch, wake) by its first, by flights beside the path."""
     length = (end - begin) / _STEPS
     seconds = length / wingbeat.frequency
 
@@ -190,9 +191,10 @@ def _state_maps(
 
 
 def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarray:
-    """Return the multipliers of (body_pitch, u, w, pitch_rate) over a period, largest modulus first, shape (4,).
+    """Return the four multipliers of largest modulus over a period, the largest first, shape (4,).
 
-    They are the eigenvalues of the `monodromy` matrix; not-a-number if the flight diverges.
+    They are eigenvalues of the `monodromy` matrix, without the lag of the wake all of them; not-a-number if the
+    flight diverges.
 
     Parameters
     ----------
@@ -210,7 +212,7 @@ def floquet_multipliers(model: FlightModel, wingbeat: Wingbeat, steps: Steps) ->
 
 
 def multipliers_of(matrix: np.ndarray) -> np.ndarray:
-    """Return the eigenvalues of a monodromy matrix, largest modulus first. Theory: equation ``multipliers``."""
+    """Return the four largest eigenvalues of a matrix, largest modulus first. Theory: equation ``multipliers``."""
     if not np.isfinite(matrix).all():
         return np.full(4, np.nan + 0j)
     found = np.linalg.eigvals(matrix)
@@ -220,7 +222,8 @@ def multipliers_of(matrix: np.ndarray) -> np.ndarray:
 def monodromy(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarray:
     """Return the derivative of the pitch state at the end of a period by that at its start, shape (4, 4).
 
-    It is not-a-number if the flight diverges. Theory: equation ``monodromy``.
+    With the lag of the wake, the states of the wake follow, shape (4 + 2 strips, 4 + 2 strips). It is not-a-number
+    if the flight diverges. Theory: equation ``monodromy``.
     """
     phase, path = steps.phase, steps.states[:, 2:]
     if phase[-1] < 1.0:

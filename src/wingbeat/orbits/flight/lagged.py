@@ -36,7 +36,7 @@ def chained(
     """Return places, states and their tangents: the end (2 + S,), its Jacobian, and that of the path.
 
     There are S states; `rates` are `body_rates` and `rates_by_wake`. Directions, the states and then the free
-    parameters, are the last axis.
+    parameters, are the last axis. Theory: equation ``step-chain``.
     """
     (body_rates, rates_by_wake), size, free = rates, flight.last.size, step_tangent.size
 
@@ -134,7 +134,8 @@ class RepeatingWake:
         for _ in range(options.most_flights):
             flown = self._fly(values, np.concatenate([start, states]), blocks)
             jacobian, miss = np.asarray(flown.end_jacobian), np.asarray(flown.end)[6:] - states
-            if not max(np.abs(jacobian).max(initial=0.0), np.abs(miss).max()) < options.diverged:  # or not a number
+            largest = np.maximum(np.abs(jacobian).max(initial=0.0), np.abs(miss).max())
+            if not largest < options.diverged:  # or not a number
                 return self._condensed(flown, np.zeros(self._size), np.zeros((self._size, place.size)))
             slopes, others = self._split(jacobian[6:])
             step, along = np.split(

@@ -37,7 +37,7 @@ AT_STAGES = [(slice(STEPS), slice(STEPS + 1, None), slice(1, STEPS + 1))[place] 
 
 
 class March(NamedTuple):
-    """States and rates of all stages, shape (4 components, 4 stages, steps), and the last state (4,)."""
+    """States and rates of all stages, (S, 4 stages, steps), and the last state, (S,); S is 4 without a wake."""
 
     states: Stages
     rates: Stages

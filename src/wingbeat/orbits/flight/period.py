@@ -2,7 +2,7 @@
 
 First, the states are computed, step after step. Then the tangents of all steps are computed at once, as lanes; the
 tangents of each step start from the state at its start. Last, the step maps are multiplied. The position (x, z)
-does not affect the flight: it is a sum over the steps.
+does not affect the flight: it is a sum over the steps. With the lag of the wake, `lagged` does the last two.
 """
 
 from __future__ import annotations

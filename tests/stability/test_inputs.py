@@ -120,9 +120,7 @@ def test_what_knows_four_states_refuses_an_orbit_with_the_lag_of_the_wake(pigeon
         lambda: fly_pushes(lagged),
     ]
     for door in doors:
-        with pytest.raises(
-            wb.InvalidInputError, match=r"aero.wake.*stability does not know; solve"
-        ):
+        with pytest.raises(wb.InvalidInputError, match=r"aero.wake.*stability does not know; solve"):
             door()
     with pytest.raises(wb.InvalidInputError, match="leave the wake out here"):
         fly_gust(lagged, (0.0, 0.0), beats=1)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from wingbeat._jax.arrays import jax, jnp
-from wingbeat.orbits.flight.march import ALONG, AT_STAGES, STEPS, WEIGHTS, March, from_rows
+from wingbeat.orbits.flight.march import ALONG, STEPS, WEIGHTS, March, along_stages, in_lanes
 from wingbeat.orbits.search_options import WakeOptions
 
 if TYPE_CHECKING:
@@ -39,22 +39,9 @@ def chained(
     parameters, are the last axis. Theory: equation ``step-chain``.
     """
     (body_rates, rates_by_wake), size, free = rates, flight.last.size, step_tangent.size
-
-    def in_lanes(rows: Any) -> Any:
-        return jnp.concatenate([rows[..., part] for part in AT_STAGES], axis=-1)
-
-    lanes, state = from_rows(in_lanes(table), like), flight.states.reshape(size, -1)
-
-    def by_body(seed: Any) -> Any:
-        tangent = jnp.broadcast_to(seed[:, None], state.shape)
-        return jax.jvp(lambda s: body_rates(model, lanes, s), (state,), (tangent,))[1]
-
-    def by_free(rows: Any) -> Any:
-        tangent = from_rows(rows, like)
-        return jax.jvp(lambda motion: body_rates(model, motion, state), (lanes,), (tangent,))[1]
-
+    lanes, state, by_state, by_free = along_stages(body_rates, model, table, like, flight.states)
     by_wake, pace = rates_by_wake(model, lanes, state)
-    body = jax.vmap(by_body)(jnp.eye(size)[:4])  # (4, S, lanes)
+    body = jax.vmap(by_state)(jnp.eye(size)[:4])  # (4, S, lanes)
     own = jax.vmap(by_free)(in_lanes(tangents))  # (free, S, lanes)
 
     columns = body.transpose(1, 0, 2), _wake_columns(model, by_wake, pace), own.transpose(1, 0, 2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -42,6 +43,31 @@ class March(NamedTuple):
     states: Stages
     rates: Stages
     last: FlightState
+
+
+def in_lanes(rows: Any) -> Any:
+    """Return rows of a table at the four stages of all steps, as lanes of the last axis."""
+    return jnp.concatenate([rows[..., part] for part in AT_STAGES], axis=-1)
+
+
+def along_stages(
+    body_rates: Callable[..., Any], model: Any, table: TableRows, like: Any, states: Stages
+) -> tuple[Any, Any, Callable[..., Any], Callable[..., Any]]:
+    """Return motion and states at all stages as lanes, and functions that differentiate the rates there.
+
+    The first function takes a tangent of the state, the same at all stages, and the second one rows of a table.
+    """
+    lanes, state = from_rows(in_lanes(table), like), states.reshape(states.shape[0], -1)
+
+    def by_state(seed: Any) -> Any:
+        tangent = jnp.broadcast_to(seed[:, None], state.shape)
+        return jax.jvp(lambda s: body_rates(model, lanes, s), (state,), (tangent,))[1]
+
+    def by_free(rows: Any) -> Any:
+        tangent = from_rows(rows, like)
+        return jax.jvp(lambda motion: body_rates(model, motion, state), (lanes,), (tangent,))[1]
+
+    return lanes, state, by_state, by_free
 
 
 def combined(stages: Any) -> Any:

@@ -29,7 +29,17 @@ from wingbeat.mechanics.wing_shape import (
     lateral_corners,
 )
 from wingbeat.orbits.flight.lagged import RepeatingWake, WakeStart, chained
-from wingbeat.orbits.flight.march import ALONG, AT_STAGES, STEPS, WEIGHTS, March, combined, from_rows
+from wingbeat.orbits.flight.march import (
+    ALONG,
+    AT_STAGES,
+    STEPS,
+    WEIGHTS,
+    March,
+    along_stages,
+    combined,
+    from_rows,
+    in_lanes,
+)
 from wingbeat.orbits.search_options import WAKE, WakeOptions
 
 if TYPE_CHECKING:
@@ -197,19 +207,7 @@ def _stage_tangents(
     model: FlightModel, table: TableRows, tangents: TableTangents, like: Any, states: Stages
 ) -> tuple[StateTangents, FreeTangents]:
     """Differentiate the rates of all stages of all steps at once, by state and by free parameter."""
-
-    def in_lanes(rows: Any) -> Any:
-        return jnp.concatenate([rows[..., part] for part in AT_STAGES], axis=-1)
-
-    lanes, state = from_rows(in_lanes(table), like), states.reshape(4, -1)
-
-    def by_state(seed: Any) -> Any:
-        tangent = jnp.broadcast_to(seed[:, None], state.shape)
-        return jax.jvp(lambda s: body_rates(model, lanes, s), (state,), (tangent,))[1]
-
-    def by_free(rows: Any) -> Any:
-        tangent = from_rows(rows, like)
-        return jax.jvp(lambda motion: body_rates(model, motion, state), (lanes,), (tangent,))[1]
+    _, _, by_state, by_free = along_stages(body_rates, model, table, like, states)
 
     def to_stages(rows: Any) -> Any:
         return rows.reshape(-1, 4, 4, STEPS)

@@ -10,7 +10,7 @@ import numpy as np
 from wingbeat._jax.arrays import jax, jnp
 
 if TYPE_CHECKING:
-    from wingbeat._jax.arrays import FlightState, Stages, TableRows
+    from wingbeat._jax.arrays import FlightState, Stages, TableRows, TableTangents
 
 # --- The classical Runge-Kutta method of order 4 as a table, so that its stages are one loop, compiled once. ---
 # Each stage starts from the state at the start of the step, plus the share `ALONG` of the step times the rate of
@@ -45,7 +45,7 @@ class March(NamedTuple):
     last: FlightState
 
 
-def in_lanes(rows: Any) -> Any:
+def in_lanes(rows: TableRows | TableTangents) -> Any:
     """Return rows of a table at the four stages of all steps, as lanes of the last axis."""
     return jnp.concatenate([rows[..., part] for part in AT_STAGES], axis=-1)
 

@@ -64,7 +64,7 @@ def test_two_drivers_through_a_symbolic_link_are_one_too_many(running, cheap):
     code, err = ended(other.start("run", other.file, "-j", 1))
     assert code == 2
     assert f"another process is running the study of {str(study.store)!r}" in err
-    assert "waiting" in statuses(other)
+    assert "60 points" in statuses(other)  # the first may have ended by now
     assert ended(driver)[0] == 0
     assert "converged 60" in statuses(other)
     # Salvage, too, works on the file and leaves the link.

@@ -12,4 +12,6 @@ def test_the_page_is_that_of_the_tables(monkeypatch):
     flights, lattices = (pd.read_csv(ROOT / "data" / f"second_opinion{end}.csv") for end in ("", "_lattices"))
     page = (ROOT / "docs" / "evidence" / "second_opinion.md").read_text(encoding="utf-8")
     assert second_opinion.page(flights, lattices) == page
-    assert len(flights) == len(second_opinion.CASES) * (1 + len(second_opinion.TERMS))
+    of_paper = len(second_opinion.CASES) * (1 + len(second_opinion.TERMS))
+    of_animal = len(second_opinion.ANIMALS) * 2 * (1 + 2 * len(second_opinion.WAKES))  # span flown or held
+    assert flights["model"].value_counts().to_dict() == {"paper": of_paper, "animal": of_animal}

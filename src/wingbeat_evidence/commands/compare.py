@@ -36,9 +36,9 @@ def compare(
     """Compute the air loads of a saved orbit with another code, and compare lift, thrust and power of the wings.
 
     The motion is that of the file; the body does not respond to the other code's loads. A vortex lattice assumes
-    attached, inviscid flow, so it is wrong for strips beyond 15 degrees of angle of attack. The table also has our
-    own loads on the same motion, with and without each of the terms of --unsteady and --inflow. The command needs
-    the extra uvlm.
+    attached, inviscid flow, so it is wrong for strips beyond 15 degrees of angle of attack. Its panels are flat,
+    turned up by the polar's angle without lift. The table also has our own loads on the same motion, with and
+    without each of the terms of --unsteady and --inflow. The command needs the extra uvlm.
 
     Examples: wingbeat orbit pigeon --speed 12 -o pigeon.nc; wingbeat compare pigeon.nc --with uvlm --plot lift.png
     """
@@ -90,7 +90,7 @@ def _print(record: dict[str, Any]) -> None:
 
 
 def _name(row: dict[str, Any]) -> str:
-    terms = [row[term] for term in ("unsteady", "inflow") if row[term] != "none"]
+    terms = [row[term] for term in ("unsteady", "inflow", "wake") if row[term] != "none"]
     return "ours, " + (" and ".join(terms) if terms else "coefficients alone")
 
 

@@ -44,6 +44,7 @@ class SecondOpinion:
     phase : phases of the samples, shape (K,).
     strokes : phases at the start and end of each downstroke.
     terms : (unsteady, inflow), the terms with which the orbit was computed.
+    wake : lag of the wake with which the orbit was computed; all our loads have it.
     ours : our loads for each pair of terms; None if the coefficients do not allow these terms.
     refused : for each pair of terms without loads, the reason.
     theirs : loads of the lattice.
@@ -57,6 +58,7 @@ class SecondOpinion:
     phase: np.ndarray
     strokes: list[tuple[float, float]]
     terms: tuple[str, str]
+    wake: str
     ours: dict[tuple[str, str], WingLoads | None]
     refused: dict[tuple[str, str], str]
     theirs: WingLoads
@@ -86,10 +88,11 @@ class SecondOpinion:
             "lattice": dataclasses.asdict(self.options),
             "unsteady": self.terms[0],
             "inflow": self.terms[1],
+            "wake": self.wake,
             **differences(self.own, self.theirs, self.weight),
             "beyond_15_deg": float(np.mean(self.beyond)),
             "terms": [
-                {"unsteady": terms[0], "inflow": terms[1]}
+                {"unsteady": terms[0], "inflow": terms[1], "wake": self.wake}
                 | (
                     {"refused": self.refused[terms]}
                     if found is None
@@ -97,7 +100,7 @@ class SecondOpinion:
                 )
                 for terms, found in self.ours.items()
             ],
-            "left_out": left_out(*self.terms),
+            "left_out": left_out(*self.terms, self.wake),
         }
 
 
@@ -106,7 +109,7 @@ def compare_with_lattice(
 ) -> SecondOpinion:
     """Compute the loads of a vortex lattice on an orbit's motion, and our own loads with and without each term.
 
-    Needs the extra ``uvlm``.
+    Flat panels stand in for cambered wings, turned up by the polar's angle without lift. Needs the extra ``uvlm``.
 
     Parameters
     ----------
@@ -127,16 +130,21 @@ def compare_with_lattice(
     aero = aero_from(inputs["aero"])
     phase = np.arange(0, options.steps, 2) / options.steps
     ours, refused = _with_each_term(motion, aero, phase)
-    theirs = lattice_loads(motion, options, progress)
+    theirs = lattice_loads(motion, options, progress, aero)
     weight = motion.vehicle.mass * motion.air.gravity
     name, speed = inputs["species"]["name"], float(inputs["speed"])
     strokes = downstrokes(orbit.dataset["phase"].values, orbit.dataset["flap_rate"].values)
     terms = (aero.unsteady, aero.inflow)
-    return SecondOpinion(code, name, speed, weight, options, phase, strokes, terms, ours, refused, theirs)
+    return SecondOpinion(
+        code, name, speed, weight, options, phase, strokes, terms, aero.wake, ours, refused, theirs
+    )
 
 
 def lattice_loads(
-    motion: Motion, options: LatticeOptions, progress: Callable[[int, int], None] | None = None
+    motion: Motion,
+    options: LatticeOptions,
+    progress: Callable[[int, int], None] | None = None,
+    aero: BladeElement | None = None,
 ) -> WingLoads:
     """Return the loads of the lattice on a motion, at every second step of a beat.
 
@@ -147,6 +155,7 @@ def lattice_loads(
     Parameters
     ----------
     motion, options, progress : as in `compare_with_lattice`.
+    aero : our loads, for whose camber the panels are turned; not turned if not given.
 
     Raises
     ------
@@ -156,7 +165,7 @@ def lattice_loads(
     whole = sum(one.steps * one.beats for one in both)
     for one in both:
         phases = np.arange(one.steps * one.beats) / one.steps
-        corners, step = lattice_of(motion, one, phases), motion.period / one.steps
+        corners, step = lattice_of(motion, one, phases, aero), motion.period / one.steps
         told = None if progress is None else functools.partial(_told, progress, done, whole)
         loads = fly_lattice(corners, step, motion.velocity, motion.air.density, one.steps, told)
         found.append(sum_of_panels(one.spanwise, corners[-one.steps :], step, motion.velocity, *loads))

@@ -8,9 +8,12 @@ import numpy as np
 
 from wingbeat._base import FaultList
 from wingbeat._jax.arrays import unchecked
+from wingbeat.aero.blade_element import BladeElement
+from wingbeat.aero.coefficient_model import CoefficientModel
 from wingbeat_evidence.second_opinion.motion import Motion
 from wingbeat_evidence.second_opinion.own_loads import WingLoads
 
+_LARGEST = 0.5  # angle at which lift is looked for [rad]
 _CLOSE = 0.02  # of the semi-span: roots nearer to the plane of symmetry leave no room for panels across the body
 
 
@@ -57,7 +60,33 @@ class LatticeOptions:
         return unchecked(LatticeOptions, half | {"beats": self.beats})
 
 
-def lattice_of(motion: Motion, options: LatticeOptions, phase: np.ndarray) -> np.ndarray:
+def no_lift_angle(coefficients: CoefficientModel) -> float:
+    """Return the angle of attack nearest 0 at which lift rises through zero [rad]; 0 if there is none.
+
+    >>> from wingbeat.aero import Membrane
+    >>> round(float(np.degrees(no_lift_angle(Membrane()))), 1)
+    -9.2
+    """
+    alpha = np.linspace(-_LARGEST, _LARGEST, 1001)
+    lift = coefficients.lift(alpha)
+    below = np.flatnonzero((lift[:-1] < 0) & (lift[1:] >= 0))
+    found = alpha[below] - lift[below] * np.diff(alpha)[below] / np.diff(lift)[below]
+    return float(min(found, key=abs, default=0.0))
+
+
+def _turned_up(points: np.ndarray, angle: np.ndarray) -> np.ndarray:
+    """Return points of the left wing, turned nose-up about its quarter-chord line by an angle of each station."""
+    chord = points[:, :1] - points[:, -1:]
+    quarter = 0.75 * points[:, :1] + 0.25 * points[:, -1:]
+    normal = np.cross(chord, np.gradient(quarter, axis=2))
+    normal *= np.linalg.norm(chord, axis=-1, keepdims=True) / np.linalg.norm(normal, axis=-1, keepdims=True)
+    ahead = np.linspace(0.25, -0.75, points.shape[1])[:, None, None]
+    return points + ahead * ((np.cos(angle) - 1.0)[:, None] * chord + np.sin(angle)[:, None] * normal)
+
+
+def lattice_of(
+    motion: Motion, options: LatticeOptions, phase: np.ndarray, aero: BladeElement | None = None
+) -> np.ndarray:
     """Return the corners of the panels of both wings [m], shape (K, C + 1, 2 S + 1 or 2, 3).
 
     Corners run from leading to trailing edge and from the left tip to the right tip, in axes that fly at the mean
@@ -71,10 +100,15 @@ def lattice_of(motion: Motion, options: LatticeOptions, phase: np.ndarray) -> np
     motion : of the wings.
     options : the numbers of panels.
     phase : phases of any beat, shape (K,).
+    aero : our loads. Flat panels have no camber, so each is turned nose-up until it is without lift where our
+        polar is. Not turned if not given.
     """
     along = np.linspace(0.0, 1.0, options.spanwise + 1)
     down = np.linspace(0.0, 1.0, options.chordwise + 1)
     left = motion.wing(phase, along, down)
+    if aero is not None:
+        angles = [-no_lift_angle(part.coefficients) for part in aero.parts]
+        left = _turned_up(left, np.where(along > aero.hand_from, angles[-1], angles[0]))
     joined = left[:, :, 0, 1].min() < _CLOSE * motion.vehicle.wing.semi_span
     if joined:
         left[:, :, 0, 1] = 0.0

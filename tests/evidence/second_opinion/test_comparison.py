@@ -62,6 +62,7 @@ def test_record_of_an_orbit(standin, pigeon_orbit):
     json.dumps(record, allow_nan=False)
     assert (record["with"], record["code"], record["species"]) == ("uvlm", "PteraSoftware 0", "pigeon")
     weight = record["weight"]
+    assert record["wake"] == record["terms"][0]["wake"] == "none"
     assert record["mean_lift"]["ours"] == pytest.approx(weight, rel=2e-2)  # 8 samples of a beat
     rows = {(row["unsteady"], row["inflow"]): row for row in record["terms"]}
     assert list(rows) == list(comparison.TERMS)

@@ -8,6 +8,7 @@ import pytest
 import wingbeat as wb
 from tests.helpers.given_motion import PIGEON, given_motion
 from tests.helpers.unsteady_flights import all_terms, loads, states_at
+from wingbeat._jax.arrays import jnp
 from wingbeat.mechanics.wing_points import strip_corners, surface_points
 from wingbeat_evidence.second_opinion.lattice import (
     LatticeOptions,
@@ -74,6 +75,22 @@ def test_roots_in_the_plane_of_symmetry_are_joined_there():
     assert (corners[:, :, 4, 1] == 0).all()
     along, down = np.linspace(0, 1, 5), np.linspace(0, 1, 5)
     np.testing.assert_array_equal(corners[:, :, 3::-1], motion.wing(PHASE, along, down)[:, :, 1:])
+
+
+def test_panels_are_turned_up_about_the_quarter_chord_to_where_the_polar_has_no_lift():
+    """Su and Fan's plate has no lift at 0; that of the hand is shifted by 0.1 rad."""
+    motion, options = given_motion(RICH, pitch=0.1), LatticeOptions(4, 4)
+    hand = wb.aero.FunctionCoefficients(lambda alpha: (jnp.sin(alpha + 0.1), 0.0 * alpha), "shifted")
+    aero = wb.aero.BladeElement("su-fan", hand=hand, hand_from=0.6)
+    flat, turned = (lattice_of(motion, options, PHASE, one)[:, :, 4::-1] for one in (None, aero))
+    np.testing.assert_allclose(turned[:, :, :3], flat[:, :, :3], atol=1e-14)
+    before, after = (points[:, 0, 3:] - points[:, -1, 3:] for points in (flat, turned))
+    chord = np.linalg.norm(before, axis=-1)
+    cosine, across = np.sum(before * after, axis=-1) / chord**2, np.cross(before, after) / chord[..., None] ** 2
+    np.testing.assert_allclose(cosine, np.cos(0.1), rtol=1e-9)
+    assert (across[..., 1] < 0).all()  # from ahead to above
+    quarter = [0.75 * points[:, 0] + 0.25 * points[:, -1] for points in (flat, turned)]
+    np.testing.assert_allclose(*quarter, atol=1e-14)
 
 
 def test_panels_of_a_plate_that_moves_and_turns():

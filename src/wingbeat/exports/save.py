@@ -56,8 +56,8 @@ def export(orbit: Orbit, path: str | PathLike[str], samples: int = SAMPLES) -> N
 
     Raises
     ------
-    InvalidInputError : another suffix, an orbit that is not certified, samples that are not a whole number from 2
-        to 4096 (for .xml from 2 to 499).
+    InvalidInputError : another suffix, an orbit that is not certified or whose wake does not repeat with the lag
+        of the wake, samples that are not a whole number from 2 to 4096 (for .xml from 2 to 499).
     FileError : the file cannot be written; .c3d without the extra.
 
     >>> import tempfile, pathlib, wingbeat as wb

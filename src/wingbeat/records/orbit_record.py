@@ -11,7 +11,7 @@ from wingbeat._base import NOMENCLATURE, __version__
 from wingbeat.aero import CamberedCoefficients, CoefficientModel, FamilyCoefficients
 from wingbeat.aero.wake import ATTACHED_SHARE
 from wingbeat.animal.kinematics import ANGLES, Wingbeat
-from wingbeat.animal.vehicle import Vehicle
+from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.wing_shape import flap_angles, has_room, lateral_corners
 from wingbeat.orbits.flight.beat import Beat
@@ -124,6 +124,8 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
                 f"the flow is detached for {100 * detached:.0f} % of the beat: {terms} are terms of attached flow, "
                 f"and beyond {100 * (1 - ATTACHED_SHARE):.0f} % they may make the loads worse"
             )
+    if problem.frequency_basis in ("measured", "law", "guess") and problem.species.kind == "bird":
+        notes += _other_frequency(problem)
     for part in aero.parts:
         where = "" if aero.hand == "none" else f" of the {part.name}"
         of_part = beat.strip_reynolds[:, part.strips], beat.alpha[:, part.strips]
@@ -160,6 +162,15 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
             "ended in this one, the best found; a better one may exist"
         )
     return notes
+
+
+def _other_frequency(problem: OrbitProblem) -> list[str]:
+    """Warn that a bird's own frequency is not that of a load, of another mass or of thin air."""
+    factor = (problem.air.density / Air().density) ** (-3 / 8)
+    told = [f"{factor:.2f} times as high in this air"] * (abs(factor - 1) >= _RIVAL)
+    told += ["higher by 0.37 % for each per cent of mass"] * problem.species.is_set_by_hand("vehicle.body.mass")
+    said = "the frequency is that of the bird's own mass at sea level; by Pennycuick's law it is"
+    return [f"{said} {' and '.join(told)} (--frequency)"] if told else []
 
 
 def rivals(solution: Solution) -> list[str]:

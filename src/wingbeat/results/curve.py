@@ -194,6 +194,7 @@ class Curve(Saveable, Reported):
             **{n: about[n] for n in ("species", "climb", "objective", "solve_seconds", "version")},
             **{n: self._about[n] for n in ("vehicle", "aero", "air", "constraints")},
             "power_limit": self._about["inputs"]["power_limit"],
+            "own_frequency": self._about["inputs"].get("own_frequency", False),
             "objective_unit": data["objective_value"].attrs["units"],
             **(
                 {"characteristic_speeds": self.characteristic_speeds}

@@ -68,6 +68,7 @@ def curve_report(record: dict[str, Any]) -> Report:
     blocks: list[Block] = [
         Line(f"{animal}, minimum {minimised}: {certified} of {len(points)} {PLURALS[over]} certified"),
         *([Line(f"air: {air_in_words(record['air'])}")] if record["air"] != DEFAULT_AIR else []),
+        *([Line("given, not predicted: the frequency, the animal's own")] if record.get("own_frequency") else []),
         Table(rows, tuple(headings), "r" * (len(headings) - 1) + "l"),
         *([Line("* added to find the characteristic speeds")] if any(point["refined"] for point in points) else []),
         *_limited(record, over),

@@ -6,6 +6,7 @@ import json
 import pytest
 
 import wingbeat as wb
+from wingbeat._base import text_of
 from wingbeat.animal.species.numbers import Number, OwnFrequency, frequency_between, frequency_of
 from wingbeat.animal.species.writing import species_text
 from wingbeat.cli.app import main
@@ -282,3 +283,33 @@ def test_laws_complete_a_muscle_whatever_the_alternative_is_called(tmp_path):
 def test_a_bound_keeps_its_reason_when_its_parameter_becomes_free():
     held = dataclasses.replace(PIGEON, free=("frequency",))
     assert held.with_free(["flap_mean"]).reasons["flap_mean"] == PIGEON.reasons["flap_mean"]
+
+
+@pytest.mark.slow
+def test_thin_air_and_a_load_say_that_the_frequency_is_not_theirs():
+    starling = wb.load_species("common-starling")
+    said = {}
+    for name, bird in (
+        ("own", starling),
+        ("high", starling.at_altitude(3000.0)),
+        ("loaded", starling.with_payload(0.01)),
+    ):
+        problem = wb.models.animal(bird).problem(bird, speed=11.0)
+        said[name] = " ".join(wb.solve_orbit(problem, starts=1).record()["warnings"])
+    assert "Pennycuick's law" not in said["own"]
+    density = starling.at_altitude(3000.0).air.density
+    assert f"it is {(density / 1.225) ** -0.375:.2f} times as high in this air" in said["high"]
+    assert "0.37 % for each per cent of mass" in said["loaded"]
+
+
+@pytest.mark.slow
+def test_a_curve_says_that_the_frequency_is_given():
+    starling = wb.load_species("common-starling")
+    said = {}
+    for frequency in ("own", "free"):
+        problem = wb.models.animal(starling, frequency).problem(starling, speed=11.0)
+        curve = wb.solve_curve(problem, [11.0, 11.5], starts=1, refinements=0)
+        said[frequency] = text_of(curve._report())
+    line = "given, not predicted: the frequency, the animal's own"
+    assert line in said["own"]
+    assert line not in said["free"]

@@ -70,6 +70,7 @@ GROUPS = (
     ("flap_amplitude_deg", "flap amplitude", VERMILION, "s"),
     ("positive_power_per_mass", "power per mass", GREEN, "^"),
     ("muscle_power_per_mass", "power per muscle mass", GREEN, "v"),
+    ("metabolic_rate", "metabolic rate", PURPLE, "X"),
     ("net_muscle_efficiency", "net efficiency of the muscle", PURPLE, "D"),
     ("flight_efficiency", "efficiency of the flight", PURPLE, "P"),
 )
@@ -128,8 +129,6 @@ def ratios(quantity: str) -> Iterator[tuple[str, Score, tuple[float, float]]]:
     for animal in measured_animals():
         flights = read_measured_flights(animal)
         file = DATA / "whole_flights" / f"{animal}.json"
-        if not file.exists():  # listed, not flown yet
-            continue
         for score in compared(Prediction.of_plain(flights, json.loads(file.read_text(encoding="utf-8")))):
             one = score.measurement
             if one.quantity == quantity and one.values[0] > 0 and score.ratio is not None:

@@ -119,7 +119,6 @@ def page(table: pd.DataFrame, errors: Sequence[Error], figure: Path) -> str:
     counts = table["animal"].value_counts(sort=False)
     flown = table[table["status"] == "converged"]
     slow = flown[(flown["animal"] == "pigeon") & (flown["speed"] < SLOW)]
-    aside, frequency = slow["wing.shoulder.y"], slow["frequency"]
     crossed = table[table["wing.shoulder.y"] < 0]
     if (crossed["status"] == "converged").any():
         raise ValueError("a certified flight has its shoulder beyond the plane of symmetry: mend the page")
@@ -134,10 +133,7 @@ def page(table: pd.DataFrame, errors: Sequence[Error], figure: Path) -> str:
         figure=figure.name,
         table=markdown_table(COLUMNS, map(_row, errors)),
         chance=BY_CHANCE / min(one.flights for one in errors) ** 0.5,
-        least=100 * float((flown["flap_amplitude_deg"] < 5.05).mean()),
         slow=100 * float(ranked["frequency"].corr(ranked["wing.shoulder.y"])) ** 2,
-        near=float(frequency[aside < 0.01].median()),
-        far=float(frequency[aside > 0.02].median()),
         crossed=100 * len(crossed) / len(table),
     )
 

@@ -3,8 +3,7 @@
     python validation/whole_flights.py [--draws 0] [--processes 1] [ANIMAL ...]
 
 Flights are kept in ``data/whole_flights``, one file for each animal. Animals that are named are flown anew, the
-others only where their file is missing; the page is then written from the files, with what follows from them in
-``pages/whole_flights.md``, which is written by hand. Without draws, each flight is
+others only where their file is missing; the page is then written from the files. Without draws, each flight is
 flown again at both ends of the range of its frequency.
 """
 
@@ -15,16 +14,19 @@ import json
 import sys
 import time
 from pathlib import Path
+from statistics import median
 
 from page_script import filled
 
 from wingbeat._base import make_folder, write_atomically
 from wingbeat.plots import save_figure
 from wingbeat_evidence.whole_flights import Prediction, measured_animals, predict_flights, read_measured_flights
+from wingbeat_evidence.whole_flights.comparison import compared, ends_of
 from wingbeat_evidence.whole_flights.figure import flights_page
 from wingbeat_evidence.whole_flights.page import overview_text
 
 ROOT = Path(__file__).parents[1]
+ALCIDS = ("common-murre", "horned-puffin", "tufted-puffin")
 FLOWN, DOCS = ROOT / "data" / "whole_flights", ROOT / "docs" / "evidence"
 
 
@@ -54,7 +56,23 @@ def main() -> None:
     figures = [f"flight_{one.flights.species}.png" for one in found]
     for one, figure in zip(found, figures, strict=True):
         save_figure(flights_page(one), DOCS / figure)
-    write_atomically(DOCS / "whole_flights.md", overview_text(found, figures, filled("whole_flights").strip()))
+    write_atomically(DOCS / "whole_flights.md", overview_text(found, figures, findings(found).strip()))
+
+
+def findings(found: list[Prediction]) -> str:
+    """Return what follows from the comparisons, with its numbers."""
+    scores = [(one.flights.species, score) for one in found for score in compared(one)]
+    ratios = [(species, one.measurement.quantity, one.ratio) for species, one in scores if one.ratio is not None]
+    alcids = [ratio for species, name, ratio in ratios if species in ALCIDS and name == "flap_amplitude_deg"]
+    rates = [sum(ratio) / 2 for _, name, ratio in ratios if name == "metabolic_rate"]
+    strong = [one.agrees for _, one in scores if one.measurement.quantity == "peak_activation"]
+    return filled(
+        "whole_flights",
+        alcids=ends_of((min(one[0] for one in alcids), max(one[1] for one in alcids))),
+        rate=median(rates),
+        weak=strong.count(False),
+        judged=len(strong),
+    )
 
 
 if __name__ == "__main__":

@@ -29,8 +29,8 @@ gave the input.
 
 {table}
 
-*Predicted*: lowest and highest over the speeds; in parentheses, over the range of the frequency too. A letter
-before a source: A read in it, B in its abstract, C second-hand, D computed from these. Sources:
+*Predicted*: lowest and highest over the speeds; in parentheses, over the range of the frequency too. Grades of
+sources: A read in it, B in its abstract, C second-hand, D computed. Sources:
 
 {sources}
 
@@ -166,7 +166,7 @@ def overview_text(predictions: Sequence[Prediction], figures: Sequence[str] = ()
             map(_flights_of, predictions),
         ),
         figures="\n\n".join(
-            f"![{p.flights.species}: predicted and measured flight against speed]({one})"
+            f"![{p.flights.species}: power and stroke against speed]({one})"
             for p, one in zip(predictions, figures, strict=False)
         ),
     )

@@ -296,6 +296,10 @@ def test_the_command_uncertainty_prints_both_ways(capsys, monkeypatch):
     shown = capsys.readouterr()
     assert "To first order, not yet checked by 10 draws:\n  frequency 9.4" in shown.err
     assert "10 of 10 certified" in shown.out
+    assert main([*words, "--payload", "0.03", "--quantities", "frequency", "--json"]) == 0
+    loaded = json.loads(capsys.readouterr().out)
+    values = [one["frequency"]["first_order"]["value"] for one in (told, loaded)]
+    assert values[1] > 1.02 * values[0]
     make_hasty(monkeypatch)
     assert main(["uncertainty", "pigeon", "--speed", "10", "--set", "body.mass=3"]) == 3
     assert "infeasible" in capsys.readouterr().err

@@ -15,7 +15,7 @@ from wingbeat._base import InvalidInputError
 from wingbeat.animal.species.reading import template
 from wingbeat.animal.species.writing import species_text
 from wingbeat.cli.app import main
-from wingbeat.records.judgements import statements
+from wingbeat.records.judgements import judged, statements
 from wingbeat.records.result_files import save_result
 from wingbeat.studies.recipe import recipe_from
 from wingbeat.words.orbit_words import orbit_report
@@ -223,3 +223,10 @@ def test_a_study_searches_inside_what_is_plausible(tmp_path: Any) -> None:
 def test_bounds_of_another_word_are_refused() -> None:
     with pytest.raises(InvalidInputError, match="is not a known choice; use one of plausible"):
         wb.OrbitProblem(wb.load_species("bat"), speed=10.0, bounds="likely")
+
+
+def test_what_a_limit_holds_exactly_is_within_its_range() -> None:
+    pigeon = wb.load_species("pigeon")
+    flown = wb.models.animal(pigeon).species(pigeon)
+    for value, within in ((1.0 + 1e-8, True), (1.0 + 1e-4, False)):
+        assert judged(flown, 12.0, "peak_activation", value)["within"] is within

@@ -185,10 +185,17 @@ class ModelOptions:
         return "free" if searched else self.frequency
 
     def problem(
-        self, name: str, speed: float, settings: list[str] | None, *, within_plausible: bool = False, **asked: Any
+        self,
+        name: str,
+        speed: float,
+        settings: list[str] | None,
+        payload: float = 0.0,
+        *,
+        within_plausible: bool = False,
+        **asked: Any,
     ) -> OrbitProblem:
         """Return the problem for a species given by name or file; None in `asked` means the model's own choice."""
-        species, model = self.flown(name, settings)
+        species, model = self.flown(name, settings, payload)
         given = {key: value for key, value in asked.items() if value is not None}
         return model.problem(species, speed, bounds="plausible" if within_plausible else {}, **given)
 

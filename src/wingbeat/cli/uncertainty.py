@@ -47,6 +47,7 @@ def uncertainty(
     ] = 1.0,
     seed: Annotated[Whole, option("Seed of the samples.")] = 0,
     set_: options.Settings = None,
+    payload: options.Payload = 0.0,
     json: Annotated[bool, flag("Print the numbers as JSON and nothing else.")] = False,
 ) -> int:
     """Compute the uncertainty of an orbit's frequency, power and stability, and check its first-order estimate.
@@ -60,7 +61,7 @@ def uncertainty(
     Example: wingbeat uncertainty pigeon --speed 10 --samples 500 --share 0.3
     """
     asked = {"climb": climb, "minimise": minimise}
-    problem = model.problem(species, speed, set_, within_plausible=within_plausible, **asked)
+    problem = model.problem(species, speed, set_, payload, within_plausible=within_plausible, **asked)
     faults, fit = FaultList(), model.fit()
     check_draws(faults, problem, samples, share, fit)
     faults.raise_if_any()

@@ -31,13 +31,18 @@ class Statements(NamedTuple):
     good: bool
 
 
+_ROUNDING = 1e-6  # share of a range's larger end; a constraint of the solver holds to about 1e-8
+
+
 def judged(species: Species, speed: float, name: str, value: float | None) -> dict[str, Any]:
     """Return the judgement of one number; `plausibility` says what it holds."""
     known = species.plausible_range(name, speed)
     low, high = known.low, known.high
     within = None
     if value is not None and math.isfinite(value) and (low, high) != (None, None):
-        within = (low is None or value >= low) and (high is None or value <= high)
+        # What the solver holds at the end of a range is there to rounding.
+        near = _ROUNDING * max(abs(end) for end in (low, high) if end is not None)
+        within = (low is None or value >= low - near) and (high is None or value <= high + near)
     judgement = {"name": name, "value": value, "unit": known.unit, "low": low, "high": high}
     return judgement | {"within": within, "source": known.source}
 

@@ -313,3 +313,13 @@ def test_a_curve_says_that_the_frequency_is_given():
     line = "given, not predicted: the frequency, the animal's own"
     assert line in said["own"]
     assert line not in said["free"]
+
+
+def test_the_range_of_the_bodys_mass_moves_with_a_load():
+    ranges = {}
+    for load in (0.0, 0.06):
+        bird = PIGEON.with_payload(load)
+        (mass,) = (one for one in parameters_of(wb.OrbitProblem(bird, speed=12.0)) if one.path == "body.mass")
+        assert mass.plausible[0] < bird.vehicle.body.mass < mass.plausible[1]
+        ranges[load] = mass.plausible
+    assert ranges[0.06] == pytest.approx([end + 0.06 for end in ranges[0.0]])

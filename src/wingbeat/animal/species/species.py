@@ -269,7 +269,7 @@ class Species(Reported):
         return path in self.numbers and self.numbers[path].source.startswith(BY_HAND)
 
     def with_payload(self, payload: float) -> Species:
-        """Return this species with a load at the body's centre of mass; the body is heavier, nothing else changes.
+        """Return this species with a load at the body's centre of mass; the body and its range are heavier.
 
         Parameters
         ----------
@@ -286,7 +286,14 @@ class Species(Reported):
         faults = FaultList()
         faults.number("payload", payload, at_least=0, unit="kg", fix="0 is no load")
         faults.raise_if_any()
-        return self.with_values({"body.mass": self.vehicle.body.mass + payload}) if payload else self
+        if not payload:
+            return self
+        loaded = self.with_values({"body.mass": self.vehicle.body.mass + payload})
+        numbers = dict(loaded.numbers)
+        for path in ("vehicle.mass", "vehicle.body.mass"):
+            if path in numbers and (own := numbers[path].range):
+                numbers[path] = numbers[path]._replace(range=(own[0] + payload, own[1] + payload))
+        return dataclasses.replace(loaded, numbers=numbers)
 
     def at_altitude(self, altitude: float = 0.0, temperature: float | None = None) -> Species:
         """Return this species in the air of an altitude; density and viscosity change, gravity does not.

@@ -118,6 +118,12 @@ class Transcription(Programme):
         other._anchor, other._correction = anchor, by
         return other
 
+    @property
+    def patience(self) -> int:
+        """How many times the usual number of iterations a local search may take."""
+        search = self.options.search
+        return search.many_times if len(self.problem.free) >= search.many_free else 1
+
     def physical(self, scaled: np.ndarray) -> np.ndarray:
         """Return the unknowns in SI, within their bounds."""
         unknowns = scaled[: self.unknowns.lower.size] * self.unknowns.scale
@@ -380,7 +386,8 @@ def search(programme: Transcription, start: np.ndarray, *, restore: bool = False
             scaled = restore_feasibility(programme, scaled)
             if programme.violation(scaled) > options.restored_closure:
                 break
-        scaled, optimal = programme.optimise(scaled, options.iterations, options.tolerance, options)
+        most = options.iterations * programme.patience
+        scaled, optimal = programme.optimise(scaled, most, options.tolerance, options)
         closed = programme.is_closed(scaled, options.closure_tolerance)
         # SLSQP also stops where rounding prevents progress; what counts is whether the conditions hold there.
         optimal = optimal or (closed and programme.is_optimal(scaled))
@@ -392,7 +399,7 @@ def search(programme: Transcription, start: np.ndarray, *, restore: bool = False
 def refine(programme: Transcription, start: np.ndarray, iterations: int | None = None) -> Candidate:
     """Run one short local search from unknowns that are assumed to be near an orbit."""
     options = programme.options.search
-    most = options.local_iterations if iterations is None else iterations
+    most = options.local_iterations * programme.patience if iterations is None else iterations
     return as_candidate(programme, *programme.optimise(programme.scaled(start), most, options.tolerance, options))
 
 

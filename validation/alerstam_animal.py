@@ -174,11 +174,11 @@ def _first(problem: wb.OrbitProblem, name: str, before: Flown | None, law: float
 
 
 def carried(problem: wb.OrbitProblem, before: Flown, name: str, law: float) -> NDArray[np.float64]:
-    """Return unknowns of the bird before, scaled to this one: angles stay, times go with Pennycuick's law."""
+    """Return unknowns of the bird before, scaled to this one: angles stay, times go with the frequency's law."""
     start = np.array(before.unknowns[name])
     names = problem.unknowns().names
     along, beat = problem.speed / before.speeds[name], law / before.law
-    for unknown, ratio in (("u", along), ("w", along), ("pitch_rate", beat), ("frequency", beat)):
+    for unknown, ratio in (("u", along), ("w", along), ("pitch_rate", beat)):
         start[names.index(unknown)] *= ratio
     return start
 

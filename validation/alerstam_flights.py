@@ -154,11 +154,13 @@ def problems(radar: list[Bird], timed: list[Bird], model: str = PAPER) -> list[t
 
 
 def problem_of(model: str, bird: Bird, speed: float, **changes: Any) -> wb.OrbitProblem:
-    """Return the problem of a bird's flight at a speed [m/s], of least power unless `changes` say otherwise."""
+    """Return the problem of a bird's flight at a speed [m/s], of least power unless `changes` say otherwise.
+
+    By the model `animal` the frequency is the bird's own, unless the least frequency is asked for.
+    """
     species = bird.species
     least = "mean_positive_power" if model == PAPER else "metabolic_power"
-    # The flights of the table by `animal` are those of numerical version 8, which searched for the frequency.
-    return model_of(model, species, "free").problem(species, speed, **{"minimise": least, **changes})
+    return model_of(model, species).problem(species, speed, **{"minimise": least, **changes})
 
 
 def fly(asked: list[tuple[str, wb.OrbitProblem]], processes: int, progress: Progress | None = None) -> list[Point]:

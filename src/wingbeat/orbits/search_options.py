@@ -155,8 +155,8 @@ class SearchOptions(Options):
     start_spread : distance of additional starts from the best optimum, in the optimiser's scale.
     iterations, tolerance : largest number of iterations of SLSQP, and its tolerance of the objective.
     local_iterations : iterations of a search that starts from the result of a neighbouring problem.
-    many_free, many_times : over at least so many free parameters, both have so many times as many iterations. With 9
-        free, of a bat at 6 m/s, none of 6 starts ended at an optimum within 60 iterations, and all within 120; of
+    many_free, many_times : over at least so many free parameters, both have so many times as many iterations. With
+        9 free, of a bat at 6 m/s, none of 6 starts ended at an optimum within 60 iterations, and all within 120; of
         another at 5 m/s, only those found the best optimum, of a third of the power. Fewer parameters need no more.
     closure_tolerance : a start must reach a residual this small [m, rad, m/s, rad/s]. The later correction of the
         orbit gives the last digits.

@@ -11,6 +11,7 @@ from wingbeat._base import NOMENCLATURE, __version__
 from wingbeat.aero import CamberedCoefficients, CoefficientModel, FamilyCoefficients
 from wingbeat.aero.wake import ATTACHED_SHARE
 from wingbeat.animal.kinematics import ANGLES, Wingbeat
+from wingbeat.animal.species.scaling import BIRD_FREQUENCY
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.wing_shape import flap_angles, has_room, lateral_corners
@@ -90,6 +91,8 @@ _STROKE_SAMPLES, _ACROSS, _PAST = 256, 1e-4, 1e-3
 _LAG = 0.3
 # Terms of attached flow, and the choices that add them.
 _ATTACHED = {"rotation and added mass": "unsteady", "the lag of the wake": "wake"}
+# A frequency that another air changes by less than this share is as good as the same.
+_NOTICED = 0.01
 # Optima whose objectives differ by less than this share are practically equal.
 _RIVAL = 0.01
 
@@ -166,9 +169,14 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
 
 def _other_frequency(problem: OrbitProblem) -> list[str]:
     """Warn that a bird's own frequency is not that of a load, of another mass or of thin air."""
-    factor = (problem.air.density / Air().density) ** (-3 / 8)
-    told = [f"{factor:.2f} times as high in this air"] * (abs(factor - 1) >= _RIVAL)
-    told += ["higher by 0.37 % for each per cent of mass"] * problem.species.is_set_by_hand("vehicle.body.mass")
+
+    def law(mass: float = 1.0, density: float = Air().density) -> float:
+        return BIRD_FREQUENCY(mass, 1.0, 1.0, density, 1.0)
+
+    in_air, by_mass = law(density=problem.air.density) / law(), 100 * (law(mass=1.01) / law() - 1)
+    told = [f"{in_air:.2f} times as high in this air"] * (abs(in_air - 1) >= _NOTICED)
+    loaded = problem.species.is_set_by_hand("vehicle.body.mass")
+    told += [f"higher by {by_mass:.2f} % for each per cent of mass"] * loaded
     said = "the frequency is that of the bird's own mass at sea level; by Pennycuick's law it is"
     return [f"{said} {' and '.join(told)} (--frequency)"] if told else []
 

@@ -269,7 +269,7 @@ class Species(Reported):
         return path in self.numbers and self.numbers[path].source.startswith(BY_HAND)
 
     def with_payload(self, payload: float) -> Species:
-        """Return this species with a load at the body's centre of mass; the body and its range are heavier.
+        """Return this species with a load at the body's centre of mass; only body mass and its range move.
 
         Parameters
         ----------

@@ -119,7 +119,7 @@ class Transcription(Programme):
         return other
 
     @property
-    def patience(self) -> int:
+    def iteration_factor(self) -> int:
         """How many times the usual number of iterations a local search may take."""
         search = self.options.search
         return search.many_times if len(self.problem.free) >= search.many_free else 1
@@ -386,7 +386,7 @@ def search(programme: Transcription, start: np.ndarray, *, restore: bool = False
             scaled = restore_feasibility(programme, scaled)
             if programme.violation(scaled) > options.restored_closure:
                 break
-        most = options.iterations * programme.patience
+        most = options.iterations * programme.iteration_factor
         scaled, optimal = programme.optimise(scaled, most, options.tolerance, options)
         closed = programme.is_closed(scaled, options.closure_tolerance)
         # SLSQP also stops where rounding prevents progress; what counts is whether the conditions hold there.
@@ -399,7 +399,7 @@ def search(programme: Transcription, start: np.ndarray, *, restore: bool = False
 def refine(programme: Transcription, start: np.ndarray, iterations: int | None = None) -> Candidate:
     """Run one short local search from unknowns that are assumed to be near an orbit."""
     options = programme.options.search
-    most = options.local_iterations * programme.patience if iterations is None else iterations
+    most = options.local_iterations * programme.iteration_factor if iterations is None else iterations
     return as_candidate(programme, *programme.optimise(programme.scaled(start), most, options.tolerance, options))
 
 

@@ -90,3 +90,40 @@ def test_what_cannot_be_drawn_is_told():
         page(frame)
     with pytest.raises(wb.InvalidInputError, match="leaves nothing to draw"):
         page(table([4.0], [0.01], failing=[4.0]), "speed")
+
+
+@pytest.mark.parametrize(
+    ("given", "label"),
+    [
+        ({}, "lowest frequency [Hz]"),
+        ({"model": "animal"}, "lowest metabolic power of the flight muscle [W]"),
+        ({"model": "animal", "minimise": "peak-power"}, "lowest peak power [W]"),
+        ({"model": ["paper", "animal"]}, "minimised quantity"),
+    ],
+)
+def test_the_label_names_what_was_minimised(tmp_path, given, label):
+    """With the model `animal`, metabolic power was once drawn under "Lowest frequency [Hz]"."""
+    vary = {"speed": {"grid": [12.0, 14.0]}}
+    study = wb.plan_study(species="pigeon", vary=vary, store=tmp_path / "a.study.sqlite", **given)
+    study.prepare()
+    assert study.drawing()[3] == label
+    minimised = study.to_dataset().attrs["objective"]
+    assert (minimised == ["metabolic_power"]) == (given == {"model": "animal"})
+
+
+def test_altitudes_and_temperatures_are_listed_as_other_keys(tmp_path):
+    form = {"species": "pigeon", "speed": 12.0, "altitude": [0, 3000], "temperature": [5.0, 25.0]}
+    study = wb.plan_study(form, store=tmp_path / "a.study.sqlite")
+    flown = [base.recipe.example.air for base in study.plan.bases]
+    assert flown == [wb.Air.at_altitude(high, warm) for high in (0.0, 3000.0) for warm in (5.0, 25.0)]
+    study.prepare()
+    frame, varied, *_, units = study.drawing()
+    assert (varied, units) == (["altitude", "temperature"], ["m", "degC"])
+    assert list(frame["altitude"]) == [0.0, 0.0, 3000.0, 3000.0]
+    with pytest.raises(wb.InvalidInputError, match="altitude = 20000"):
+        wb.plan_study(form | {"altitude": [0, 20_000]}, store=tmp_path / "b.study.sqlite")
+    with pytest.raises(wb.InvalidInputError, match=r"vary.altitude .*list its values above"):
+        wb.plan_study(
+            {"species": "pigeon", "speed": 12.0, "vary": {"altitude": {"grid": [0, 3000]}}},
+            store=tmp_path / "c.study.sqlite",
+        )

@@ -120,6 +120,10 @@ class StudyForm(BaseModel):
     speed: _Numbers | None = _key(None, "mean horizontal speeds [m/s]")
     climb: _Numbers = _key([0.0], "mean vertical speeds [m/s]")
     payload: _Numbers = _key([0.0], "masses added at the body's centre of mass [kg]")
+    altitude: _Numbers | None = _key(None, "heights above sea level, which set the air's density and viscosity [m]")
+    temperature: _Numbers | None = _key(
+        None, "temperatures of the air [deg C]; default that of the standard atmosphere"
+    )
     minimise: _Texts = _key(["frequency"], "objectives: names, or functions of a file, such as `mine.py:lift`")
     subject_to: Annotated[list[list[_Text]], BeforeValidator(_twice_listed)] = _key(
         [[]], "limits; one list is one set, a list of lists several sets"
@@ -132,8 +136,6 @@ class StudyForm(BaseModel):
     )
     bounds: _Bounds = _key({}, "bounds of free parameters by name, or `plausible`")
     settings: dict[str, Any] = _key({}, "changes of numbers for all points, by path", alias="set")
-    altitude: float | None = _key(None, "height above sea level, which sets the air's density and viscosity [m]")
-    temperature: float | None = _key(None, "of the air [deg C]; default that of the standard atmosphere")
     advise: bool = _key(False, "whether points without an orbit list the changes that would give one")
     explain: bool = _key(True, "whether points without an orbit name the balance that fails")
     chain: str | None = _key(
@@ -277,6 +279,10 @@ def _check_numbers(form: StudyForm, faults: FaultList) -> None:
                 if path in there:
                     rule = "is what altitude and temperature set too"
                     faults.add(f"{key}.{path}", shown(there[path]), rule, "keep one of the two")
+    for name in ("altitude", "temperature"):
+        if name in form.vary:
+            rule = "sets two numbers of the air, so it is no number to vary"
+            faults.add(dotted(("vary", name)), NOTHING, rule, f"list its values above [vary]: {name} = [0, 20]")
     if form.speed is None and "speed" not in form.vary:
         fix = "write speed = 10.0, or under [vary] speed = { grid = [8.0, 10.0] }"
         faults.add("speed", NOTHING, "must be given", fix)

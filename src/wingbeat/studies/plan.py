@@ -22,7 +22,7 @@ from wingbeat.animal.species.building import NO_SUCH_PATH, settable
 from wingbeat.animal.species.file_schema import dotted
 from wingbeat.animal.species.numbers import shown
 from wingbeat.studies.form import StudyForm, number
-from wingbeat.studies.recipe import MOTION, OF_COEFFICIENTS, Recipe, makers_of
+from wingbeat.studies.recipe import AIR, MOTION, OF_COEFFICIENTS, Recipe, makers_of
 
 
 def unit_points(method: str, count: int, directions: int, seed: int) -> NDArray[np.float64]:
@@ -51,7 +51,7 @@ _ENOUGH = 100
 # Top-level keys whose values are combined, in the order of the loops.
 _TOP = (
     *("species", "model", "aero", *OF_COEFFICIENTS, *OF_ELEMENTS, "minimise"),
-    *("subject_to", "speed", "climb", "payload", "starts", "seed", "most_starts"),
+    *("subject_to", "speed", "climb", "payload", *AIR, "starts", "seed", "most_starts"),
 )
 
 
@@ -109,6 +109,11 @@ class Plan:
         """The varied parameters; a chain's parameter is the last."""
         chain = self.form.chain
         return (*(path for path in self.form.vary if path != chain), *([] if chain is None else [chain]))
+
+    @property
+    def objectives(self) -> tuple[str, ...]:
+        """The names of what the points minimise, which a model may have chosen."""
+        return tuple(dict.fromkeys(base.recipe.objective["name"] for base in self.bases))
 
     @functools.cached_property
     def _kinds(self) -> dict[str, list[str]]:
@@ -234,7 +239,7 @@ def _base(
         if any(key != name and key in makers and key not in made for key in keys):
             continue  # its fault is that of another key
         try:
-            made[name] = make(*(chosen[key] for key in keys))
+            made[name] = make(*(chosen.get(key) for key in keys))
         except InvalidInputError as error:
             faults.faults += [_hashable(fault) for fault in error.faults]
         except WingbeatError as error:

@@ -74,11 +74,6 @@ def changed_code(ours: Iterable[Mapping[str, str]], kept: Iterable[Mapping[str, 
     return "".join(f": the objective {what} {rule}" for what in sorted(changed))
 
 
-def named(text: str) -> str:
-    """Return the name of an objective, as in records, for a text that `as_inputs` accepts."""
-    return text.rpartition(":")[2] if _MARK in text else named_objective(text).name
-
-
 def from_inputs(inputs: dict[str, str]) -> Quantity:
     """Return the objective that `as_inputs` described."""
     return _run(**inputs) if "code" in inputs else named_objective(inputs["name"])
@@ -108,6 +103,8 @@ def _run(name: str, file: str, code: str) -> Quantity:
 
 # Every point has values of these, whatever is varied; the limit of the payload is that of `Species.with_payload`.
 MOTION = {"speed": SPEED_LIMITS, "climb": CLIMB_LIMITS, "payload": {"at_least": 0.0, "unit": plain_unit("payload")}}
+# Top-level keys that set the air; without a value the air is that of the species.
+AIR = ("altitude", "temperature")
 # The numbers and words of the coefficients.
 OF_COEFFICIENTS = ("extension", "blend_width_deg")
 _OF_COEFFICIENTS = tuple(f"aero.{name}" for name in OF_COEFFICIENTS)
@@ -303,11 +300,13 @@ def makers_of(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...],
         own = load_species(_beside(species, folder, (".toml",)))
         return own, model_of(model, own)
 
-    def animal(species: str, model: str) -> Species:
+    def animal(
+        species: str, model: str, altitude: float | None = None, temperature: float | None = None
+    ) -> Species:
         own, whole = flown(species, model)
         complete = whole.species(own)
-        if form.altitude is not None or form.temperature is not None:
-            complete = complete.at_altitude(form.altitude or 0.0, form.temperature)
+        if altitude is not None or temperature is not None:
+            complete = complete.at_altitude(altitude or 0.0, temperature)
         return whole.species(complete.with_values(form.settings)) if form.settings else complete
 
     def loads(
@@ -338,7 +337,7 @@ def makers_of(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...],
 
     of_model = "species", "model"
     makers = {
-        "species": (of_model, animal),
+        "species": ((*of_model, *AIR), animal),
         "aero": ((*of_model, "aero", *OF_COEFFICIENTS, *OF_ELEMENTS), loads),
         "minimise": ((*of_model, "minimise"), objective),
         "own": ((*of_model, "minimise"), own),

@@ -23,6 +23,7 @@ from wingbeat._base import (
     Reported,
     Row,
     Table,
+    in_words,
     label_of,
     plain_unit,
     read_text,
@@ -37,7 +38,7 @@ from wingbeat.studies.driver import Progress, Tally, drive
 from wingbeat.studies.engine import Engine, LocalProcesses
 from wingbeat.studies.form import check_form
 from wingbeat.studies.plan import Plan, make_plan
-from wingbeat.studies.recipe import MOTION, changed_code, named, starts_of
+from wingbeat.studies.recipe import AIR, MOTION, changed_code, starts_of
 from wingbeat.studies.stopping import Stop, listening
 from wingbeat.studies.store import Salvaged, Store, salvage
 from wingbeat.studies.store_checks import only_one
@@ -274,14 +275,13 @@ class Study(Reported):
         quantity : a column of numbers; default the minimised quantity.
         """
         frame, form = self.to_dataframe(), self.plan.form
-        least, varied = form.minimise, varied_numbers(frame, self.plan.paths)
+        least, varied = self.plan.objectives, varied_numbers(frame, self.plan.paths)
         if not varied:
-            varied = [name for name in MOTION if len(getattr(form, name) or ()) > 1]
+            varied = [name for name in (*MOTION, *AIR) if len(getattr(form, name) or ()) > 1]
         if quantity is not None:
             label = f"{label_of(quantity, short=True)} [{_unit(quantity)}]"
         elif len(least) == 1:
-            name = named(least[0])
-            label = f"lowest {name.replace('_', ' ')} [{_unit(name)}]"
+            label = f"lowest {in_words(least[0])} [{_unit(least[0])}]"
         else:
             label = "minimised quantity"
         return frame, varied, quantity or "objective_value", label, [plain_unit(path) for path in varied]
@@ -312,7 +312,7 @@ class Study(Reported):
         return study_page(*self.drawing(quantity))
 
     def _about(self) -> dict[str, Any]:
-        return {"varied": list(self.plan.paths) or "nothing", "objective": self.plan.form.minimise}
+        return {"varied": list(self.plan.paths) or "nothing", "objective": list(self.plan.objectives)}
 
 
 def _unit(name: str) -> str:

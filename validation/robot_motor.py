@@ -117,7 +117,7 @@ def makers_hover(
 def wingbeats_motor(hover: Hover, resistance: float = NOMINAL) -> dict[str, float]:
     """Return what wingbeat's motor and springs need for the makers' beat, by the names of `Hover.numbers`."""
     species = wb.load_species("purdue-hummingbird").with_values({"motor.resistance": resistance / 2})
-    _, motor, springs = species.vehicle.drive
+    _, motor, springs, _ = species.vehicle.drive
     need = actuated(springs, hover.flap, hover.rate, hover.torque, 1 / FREQUENCY)
     state = motor_state(motor, need.torque, need.rate, need.acceleration, FREQUENCY)
     return {

@@ -17,6 +17,7 @@ from ._base.errors import WingbeatError as WingbeatError
 from ._base.errors import WorkerError as WorkerError
 from ._version import __version__ as __version__
 from .aero import winds as winds
+from .animal.drive import Battery as Battery
 from .animal.drive import Motor as Motor
 from .animal.drive import Muscle as Muscle
 from .animal.drive import Springs as Springs

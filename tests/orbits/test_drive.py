@@ -7,7 +7,7 @@ import wingbeat as wb
 from tests.helpers.programmes import differences, stock_point
 from wingbeat.animal.actuators import best_efficiency, force_at, metabolic_ratio
 from wingbeat.orbits.problem.parameters import parameters_of
-from wingbeat.orbits.problem.quantity import OF_MOTOR, OF_MUSCLE
+from wingbeat.orbits.problem.quantity import OF_DRIVE
 from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.orbits.uncertainty import OptimumSlopes
 
@@ -17,15 +17,19 @@ STRONG = PIGEON.with_muscle().with_values(
 )
 MOTOR = {"motor.torque_constant": 6e-3, "motor.resistance": 0.1, "motor.gear_ratio": 30.0}
 
-# A pigeon whose wings a muscle and a motor drive, behind springs.
+# A pigeon whose wings a muscle and a motor with a battery drive, behind springs.
 DRIVEN = PIGEON.with_muscle().with_values(
     {
         **{"motor.torque_constant": 0.007, "motor.resistance": 0.1, "motor.gear_ratio": 30.0},
         **{"motor.rotor_inertia": 1e-7, "motor.no_load_current": 0.1, "motor.gear_efficiency": 0.8},
         **{"springs.stiffness": 0.4, "springs.rest_angle": 0.1, "springs.series_compliance": 0.05},
         "muscle.tendon_compliance": 0.03,
+        **{"battery.cells": 8, "battery.capacity": 0.85, "battery.internal_resistance": 0.1},
     }
 )
+
+
+DRIVE_NUMBERS = [name for found in OF_DRIVE.values() for name in found]
 
 
 def problem(species, **more):
@@ -114,7 +118,7 @@ def test_a_quantity_of_what_the_vehicle_lacks_is_refused(name, part):
 def test_quantities_of_a_beat_are_those_of_a_reference(cheap, crank):
     """NumPy along the series of the beat, behind springs; the rotor's inertia is left out."""
     species = DRIVEN.with_values({"motor.crank": crank, "motor.rotor_inertia": 0.0})
-    muscle, motor, springs = species.vehicle.drive
+    muscle, motor, springs, _ = species.vehicle.drive
     beat = cheap.beat()._replace(drive=species.vehicle.drive)
     flap, rate, torque = (np.asarray(getattr(beat, name))[:-1] for name in ("flap", "flap_rate", "flap_torque"))
     turning = 2.0 * np.pi * beat.frequency
@@ -168,7 +172,7 @@ def spectral_rate(values, frequency):
 @pytest.fixture(scope="module")
 def slopes():
     """The derivatives of every quantity as a limit, and differences, by its name; one program holds them all."""
-    names = [*OF_MUSCLE, *OF_MOTOR]
+    names = DRIVE_NUMBERS
     limits = [wb.Constraint(name, 40.0) for name in names]
     programme, _, scaled = stock_point(problem(DRIVEN, subject_to=limits))
     path = len(programme.path_limits)
@@ -178,7 +182,7 @@ def slopes():
     return {name: (found[these], wanted[these]) for name, these in zip(names, rows, strict=True)}
 
 
-@pytest.mark.parametrize("name", [*OF_MUSCLE, *OF_MOTOR])
+@pytest.mark.parametrize("name", DRIVE_NUMBERS)
 def test_derivatives_of_every_quantity(slopes, name):
     found, wanted = slopes[name]
     assert found.any()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from wingbeat._base import text_of
-from wingbeat.records.characteristic import BestLine, characteristic_speeds, next_speeds
+from wingbeat.records.characteristic import BestLine, characteristic_speeds, next_speeds, speeds_of
 from wingbeat.words.curve_words import curve_report, speed_in_words
 from wingbeat.words.orbit_words import DEFAULT_AIR
 
@@ -186,3 +186,37 @@ def test_the_report_gives_the_value_of_an_orbit_that_was_computed():
     assert "m/s (2 to 10); the least computed is 12.57 W at 5.5 m/s; mean power is" in told[0]
     assert "minimum power: 6.6" in told[1]
     assert "), 11.96 W; mean power is within 2 %" in told[1]
+
+
+def dataset_of(columns):
+    """A curve's data set with these columns over speed; least hinge power at 5 m/s."""
+    import xarray as xr
+
+    power = 20.0 + (SPEEDS - 5.0) ** 2
+    values = {"objective_value": power, **columns}
+    made = {name: (("speed", "optimum"), v[:, None], {"units": "W"}) for name, v in values.items()}
+    made["family"] = ("speed", "optimum"), np.zeros((len(SPEEDS), 1), dtype=int)
+    made["active_bounds"] = ("speed", "optimum"), np.full((len(SPEEDS), 1), "", dtype=object)
+    attributes = {"objective": "mean_positive_power", "marks": "[]"}
+    return xr.Dataset(made, {"speed": SPEEDS}, attributes)
+
+
+def test_a_battery_lasts_longest_where_its_own_discharge_says():
+    """Parabolas with tops at 6.3 and 7.4 m/s; where the battery cannot feed the beat, nothing is said."""
+    lasts = {"endurance": 900.0 - 20.0 * (SPEEDS - 6.3) ** 2, "flight_range": 6000.0 - 100.0 * (SPEEDS - 7.4) ** 2}
+    found = speeds_of(dataset_of(lasts), None)
+    assert found["minimum_power"]["speed"] == pytest.approx(5.0, abs=1e-6)
+    for name, speed, value in (("best_endurance", 6.3, 900.0), ("best_range", 7.4, 6000.0)):
+        assert found[name]["speed"] == pytest.approx(speed, abs=0.1), name
+        assert found[name]["value"] == pytest.approx(value, rel=0.01)
+    none = speeds_of(dataset_of({name: 0.0 * SPEEDS for name in lasts}), None)
+    assert (none["best_endurance"], none["best_range"]) == (None, None)
+
+
+def test_without_a_battery_a_motors_power_says_which_speeds_are_best():
+    electrical = 30.0 + 2.0 * (SPEEDS - 6.0) ** 2
+    found = speeds_of(dataset_of({"electrical_power": electrical}), None)
+    assert found["best_endurance"]["speed"] == pytest.approx(6.0, abs=1e-6)
+    # d(P/U)/dU = 0 at U^2 = (30 + 2 * 36) / 2
+    assert found["best_range"]["speed"] == pytest.approx(np.sqrt(51.0), abs=0.1)
+    assert "best_endurance" not in speeds_of(dataset_of({}), None)

@@ -1,4 +1,4 @@
-"""Actuators of the flap hinges: what a muscle or a motor can exert and what that costs, and the springs beside it.
+"""Actuators of the flap hinges: what a muscle or motor can exert at which cost, springs beside it, and a battery.
 
 A muscle's fibres shorten in proportion to the flap angle. The largest force of a muscle falls with its speed of
 shortening. A force costs metabolic power even if it does no work. So a fast beat of small amplitude has a cost too.
@@ -9,11 +9,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from wingbeat._jax.arrays import jnp
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import Series
-    from wingbeat.animal.drive import Motor, Muscle, Springs
+    from wingbeat.animal.drive import Battery, Motor, Muscle, Springs
 
 # Largest eccentric force divided by isometric force, and the steepness of its rise: Alexander 1997, doi
 # 10.1006/jtbi.1996.0262, as implemented by others.
@@ -169,6 +171,83 @@ def motor_state(motor: Motor, torque: Series, rate: Series, acceleration: Series
     current = shaft / motor.torque_constant + jnp.sign(speed) * motor.no_load_current
     voltage = motor.resistance * current + motor.torque_constant * speed
     return MotorState(speed, shaft, current, voltage, voltage * current)
+
+
+def cell_voltage(charge: Any) -> Any:
+    """Return the voltage of a lithium polymer cell without load by its charge, a share [V].
+
+    Theory: equation ``cell-voltage``. Chen and Rincon-Mora 2006, IEEE Trans. Energy Convers. 21:504, doi
+    10.1109/TEC.2006.874229; its numbers as three programs of others repeat them, the paper was not read.
+    """
+    return -1.031 * jnp.exp(-35.0 * charge) + 3.685 + 0.2156 * charge - 0.1178 * charge**2 + 0.3201 * charge**3
+
+
+_CHARGES = np.linspace(0.0, 1.0, 401)  # of the table of this cell
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(24)  # of the integral over charge
+_TURNS = 16  # of the voltage at which the mean voltage under load is that of the cut-off
+_LEAST_VOLTAGE = 1e-6  # of a motor at rest [V]; keeps derivatives finite
+
+
+class Discharge(NamedTuple):
+    """What a battery does that feeds the same beat again and again, from full until this beat ends."""
+
+    endurance: Any  # how long it lasts [s]
+    charge_left: Any  # at its end, a share
+    peak_current: Any  # at its end, the largest of the beat [A]
+    least_voltage: Any  # at its end, the least of the beat at the battery's terminals [V]
+    cutoff: Any  # voltage without load at which the mean under load is that of the cut-off [V]
+    needed: Any  # voltage without load at which the motor just gets what it needs at the worst instant [V]
+    full: Any  # voltage without load of the full battery [V]
+
+
+def battery_current(opened: Any, resistance: Any, power: Any) -> Any:
+    """Return the current of a battery of a voltage without load [V] that gives a power [W].
+
+    Theory: equation ``battery-current``. More than ``opened^2 / (4 resistance)`` no battery gives; there the
+    current is that of half the voltage.
+    """
+    spare = opened**2 - 4.0 * resistance * power
+    gives = spare > 0.0  # the root has no derivative at 0
+    root = jnp.sqrt(jnp.where(gives, spare, 1.0))
+    return jnp.where(gives, 2.0 * power / (opened + root), opened / (2.0 * resistance))
+
+
+def discharge(battery: Battery, power: Series, voltage: Series) -> Discharge:
+    """Return how long a full battery feeds a beat that needs this power [W] and motor voltage [V], shape (K,).
+
+    Theory: equation ``battery-discharge``. The controller lowers the battery's voltage to the motor's without
+    loss, and gives no power back. The flight ends when the mean voltage under load falls to the cut-off, when the
+    motor no longer gets its voltage at some instant, or when the battery is empty.
+    """
+    cell = jnp.stack(battery.cell_voltage) if battery.cell_voltage else cell_voltage(_CHARGES)
+    opened = battery.cells * cell
+    charges = jnp.linspace(0.0, 1.0, opened.shape[0])
+    resistance, empty, full = battery.internal_resistance, opened[0], opened[-1]
+
+    def mean_current(at: Any) -> Any:
+        current = battery_current(at, resistance, power)
+        return jnp.mean(0.5 * (current[..., :-1] + current[..., 1:]), axis=-1)
+
+    cutoff = full
+    for _ in range(_TURNS):
+        cutoff = battery.cells * battery.cutoff_voltage + resistance * mean_current(cutoff)
+    # Where the motor's voltage is low, the battery's power is what is short: it is largest at half the voltage.
+    own = jnp.maximum(jnp.abs(voltage), jnp.sqrt(resistance * power + _LEAST_VOLTAGE**2))
+    needed = jnp.max(own + resistance * power / own)
+    end = jnp.clip(jnp.maximum(cutoff, needed), empty, full)
+    left = jnp.interp(end, opened, charges)
+    on_the_way = jnp.interp(left + (1.0 - left) * 0.5 * (_NODES + 1.0), charges, opened)
+    slowness = jnp.sum(_WEIGHTS / jnp.maximum(mean_current(on_the_way[:, None]), 1e-9)) * 0.5  # [1/A]
+    peak = jnp.max(battery_current(end, resistance, power))
+    return Discharge(
+        endurance=3600.0 * battery.capacity * (1.0 - left) * slowness,
+        charge_left=left,
+        peak_current=peak,
+        least_voltage=end - resistance * peak,
+        cutoff=cutoff,
+        needed=needed,
+        full=full,
+    )
 
 
 # Central differences of order 6 at samples of equal distance: weights of the samples 1, 2 and 3 steps ahead.

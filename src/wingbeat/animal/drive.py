@@ -1,11 +1,12 @@
-"""Records of what drives the flap hinges, muscle, motor and springs, in SI units; each checks its numbers."""
+"""Records of what drives the flap hinges: muscle, motor, springs and battery; each checks its numbers."""
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
-from wingbeat._base import FaultList
+from wingbeat._base import WHOLE, FaultList
 from wingbeat._jax.arrays import register_record
 
 # Density of muscle [kg/m3]: Mendez and Keys 1960, Metabolism 9:184.
@@ -165,9 +166,63 @@ class Springs:
         faults.raise_if_any()
 
 
+@register_record
+@dataclass(frozen=True)
+class Battery:
+    """A battery of equal cells in series that feeds the motor through a controller without losses.
+
+    Parameters
+    ----------
+    cells : number of cells in series [-].
+    capacity : charge from full to empty [A h]; 850 mAh are 0.85.
+    internal_resistance : of all cells together, with plugs and wires [ohm].
+    cutoff_voltage : mean voltage under load, of each cell, at which the flight ends [V]; the default is a guess.
+    max_current : largest current that it may give [A]; 0 if it is not known.
+    cell_voltage : of one cell without load, at equal steps of charge from empty to full [V]; if it is not given,
+        the lithium polymer cell of Chen and Rincon-Mora 2006, doi 10.1109/TEC.2006.874229.
+
+    Raises
+    ------
+    InvalidInputError : cells that are not a whole number, a capacity, resistance or voltage that is not positive, a
+        capacity above 30 A h, a negative current, a single voltage or voltages that do not rise with charge, a
+        number that is not finite.
+
+    >>> Battery(cells=3, capacity=0.85, internal_resistance=0.06).cutoff_voltage
+    3.3
+    """
+
+    cells: float
+    capacity: float
+    internal_resistance: float
+    cutoff_voltage: float = 3.3
+    max_current: float = 0.0
+    cell_voltage: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        if faults.number("battery.cells", self.cells, above=0, at_most=100) and self.cells != round(self.cells):
+            faults.add("battery.cells", self.cells, WHOLE, "give the cells in series: 3 of a 3S")
+        fix = "give A h: 850 mAh are 0.85"
+        faults.number("battery.capacity", self.capacity, above=0, at_most=30, unit="A h", fix=fix)
+        faults.number("battery.internal_resistance", self.internal_resistance, above=0, unit="ohm")
+        faults.number("battery.cutoff_voltage", self.cutoff_voltage, above=0, unit="V", fix="give that of one cell")
+        faults.number("battery.max_current", self.max_current, at_least=0, unit="A", fix="0 leaves it out")
+        object.__setattr__(self, "cell_voltage", tuple(self.cell_voltage))
+        good = [
+            faults.number(f"battery.cell_voltage[{i}]", one, above=0, unit="V")
+            for i, one in enumerate(self.cell_voltage)
+        ]
+        rises = all(good) and all(low < high for low, high in itertools.pairwise(self.cell_voltage))
+        if len(good) == 1 or (all(good) and not rises):
+            fix = "give voltages at equal steps of charge, from empty to full"
+            faults.add("battery.cell_voltage", self.cell_voltage, "must be two or more that rise with charge", fix)
+        faults.raise_if_any()
+
+
 class Drive(NamedTuple):
     """What drives the flap hinges of a vehicle; a part that the vehicle lacks is None."""
 
     muscle: Muscle | None = None
     motor: Motor | None = None
     springs: Springs | None = None
+    battery: Battery | None = None

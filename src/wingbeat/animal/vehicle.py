@@ -8,7 +8,7 @@ from typing import Any
 
 from wingbeat._base import FaultList, is_number
 from wingbeat._jax.arrays import register_record
-from wingbeat.animal.drive import Drive, Motor, Muscle, Springs
+from wingbeat.animal.drive import Battery, Drive, Motor, Muscle, Springs
 
 
 @register_record(optional=("crossflow_area",))
@@ -171,6 +171,7 @@ class Vehicle:
     tail : the tail; None, as in the paper, means no tail.
     muscle, motor : what drives the flap hinges, if it is known; neither changes the flight, only what it costs.
     springs : springs at the flap hinges; they reduce or increase the torque that muscle or motor must give.
+    battery : what feeds the motor, if it is known; the body's mass includes its mass.
 
     >>> pigeon = Vehicle(Body(0.276, 3.6e-4), Wing(0.279, 0.112, 0.020, mass_exponent=2.0))
     >>> round(pigeon.mass, 3)
@@ -183,6 +184,7 @@ class Vehicle:
     muscle: Muscle | None = None
     motor: Motor | None = None
     springs: Springs | None = None
+    battery: Battery | None = None
 
     @property
     def mass(self) -> Any:
@@ -195,11 +197,11 @@ class Vehicle:
     @property
     def drive(self) -> Drive:
         """What drives the flap hinges."""
-        return Drive(self.muscle, self.motor, self.springs)
+        return Drive(self.muscle, self.motor, self.springs, self.battery)
 
     @property
     def passive(self) -> Vehicle:
-        """The vehicle without muscle, motor and springs: the parts that determine a flight."""
+        """The vehicle without muscle, motor, springs and battery: the parts that determine a flight."""
         return Vehicle(self.body, self.wing, self.tail)
 
 

@@ -279,8 +279,36 @@ def with_characteristic(dataset: xr.Dataset, inputs: dict[str, Any]) -> xr.Datas
         return dataset.assign_attrs(
             characteristic_frequencies=json.dumps(_characteristic_frequencies(dataset, inputs))
         )
-    found = characteristic_speeds(best_line(dataset), inputs["power_limit"])
+    found = speeds_of(dataset, inputs["power_limit"])
     return dataset.assign_attrs(characteristic_speeds=json.dumps(found))
+
+
+def speeds_of(dataset: xr.Dataset, power_limit: float | None) -> dict[str, Any]:
+    """Return the characteristic speeds of a curve, and of a robot those of best endurance and range.
+
+    These two are of the electrical power of the curve's orbits or, if there is a battery, of its discharge at each
+    speed. Without a battery they are left out where the electrical power is minimised: they are
+    ``minimum_power`` and ``maximum_range``.
+    """
+    line = best_line(dataset)
+    found = characteristic_speeds(line, power_limit)
+    plain = line._replace(is_power=False, others=line.others[:0])
+    if "endurance" in dataset:
+        for name, column in (("best_endurance", "endurance"), ("best_range", "flight_range")):
+            lasts = dataset[column].values[:, 0]
+            lasts = plain._replace(quantity=column, value=np.where(lasts > 0.0, lasts, np.nan))
+            found[name] = _named(lasts, lasts._replace(value=1.0 / lasts.value))
+    elif "electrical_power" in dataset and line.quantity != "electrical_power":
+        power = plain._replace(quantity="electrical_power", value=dataset["electrical_power"].values[:, 0])
+        for name, over_speed in (("best_endurance", False), ("best_range", True)):
+            found[name] = _named(power, power.over(over_speed))
+    return found
+
+
+def _named(whole: BestLine, line: BestLine) -> dict[str, Any] | None:
+    """Return where a line is least, with the name of its quantity, which is not the minimised one."""
+    least = _least(whole, line)
+    return None if least is None else least | {"quantity": whole.quantity}
 
 
 # Work per beat and mass of the pectoralis that was measured, with sources; see the file.

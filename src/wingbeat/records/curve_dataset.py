@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 import json
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -15,6 +16,7 @@ from wingbeat.animal.kinematics import NAMED_IF_ON, PARAMETER_NAMES, in_use
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.branches import Branches, certified, families, marks_of
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.orbits.problem.quantity import OF_BATTERY
 from wingbeat.records.characteristic import with_characteristic
 from wingbeat.records.forms import inputs_hash
 from wingbeat.records.inputs import aero_record, vehicle_record
@@ -34,6 +36,7 @@ _OF_MUSCLE = (
     *("metabolic_power", "metabolic_rate", "peak_activation"),
     *("muscle_power_per_mass", "muscle_work_per_mass"),
 )
+_OF_MOTOR = ("electrical_power", "peak_motor_torque", "peak_motor_voltage", "peak_motor_current")
 
 _TEXTS: dict[str, Callable[[dict[str, Any]], str]] = {
     "active_bounds": lambda record: ", ".join(record["active_bounds"]),
@@ -132,7 +135,9 @@ def _numbers(
     problem: OrbitProblem, over: str
 ) -> Iterator[tuple[str, str, str, Callable[[dict[str, Any]], float | None]]]:
     """Yield name, unit and meaning of each number of an optimum, and the function that reads it from a record."""
-    for name in (*_NUMBERS, *(_OF_MUSCLE if problem.vehicle.muscle is not None else ())):
+    parts = {"muscle": _OF_MUSCLE, "motor": _OF_MOTOR, "battery": tuple(OF_BATTERY)}
+    there = (names for part, names in parts.items() if getattr(problem.vehicle, part) is not None)
+    for name in (*_NUMBERS, *itertools.chain(*there)):
         unit = cf(problem.minimise.unit) if name == "objective_value" else NOMENCLATURE[name].unit
         yield name, unit, label_of(name), lambda record, name=name: record[name]
     for name in PARAMETER_NAMES:

@@ -29,7 +29,7 @@ from wingbeat.aero import (
 )
 from wingbeat.aero.blade_element import OF_ELEMENTS
 from wingbeat.aero.family import AtOneReynolds
-from wingbeat.animal.drive import Motor, Muscle, Springs
+from wingbeat.animal.drive import Battery, Motor, Muscle, Springs
 from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
 from wingbeat.animal.species.numbers import OwnFrequency, Range, number_from
 from wingbeat.animal.species.shape import Shape
@@ -164,7 +164,7 @@ def _tuples(numbers: dict[str, Any]) -> dict[str, Any]:
 
 
 # Parts that a vehicle may lack.
-_PARTS = {"tail": Tail, "muscle": Muscle, "motor": Motor, "springs": Springs}
+_PARTS = {"tail": Tail, "muscle": Muscle, "motor": Motor, "springs": Springs, "battery": Battery}
 
 
 def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:

@@ -10,6 +10,7 @@ import numpy as np
 from wingbeat._base import NOMENCLATURE, __version__
 from wingbeat.aero import CamberedCoefficients, CoefficientModel, FamilyCoefficients
 from wingbeat.aero.wake import ATTACHED_SHARE
+from wingbeat.animal.actuators import Discharge
 from wingbeat.animal.kinematics import ANGLES, Wingbeat
 from wingbeat.animal.species.scaling import BIRD_FREQUENCY
 from wingbeat.animal.vehicle import Air, Vehicle
@@ -19,6 +20,7 @@ from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantities import judged_names
+from wingbeat.orbits.problem.quantity import discharged, driven
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.starts import is_at_lower_bound
 from wingbeat.records.inputs import aero_record, vehicle_record, wingbeat_record
@@ -93,6 +95,9 @@ _LAG = 0.3
 _ATTACHED = {"rotation and added mass": "unsteady", "the lag of the wake": "wake"}
 # A frequency that another air changes by less than this share is as good as the same.
 _NOTICED = 0.01
+# Energy per mass of the best lithium cells on sale [Wh/kg]: a guess, rounded up.
+_MOST_ENERGY = 350.0
+_CURE = " (limit peak_motor_voltage, or add a cell)"
 # Optima whose objectives differ by less than this share are practically equal.
 _RIVAL = 0.01
 
@@ -143,6 +148,7 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
         if name in ("u", "w", "pitch_rate"):
             what = NOMENCLATURE[name].short_label
             notes.append(f"the initial {what} is at the solver's limit; do not trust this orbit")
+    notes += battery_warnings(beat)
     swing = float(np.ptp(solution.certificate.pitch))
     if swing > _SWING:
         notes.append(
@@ -163,6 +169,34 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
         notes.append(
             f"{solution.starts} starts found {solution.distinct_optima} distinct optima; {solution.starts_at_best} "
             "ended in this one, the best found; a better one may exist"
+        )
+    return notes
+
+
+def battery_warnings(beat: Beat) -> list[str]:
+    """Warn of a battery that gives too little voltage or current for a beat, or has an impossible capacity."""
+    battery, motor = beat.drive.battery, beat.drive.motor
+    if battery is None or motor is None:
+        return []
+    found, notes = Discharge(*map(float, discharged(beat, driven(beat)))), []
+    if not math.isfinite(found.needed):  # a diverged flight
+        return []
+    held, needs = f"the full battery has {found.full:.1f} V without load", f"the motor needs {found.needed:.1f} V"
+    if max(found.needed, found.cutoff) >= found.full:
+        why = needs if found.needed >= found.cutoff else f"its cut-off under this load needs {found.cutoff:.1f} V"
+        notes.append(f"the battery cannot feed this beat: {held}, and {why}, sag included{_CURE}")
+    elif found.needed > found.cutoff:
+        notes.append(
+            f"the battery's voltage ends the flight with {100 * found.charge_left:.0f} % of the charge left: at "
+            f"the peak {needs} without load, sag included{_CURE}"
+        )
+    if 0.0 < battery.max_current < found.peak_current:
+        least, most = f"{battery.max_current:.3g} A", f"{found.peak_current:.3g} A"
+        notes.append(f"the battery gives up to {most} at the end of the flight, and may give at most {least}")
+    if (held_energy := battery.capacity * found.full / beat.mass) > _MOST_ENERGY:
+        notes.append(
+            f"the battery's capacity of {battery.capacity:g} A h is {held_energy:.0f} Wh for each kg of the whole "
+            f"robot; the best lithium cells alone hold {_MOST_ENERGY:.0f} Wh/kg"
         )
     return notes
 

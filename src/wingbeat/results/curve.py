@@ -27,11 +27,10 @@ from wingbeat.plots.draw_curve import curve_page
 from wingbeat.plots.draw_frequencies import frequency_page
 from wingbeat.records.characteristic import (
     BestLine,
-    best_line,
-    characteristic_speeds,
     is_mean_power,
     line_of,
     next_speeds,
+    speeds_of,
 )
 from wingbeat.records.curve_dataset import curve_dataset
 from wingbeat.records.inputs import inputs_of
@@ -110,11 +109,13 @@ class Curve(Saveable, Reported):
 
         A power has ``minimum_power`` and ``maximum_range``, and, with a limit, ``fastest_sustained`` and
         ``slowest_sustained``; the cost of transport has ``maximum_range``; another quantity has its own, such as
-        ``minimum_frequency``. Each says whether it was found, or why no speed is given.
+        ``minimum_frequency``. A robot with a battery has ``best_endurance`` and ``best_range`` of its discharge,
+        one with a motor alone those of its electrical power. Each says whether it was found, or why no speed is
+        given.
         """
         if self.over != "speed":
             return {}
-        return characteristic_speeds(best_line(self._dataset), self._about["inputs"]["power_limit"])
+        return speeds_of(self._dataset, self._about["inputs"]["power_limit"])
 
     @functools.cached_property
     def characteristic_frequencies(self) -> dict[str, Any]:

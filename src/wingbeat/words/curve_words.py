@@ -32,7 +32,10 @@ _LABELS = {
     "maximum_range": "greatest range",
     "fastest_sustained": "fastest within the power limit",
     "slowest_sustained": "slowest within the power limit",
+    "best_range": "greatest range",
 }
+_RANGE = "maximum_range", True  # of power over speed
+_LASTING = ("endurance", "flight_range")  # of a battery: the longest is best
 # What measured powers are compared with; they are not the same quantities.
 _AGAINST = {
     "mechanical_power": ", beside the mean positive hinge power",
@@ -222,8 +225,11 @@ def _characteristic(record: dict[str, Any]) -> list[Block]:
     lines: list[Block] = [Line(f"characteristic speeds, of the least {objective}", tone="title")]
     speeds = record["characteristic_speeds"]
     for name, found in speeds.items():
-        over = " over speed" if name == "maximum_range" and "minimum_power" in speeds else ""
-        lines.append(Line(f"  {speed_label(name)}: {_told(found, objective + over, record['objective'])}"))
+        over = " over speed" if name == "best_range" or (name, "minimum_power" in speeds) == _RANGE else ""
+        of = (found or {}).get("quantity", record["objective"])
+        over = "" if of in _LASTING else over
+        by = "" if of == record["objective"] else f" of the {'battery' if of in _LASTING else in_words(of)}"
+        lines.append(Line(f"  {speed_label(name)}{by}: {_told(found, in_words(of) + over, of)}"))
     if not {"minimum_power", "maximum_range"} & speeds.keys():
         why = f"not given, because {objective} was minimised; to get them add --minimise positive-power"
         lines.append(Line(f"  speeds of minimum power and greatest range: {why}"))
@@ -307,10 +313,11 @@ def _told(found: dict[str, Any] | None, quantity: str, objective: str) -> str:
     if "lowest" not in found:
         return f"{text}, {value}" if found["status"] == "found" else text
     near = found["speed"] is not None and abs(found["speed"] - found["lowest"]) <= _NEAR * found["speed"]
-    text += f", {value}" if near else f"; the least computed is {value} at {found['lowest']:g} m/s"
+    least, minimum = ("longest", "maximum") if objective in _LASTING else ("least", "minimum")
+    text += f", {value}" if near else f"; the {least} computed is {value} at {found['lowest']:g} m/s"
     if found["status"] in ("found", "at_or_below", "at_or_above"):
         low, high = found["within_2_percent"]
-        text += f"; {quantity} is within 2 % of its minimum from {written_range(low, high, 'm/s')}"
+        text += f"; {quantity} is within 2 % of its {minimum} from {written_range(low, high, 'm/s')}"
     if found["rivals"]:
         others = " and ".join(f"{speed:g}" for speed in found["rivals"])
         text += f"; other minima within 1 % at {others} m/s"

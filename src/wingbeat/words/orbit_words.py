@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 from collections.abc import Mapping
@@ -25,7 +26,7 @@ from wingbeat._base import (
 )
 from wingbeat.animal.vehicle import Air
 from wingbeat.orbits.problem.origin import loads_in_words, model_rows, place_in_words
-from wingbeat.orbits.problem.quantity import OF_MOTOR, OF_MUSCLE
+from wingbeat.orbits.problem.quantity import OF_DRIVE
 from wingbeat.records.judgements import SetBy, called, set_by_limit, statements
 
 Rows = list[tuple[str, str]]
@@ -197,8 +198,12 @@ def power_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
         if name in record:
             each = f" ({_number(record[name], unit, 1 / mass)})" if mass and record[name] is not None else ""
             rows.append((power_label(name), f"{_of(record, name)}{each}{_why(name, limited)}"))
-    others = [name for name in ("cost_of_transport", *OF_MUSCLE, *OF_MOTOR) if name in record]
-    return [*rows, *((_label(name), _of(record, name, limited) + _ABOUT.get(name, "")) for name in others)]
+    about = dict(_ABOUT)
+    for name, factor, unit in (("endurance", 1 / 60, "min"), ("flight_range", 1e-3, "km")):
+        if record.get(name) is not None:
+            about[name] = f", {_number(record[name], unit, factor)}"
+    others = [name for name in ("cost_of_transport", *itertools.chain(*OF_DRIVE.values())) if name in record]
+    return [*rows, *((_label(name), _of(record, name, limited) + about.get(name, "")) for name in others)]
 
 
 def certificate_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:

@@ -22,6 +22,7 @@ _GROUPS = {
     "vehicle.muscle": "Flight muscle",
     "vehicle.motor": "Motor",
     "vehicle.springs": "Springs at the flap hinges",
+    "vehicle.battery": "Battery",
     "wingbeat": "Fixed parameters",
     "air": "Air",
 }

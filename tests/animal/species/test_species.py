@@ -138,6 +138,7 @@ def test_numbers_stand_at_their_paths_in_the_order_of_the_record(load: Any) -> N
         *("tendon_compliance", "activation_energy", "recovery_factor", "resting_rate", "support_factor"),
         *("torque_constant", "resistance", "gear_ratio", "rotor_inertia", "no_load_current", "gear_efficiency"),
         *("crank", "stiffness", "rest_angle", "series_compliance"),
+        *("cells", "capacity", "internal_resistance", "cutoff_voltage", "max_current", "cell_voltage"),
         *("chord_retraction", "twist_mean", "sweep_harmonics", "chord_harmonics", "twist_harmonics"),
     }
 

@@ -98,6 +98,8 @@ def check_parts(numbers: Mapping[str, Number], faults: FaultList) -> None:
             if key.required and key.path not in numbers and not refused:
                 rule = f"must be given for {part}" if part.endswith("s") else f"must be given for a {part}"
                 faults.add(key.path, NOTHING, rule, f"{key.meaning} [{key.unit}]")
+    if has_part(numbers, "battery") and not has_part(numbers, "motor"):
+        faults.add("vehicle.motor", NOTHING, "must be given for a battery", "the battery feeds the motor")
 
 
 def lacks_muscle(numbers: Mapping[str, Number]) -> bool:

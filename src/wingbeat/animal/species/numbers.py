@@ -68,6 +68,8 @@ KEYS = (
     *_keys("vehicle.motor", "torque_constant resistance gear_ratio", "rotor_inertia no_load_current"),
     *_keys("vehicle.motor", optional="gear_efficiency crank"),
     *_keys("vehicle.springs", optional="stiffness rest_angle series_compliance"),
+    *_keys("vehicle.battery", "cells capacity internal_resistance", "cutoff_voltage max_current"),
+    *_keys("vehicle.battery", optional="cell_voltage", shape="list"),
     *_keys("wingbeat", "frequency flap_mean flap_amplitude pitch_mean pitch_amplitude"),
     *_keys("wingbeat", optional="span_retraction twist_ratio fold_amplitude wrist pitch_phase downstroke_fraction"),
     *_keys("wingbeat", optional="sweep_mean sweep_amplitude sweep_phase stroke_plane_tilt tail_tilt"),

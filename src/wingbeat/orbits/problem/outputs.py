@@ -70,6 +70,7 @@ def _any_beat(strips: int, drive: Any) -> Beat:
 _FIXES = {
     "muscle": "add a muscle with species.with_muscle(), or set the numbers muscle.* with --set",
     "motor": "add a motor: set the numbers motor.* with --set or in the species file",
+    "battery": "add a battery: set the numbers battery.* with --set or in the species file",
 }
 
 
@@ -257,9 +258,13 @@ def check_quantities(
         rule = "can be limited but not minimised: its optima are at kinks"
         faults.append(Fault("minimise", minimised.name, rule, "minimise gust_response, or limit it"))
     for quantity in quantities:
-        if quantity.needs is not None and getattr(drive, quantity.needs) is None:
-            rule = f"needs a {quantity.needs}, and the vehicle has none"
-            faults.append(Fault("quantity", quantity.name, rule, _FIXES[quantity.needs]))
+        parts = {None: (), "battery": ("motor", "battery")}.get(quantity.needs, (quantity.needs,))
+        lacking = [part for part in parts if getattr(drive, part) is None]
+        faults += [
+            Fault("quantity", quantity.name, f"needs a {part}, and the vehicle has none", _FIXES[part])
+            for part in lacking
+        ]
+        if lacking:
             continue
         where = f"quantity {quantity.name}"
         of_map = isinstance(quantity, MapQuantity)

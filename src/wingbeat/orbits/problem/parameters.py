@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
 CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms", "wing": "terms"}
 SIDES = ("lower", "upper")
+_NO_PARAMETERS = ("crank", "cells")  # a switch and a count
 
 # Path from a problem to one of its numbers: names of fields, indices of tuples.
 Place = tuple[str | int, ...]
@@ -110,7 +111,7 @@ def _every(problem: OrbitProblem) -> Iterator[Parameter]:
                 for i, item in enumerate(value):
                     here = f"{path}.{'xyz'[i]}" if name == "shoulder" else f"{path}[{i}]"
                     yield _made(here, item, (*place, i), size=wing.mean_chord)
-            elif name != "crank" and (value or name != "crossflow_area"):  # a switch; a term that is off
+            elif name not in _NO_PARAMETERS and (value or name != "crossflow_area"):  # a term that is off
                 yield _made(path, value, place, size=sizes.get(name, 1.0))
     wingbeat = problem.species.wingbeat
     for name in FREE_NAMES:

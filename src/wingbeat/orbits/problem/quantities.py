@@ -21,7 +21,7 @@ from wingbeat.animal.species.numbers import JUDGED, Range
 from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Air
 from wingbeat.orbits.flight.beat import Beat, spread
-from wingbeat.orbits.problem.quantity import MAP_QUANTITIES, OF_MOTOR, OF_MUSCLE, Quantity, SpringCost
+from wingbeat.orbits.problem.quantity import MAP_QUANTITIES, OF_DRIVE, Quantity, SpringCost
 
 
 @dataclass(frozen=True)
@@ -178,7 +178,7 @@ QUANTITIES: dict[str, Quantity] = {
         _known("roughness", _roughness, 5.0),
         *(
             _known(name, of, scale, needs=needs)
-            for needs, found in (("muscle", OF_MUSCLE), ("motor", OF_MOTOR))
+            for needs, found in OF_DRIVE.items()
             for name, (of, scale) in found.items()
         ),
     )

@@ -1,4 +1,4 @@
-"""What a quantity is, and the quantities of the stroke map, of muscles, motors and springs."""
+"""What a quantity is, and the quantities of the stroke map, of muscles, motors, springs and batteries."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ from typing import TYPE_CHECKING, Any
 from wingbeat._base import NOMENCLATURE, FaultList, plain
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat.animal.actuators import (
+    Discharge,
     Driven,
     MotorState,
     activation,
     activation_power,
     actuated,
     best_efficiency,
+    discharge,
     metabolic_power,
     motor_state,
     spring_torque,
@@ -41,7 +43,7 @@ class Quantity:
     parameter : name of the wingbeat parameter that equals the quantity, if any. As an objective, the quantity then
         needs no flight.
     in_hover : advice, in words, on what to use instead in hover, if the quantity is undefined at speed 0.
-    needs : ``"muscle"`` or ``"motor"`` if the vehicle must have one.
+    needs : ``"muscle"``, ``"motor"`` or ``"battery"`` if the vehicle must have one.
 
     Raises
     ------
@@ -282,6 +284,29 @@ def _electrical_power(beat: Beat, need: Driven) -> Any:
     return beat.mean_positive(_motor_series(beat, need).power) + _pitching(beat)
 
 
+def discharged(beat: Beat, need: Driven) -> Discharge:
+    """Return what the battery does if this beat is flown until the battery no longer allows it."""
+    assert beat.drive.battery is not None
+    motor = _motor_series(beat, need)
+    pitching = beat.pitch_torque * beat.wing_pitch_rate  # as in the electrical power
+    power = jnp.maximum(motor.power, 0.0) + jnp.maximum(pitching, 0.0)
+    return discharge(beat.drive.battery, power, motor.voltage)
+
+
+@dataclass(frozen=True)
+class _OfDischarge:
+    """A number of the battery's discharge."""
+
+    name: str
+
+    def __call__(self, beat: Beat, need: Driven) -> Any:
+        return getattr(discharged(beat, need), self.name)
+
+
+def _flight_range(beat: Beat, need: Driven) -> Any:
+    return discharged(beat, need).endurance * beat.speed
+
+
 @dataclass(frozen=True)
 class _Size:
     """The absolute value of a series of the motor."""
@@ -320,14 +345,23 @@ OF_MOTOR: dict[str, tuple[DriveQuantity, float]] = {
     "rms_motor_torque": (DriveQuantity(_RootMeanSquare("torque")), 0.01),
     "peak_motor_speed": (DriveQuantity(_Size("speed")), 100.0),
     "peak_motor_voltage": (DriveQuantity(_Size("voltage")), 1.0),
+    "peak_motor_current": (DriveQuantity(_Size("current")), 0.5),
     "rms_motor_current": (DriveQuantity(_RootMeanSquare("current")), 0.5),
 }
+OF_BATTERY: dict[str, tuple[DriveQuantity, float]] = {
+    "peak_battery_current": (DriveQuantity(_OfDischarge("peak_current")), 0.5),
+    "least_battery_voltage": (DriveQuantity(_OfDischarge("least_voltage")), 1.0),
+    "charge_left": (DriveQuantity(_OfDischarge("charge_left")), 0.1),
+    "endurance": (DriveQuantity(_OfDischarge("endurance")), 100.0),
+    "flight_range": (DriveQuantity(_flight_range), 1000.0),
+}
+OF_DRIVE = {"muscle": OF_MUSCLE, "motor": OF_MOTOR, "battery": OF_BATTERY}  # by the part that they need
 
 
 def drive_numbers(beat: Beat) -> dict[str, float]:
-    """Return all numbers of the vehicle's muscles and motor; of a series, the largest value."""
-    parts = ((beat.drive.muscle, OF_MUSCLE), (beat.drive.motor, OF_MOTOR))
-    there = [found for part, found in parts if part is not None]
+    """Return all numbers of the vehicle's muscles, motor and battery; of a series, the largest value."""
+    parts = beat.drive if beat.drive.motor is not None else beat.drive._replace(battery=None)
+    there = [found for part, found in OF_DRIVE.items() if getattr(parts, part) is not None]
     if not there:
         return {}
     need = driven(beat)  # once: beside it, no number takes long

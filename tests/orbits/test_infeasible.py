@@ -317,3 +317,38 @@ def test_no_more_searches_are_told_of_than_there_are():
     told = []
     find_orbit(problem, Settings(1, most_starts=3, advise=False), progress=lambda *counts: told.append(counts))
     assert told == [(1, 2), (2, 2), (2, 3), (3, 3)]  # the second of the first two is without the limit
+
+
+TAILED = wb.robot(mass=0.25, wing_span=0.8, wing_area=0.1, tail_area=0.03, tail_arm=0.3, tail_lift_slope=2.5)
+
+
+def test_a_tail_may_be_trimmed_both_ways_unless_its_tilt_is_free():
+    tailed = TAILED.with_values({"tail.incidence_deg": 15.0})
+    problem = wb.OrbitProblem(tailed, speed=7.0)
+    up, down = (change for change in possible_changes(problem, (), {}) if change.name == "incidence")
+    assert (up.reach, down.reach) == (pytest.approx(math.radians(45.0)), pytest.approx(math.radians(-45.0)))
+    told = relaxation(problem, down, math.radians(1.2))
+    assert told.text == "tail incidence 15 -> 1 deg"
+    moved = told.apply(problem).vehicle
+    assert moved.tail.incidence == pytest.approx(math.radians(1.0))
+    assert moved.wing == tailed.vehicle.wing
+    tilting = dataclasses.replace(
+        problem, free=(*problem.free, "tail_tilt"), bounds=problem.bounds | {"tail_tilt": (-0.5, 0.5)}
+    )
+    for untrimmed in (tilting, wb.OrbitProblem(PIGEON, speed=7.0)):
+        assert not [change for change in possible_changes(untrimmed, (), {}) if change.name == "incidence"]
+
+
+@pytest.mark.slow
+def test_a_robot_out_of_trim_flies_with_the_tail_that_is_advised():
+    """Nose up by 10 degrees with little pitching: 15 degrees of incidence are neither a high nor a low tail."""
+    limits = ["body_pitch_range<=5 deg", "mean_body_pitch>=10 deg"]
+    tailed = TAILED.with_values({"tail.incidence_deg": 15.0})
+    problem = wb.OrbitProblem(tailed, speed=7.0, minimise="mean_positive_power", subject_to=limits)
+    orbit = wb.solve_orbit(problem, starts=3)
+    assert orbit.status is wb.Status.INFEASIBLE
+    first = orbit.relaxations[0]
+    assert first.name == "incidence"
+    assert wb.solve_orbit(first.apply(problem), starts=3, seed=7).status is wb.Status.CONVERGED
+    half = dataclasses.replace(first, new=0.5 * (first.old + first.new))
+    assert wb.solve_orbit(half.apply(problem), starts=3, seed=7).status is wb.Status.INFEASIBLE

@@ -104,6 +104,7 @@ _QUARTER_TURN = 0.5 * math.pi
 _ANY_ANGLE = (-_QUARTER_TURN, _QUARTER_TURN)
 _ANY_FLAP = (-1.3 * _QUARTER_TURN, 1.3 * _QUARTER_TURN)
 _AMPLITUDE = (0.0, _QUARTER_TURN)
+_TAILPLANE = 0.5 * _QUARTER_TURN  # largest incidence of a tail, up or down
 _REACH = {
     "frequency": (0.1, 200.0),
     "flap_amplitude": _AMPLITUDE,
@@ -134,8 +135,9 @@ class Change:
     """A number of a problem (SI and radians) that may move from `old` to `reach`; a change by `scale` is large.
 
     Its name is a wingbeat parameter, ``body_pitch`` or ``flap`` along the path, a constraint's quantity, ``mass``
-    (only the body becomes lighter), ``speed``, ``climb`` or ``shoulder`` (ahead of the body's centre of mass). The
-    sign is ``<=`` or ``>=`` for a bound or limit, ``=`` for a fixed number. `tries` are first changes, as shares.
+    (only the body becomes lighter), ``speed``, ``climb``, ``shoulder`` (ahead of the body's centre of mass) or
+    ``incidence`` of the tail. The sign is ``<=`` or ``>=`` for a bound or limit, ``=`` for a fixed number. `tries`
+    are first changes, as shares.
     """
 
     name: str
@@ -203,6 +205,7 @@ class Relaxation:
 _PLACES: dict[str, Place] = {
     "mass": ("species", "vehicle", "body", "mass"),
     "shoulder": ("species", "vehicle", "wing", "shoulder", 0),
+    "incidence": ("species", "vehicle", "tail", "incidence"),
     "speed": ("speed",),
     "climb": ("climb",),
 }
@@ -211,6 +214,7 @@ _WORDS = {
     "pitch_mean": "mean wing pitch",
     "pitch_amplitude": "wing pitch amplitude",
     "mass": "whole mass",
+    "incidence": "tail incidence",
 }
 
 
@@ -309,7 +313,10 @@ def possible_changes(
     ):
         if reach != old:
             yield Change(name, "=", old, reach, brisk, tries)
+    tail = problem.vehicle.tail
     for way in (1.0, -1.0):
+        if tail is not None and "tail_tilt" not in problem.free and way * tail.incidence < _TAILPLANE:
+            yield Change("incidence", "=", tail.incidence, way * _TAILPLANE, options.large_angle, (0.1, 0.3))
         reach = ahead + way * options.chords * wing.mean_chord
         yield Change("shoulder", "=", ahead, reach, wing.mean_chord, tries_for(MOMENT, 0.2, 0.6))
 

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import resource
 import subprocess
 import sys
@@ -278,6 +279,22 @@ def test_the_schema_is_json(run: Any) -> None:
 
 
 # --- wingbeat species new ---
+
+
+def test_a_new_robot_has_its_parts_as_comments(run: Any, tmp_path: Path) -> None:
+    """Without the sign of a comment before its numbers, each part is there and nothing is refused."""
+    path, size = tmp_path / "mine.toml", ("--mass", "0.25", "--wing-span", "0.8", "--wing-area", "0.1")
+    code, _, errors = run("species", "new", str(path), "--kind", "robot", *size)
+    assert (code, errors) == (0, [])
+    bare = load_species(path).vehicle
+    assert (bare.tail, bare.motor, bare.battery, bare.springs) == (None, None, None, None)
+    text = path.read_text(encoding="utf-8")
+    path.write_text(re.sub(r"^# (?=\[vehicle|\w+ = \{)", "", text, flags=re.MULTILINE), encoding="utf-8")
+    whole = load_species(path).vehicle
+    assert None not in (whole.tail, whole.motor, whole.battery, whole.springs)
+    assert whole.muscle is None
+    assert whole.battery is not None
+    assert whole.battery.cells == 3
 
 
 def test_new_writes_a_file_that_loads(run: Any, tmp_path: Path) -> None:

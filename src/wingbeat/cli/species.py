@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 species = App(name="species", help="Show the built-in animals or your own species file.")
 
 _SPEED = 10.0  # m/s, of the warning below the list
+_PARTS = """\
+# Parts of a robot. Their numbers are examples, not derived from yours. To add a part, remove one "# " from the lines
+# of its table and of its numbers, and put in your own; a number that is said to be optional may stay out."""
 
 
 @species.default
@@ -96,7 +99,7 @@ def new(
 ) -> None:
     """Write a species file: a commented template, or a bird, bat or robot derived by scaling laws."""
     from wingbeat.animal.species.making import bat, bird, robot
-    from wingbeat.animal.species.reading import template
+    from wingbeat.animal.species.reading import robot_tables, template
     from wingbeat.animal.species.writing import species_text
 
     faults, size = FaultList(), {"mass": mass, "wing_span": wing_span, "wing_area": wing_area}
@@ -115,6 +118,8 @@ def new(
     else:
         given: dict[str, Any] = size
         text = species_text({"bird": bird, "bat": bat, "robot": robot}[kind](name=path.stem, **given))
+        if kind == "robot":
+            text += f"\n{_PARTS}\n\n{robot_tables()}"
     if os.path.lexists(path) and not path.is_dir() and not force:
         raise FileError(f"cannot write {str(path)!r}: it exists; choose another name or give --force")
     write_atomically(path, text)

@@ -49,6 +49,16 @@ def template() -> str:
     return packaged_text(_TEMPLATE)
 
 
+def robot_tables() -> str:
+    """Return the template's commented tables of parts that a robot may have: all but those of an animal.
+
+    >>> "# [vehicle.motor]" in robot_tables(), "# [vehicle.muscle]" in robot_tables()
+    (True, False)
+    """
+    optional = [part for part in template().split("\n\n") if "\n# [vehicle." in part]
+    return "\n\n".join(part.rstrip() for part in optional if "# [vehicle.muscle]" not in part) + "\n"
+
+
 def species_names() -> tuple[str, ...]:
     """Return the names of the built-in species.
 

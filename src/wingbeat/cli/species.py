@@ -22,8 +22,8 @@ species = App(name="species", help="Show the built-in animals or your own specie
 
 _SPEED = 10.0  # m/s, of the warning below the list
 _PARTS = """\
-# Parts of a robot. Their numbers are examples, not derived from yours. To add a part, remove one "# " from the lines
-# of its table and of its numbers, and put in your own; a number that is said to be optional may stay out."""
+# Parts of a robot. Their numbers are examples, not derived from yours. To add a part, remove one "# " from the
+# lines of its table and of its numbers, and put in your own; a number that is optional may stay out."""
 
 
 @species.default

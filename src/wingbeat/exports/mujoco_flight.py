@@ -1,150 +1,39 @@
 """An orbit in MuJoCo: vehicle and gait as a model (MJCF), and its flight under the gait and wingbeat's air loads.
 
-Each joint's position is a sum of the wingbeat's laws. A wing whose span, fold and twist are constant is one rigid
-part that turns about flap, sweep and pitch hinges. Any other wing has a part for each strip, which turns and slides
-by itself, and a hand if the hand folds. The parts here are parts of the left wing; the right wing is its mirror
-image. In a part's axes, x is along the chord to the leading edge, y along the span to the left and z along the
-normal; its origin is on the line of the quarter chords.
+The wings' parts and joints are those of `wing_parts`.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 from xml.etree import ElementTree as Xml
 
 import numpy as np
 
-from wingbeat._base import Fault, FaultList, FileError, InvalidInputError, install_extra
+from wingbeat._base import FaultList, FileError, install_extra
 from wingbeat.animal.kinematics import LAWS, Wingbeat
-from wingbeat.animal.vehicle import Vehicle, Wing
+from wingbeat.animal.vehicle import Vehicle
 from wingbeat.exports.gait import Gait, Laws, gait_of, laws_at
+from wingbeat.exports.wing_parts import SIDES, Part, WingJoints, is_rigid, mirrored, wing_parts
 from wingbeat.mechanics.equations_of_motion import air_forces
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import Controller, commanded
-from wingbeat.mechanics.wing_motion import strips_of
-from wingbeat.mechanics.wing_shape import twist_factors
 from wingbeat.orbits.options import check_certified
 from wingbeat.viewer.scene import body_axes, tail_corners
 
 if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit
 
-SIDES = {"left": 1.0, "right": -1.0}
 BODY_JOINTS = ("x", "z", "body_pitch")
 _BODY, _WINGS = slice(0, len(BODY_JOINTS)), slice(len(BODY_JOINTS), None)
 STEPS = 512
 KEY = "top_of_stroke"
-# MuJoCo refuses a part without mass or inertia, so a zero is written as this [kg, kg m2], too small to matter.
-NOTHING = 1e-14
 _THICKNESS = 0.002  # of the drawn wing, half of it [m]
 # Critically damped springs of this frequency, in wingbeat frequencies, hold the wings to the gait. They remove the
 # drift of the integrator, and their torques are zero on the gait.
 _HOLD = 4.0
-_AT_ZERO = np.array([float(name == "span_ratio") for name in LAWS])
 HINGES = [[*LAWS].index("flap"), [*LAWS].index("wing_pitch")]
-_FLAP, _FOLD = (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0)
-_SWEEP, _PITCH, _SPAN = (0.0, 0.0, -1.0), (0.0, -1.0, 0.0), (0.0, 1.0, 0.0)
-
-
-class Joint(NamedTuple):
-    """One joint of the left wing, which slides along its axis or turns about it."""
-
-    name: str  # without the side
-    slides: bool
-    axis: tuple[float, float, float]  # in the axes of its part
-    laws: dict[str, float]  # its position as a sum of laws: factors [1, or m for a slide] by the laws' names
-
-
-class Strip(NamedTuple):
-    """A strip of a part."""
-
-    number: int  # from 1 at the root
-    station: float  # place along the span of the part [m]
-    chord: float  # [m]
-    mass: float  # [kg]
-
-
-@dataclass(frozen=True)
-class Part:
-    """A rigid part of the left wing, with the strips that belong to it and the parts that it holds."""
-
-    name: str  # without the side
-    station: float  # distance of its origin from the origin of the part that holds it, along the span [m]
-    joints: tuple[Joint, ...]  # in MuJoCo's order: each turns or slides those after it
-    strips: tuple[Strip, ...]
-    parts: tuple[Part, ...] = ()
-
-    def all_joints(self) -> list[Joint]:
-        """Return the joints of this part and of those that it holds, in MuJoCo's order."""
-        return [*self.joints, *(joint for part in self.parts for joint in part.all_joints())]
-
-
-def is_rigid(wingbeat: Wingbeat) -> bool:
-    """Return whether the wing is one rigid part, because its span, fold and twist are constant."""
-    twists = wingbeat.twist_ratio != 1.0 or wingbeat.twist_mean or wingbeat.twist_harmonics
-    return not (_spans(wingbeat) or wingbeat.fold_amplitude or twists)
-
-
-def _sweeps(wingbeat: Wingbeat) -> bool:
-    return bool(wingbeat.sweep_mean or wingbeat.sweep_amplitude or wingbeat.sweep_harmonics)
-
-
-def _spans(wingbeat: Wingbeat) -> bool:
-    return bool(wingbeat.span_retraction or wingbeat.span_harmonics)
-
-
-def wing_parts(wing: Wing, wingbeat: Wingbeat, count: int) -> Part:
-    """Return the part at the shoulder, with all that it holds."""
-    fraction, chord, mass = (np.asarray(a) for a in strips_of(wing, count))
-    shoulder = [Joint("flap", False, _FLAP, {"flap": 1.0})]
-    if _sweeps(wingbeat):
-        shoulder.append(Joint("sweep", False, _SWEEP, {"sweep": 1.0}))
-    if is_rigid(wingbeat):
-        shoulder.append(Joint("wing_pitch", False, _PITCH, {"wing_pitch": 1.0}))
-        own = [Strip(i + 1, wing.semi_span * fraction[i], chord[i], mass[i]) for i in range(count)]
-        return Part("wing", 0.0, tuple(shoulder), tuple(own))
-    wrist = wingbeat.wrist if wingbeat.fold_amplitude else 1.0
-    factors = np.asarray(twist_factors(wingbeat, fraction))
-
-    def slide(name: str, reach: float) -> tuple[Joint, ...]:
-        return (Joint(f"span_{name}", True, _SPAN, {"span_ratio": reach}),) if _spans(wingbeat) else ()
-
-    def part(i: int, inner: float) -> Part:
-        reach = wing.semi_span * float(fraction[i] - inner)
-        turn = {"wing_pitch": float(factors[i]), "tip_twist": float(fraction[i])}
-        pitch = Joint(f"wing_pitch_{i + 1}", False, _PITCH, turn)
-        only = Strip(i + 1, 0.0, chord[i], mass[i])
-        return Part(f"strip_{i + 1}", reach, (*slide(str(i + 1), reach), pitch), (only,))
-
-    held = [part(i, 0.0) for i in range(count) if fraction[i] <= wrist]
-    outer = tuple(part(i, wrist) for i in range(count) if fraction[i] > wrist)
-    if outer:
-        reach, fold = wing.semi_span * wrist, Joint("fold", False, _FOLD, {"fold": 1.0})
-        held.append(Part("hand", reach, (*slide("hand", reach), fold), (), outer))
-    return Part("wing", 0.0, tuple(shoulder), (), tuple(held))
-
-
-class WingJoints(NamedTuple):
-    """All joints of both wings, in MuJoCo's order: the left wing's, then the right wing's."""
-
-    names: tuple[str, ...]
-    factors: np.ndarray  # of each law on each joint, shape (joints, laws)
-
-    @classmethod
-    def of(cls, part: Part) -> WingJoints:
-        """Return the joints of a wing with this part at the shoulder, and of its mirror image."""
-        joints = part.all_joints()
-        factors = np.array([[joint.laws.get(name, 0.0) for name in LAWS] for joint in joints])
-        names = tuple(f"{side}_{joint.name}" for side in SIDES for joint in joints)
-        return cls(names, np.vstack([factors, factors]))
-
-    def motion(self, laws: Laws) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return positions, rates and accelerations of the joints, shape (..., joints), from those of the laws."""
-        value, rate, acceleration = laws
-        # A slide stands at zero at full span.
-        return (value - _AT_ZERO) @ self.factors.T, rate @ self.factors.T, acceleration @ self.factors.T
 
 
 def _numbers(*values: Any) -> str:
@@ -158,11 +47,6 @@ def mujoco_xml(gait: Gait) -> str:
     are the joints' positions at the gait's phases.
     """
     orbit, vehicle, wingbeat = gait.orbit, gait.orbit.problem.vehicle, gait.orbit.wingbeat
-    # A hand that folds about the axis of flap on an arm that sweeps would need two hinges with the same axis.
-    if wingbeat.fold_amplitude and _sweeps(wingbeat):
-        rule = "on a wing that sweeps cannot be represented by MuJoCo's joints"
-        fix = "export the gait as .csv, .mat or .c3d"
-        raise InvalidInputError([Fault("wingbeat.fold_amplitude", wingbeat.fold_amplitude, rule, fix)])
     wing, strips, what = vehicle.wing, orbit.problem.model.strips, orbit.inputs
     root = wing_parts(wing, wingbeat, strips)
     top = Xml.Element("mujoco", model=f"{what['species']['name']} at {what['speed']:g} m per s")
@@ -228,11 +112,8 @@ def _add_part(holder: Xml.Element, side: str, part: Part, width: float, place: d
     sign = SIDES[side]
     body = Xml.SubElement(holder, "body", {"name": f"{side}_{part.name}"} | place)
     for joint in part.joints:
-        x, y, z = joint.axis
-        # A mirror keeps a direction's components in its plane, and the component of a turn's axis across it.
-        axis = (x, sign * y, z) if joint.slides else (sign * x, y, sign * z)
-        kind = "slide" if joint.slides else "hinge"
-        Xml.SubElement(body, "joint", name=f"{side}_{joint.name}", type=kind, axis=_numbers(*axis))
+        kind, axis = "slide" if joint.slides else "hinge", _numbers(*mirrored(joint, sign))
+        Xml.SubElement(body, "joint", name=f"{side}_{joint.name}", type=kind, axis=axis)
     Xml.SubElement(body, "inertial", _inertia(part, sign))
     for strip in part.strips:
         half = _numbers(strip.chord / 2, width / 2, _THICKNESS / 2)
@@ -244,17 +125,10 @@ def _add_part(holder: Xml.Element, side: str, part: Part, width: float, place: d
 
 
 def _inertia(part: Part, sign: float) -> dict[str, str]:
-    """Return mass, centre of mass and inertia of a part's strips, each a uniform rod along its chord."""
-    if not part.strips:
-        return {"pos": "0 0 0", "mass": _numbers(NOTHING), "diaginertia": _numbers(*[NOTHING] * 3)}
-    station, chord, mass = (np.array([strip[i] for strip in part.strips]) for i in (1, 2, 3))
-    x, y, whole = -chord / 4, sign * station, mass.sum()
-    centre = mass @ x / whole, mass @ y / whole
-    away_x, away_y = x - centre[0], y - centre[1]
-    about_x = max(mass @ away_y**2, NOTHING)
-    about_y = mass @ (away_x**2 + chord**2 / 12)
-    full = about_x, about_y, about_x + about_y, -mass @ (away_x * away_y), 0.0, 0.0
-    return {"pos": _numbers(*centre, 0), "mass": _numbers(whole), "fullinertia": _numbers(*full)}
+    mass, centre, inertia = part.inertia(sign)
+    turns = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]]
+    full = {"fullinertia": _numbers(*turns)} if part.strips else {"diaginertia": _numbers(*turns[:3])}
+    return {"pos": _numbers(*centre), "mass": _numbers(mass)} | full
 
 
 def _add_gait(top: Xml.Element, gait: Gait, joints: WingJoints) -> None:

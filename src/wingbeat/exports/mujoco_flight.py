@@ -15,7 +15,7 @@ from wingbeat._base import FaultList, FileError, install_extra
 from wingbeat.animal.kinematics import LAWS, Wingbeat
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.exports.gait import Gait, Laws, gait_of, laws_at
-from wingbeat.exports.wing_parts import SIDES, Part, WingJoints, is_rigid, mirrored, wing_parts
+from wingbeat.exports.wing_parts import SIDES, THICKNESS, Part, WingJoints, is_rigid, mirrored, wing_parts
 from wingbeat.mechanics.equations_of_motion import air_forces
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import Controller, commanded
@@ -29,7 +29,6 @@ BODY_JOINTS = ("x", "z", "body_pitch")
 _BODY, _WINGS = slice(0, len(BODY_JOINTS)), slice(len(BODY_JOINTS), None)
 STEPS = 512
 KEY = "top_of_stroke"
-_THICKNESS = 0.002  # of the drawn wing, half of it [m]
 # Critically damped springs of this frequency, in wingbeat frequencies, hold the wings to the gait. They remove the
 # drift of the integrator, and their torques are zero on the gait.
 _HOLD = 4.0
@@ -97,7 +96,7 @@ def _add_body(world: Xml.Element, vehicle: Vehicle, tail_tilt: float) -> Xml.Ele
     axes = _numbers(math.cos(lifted), 0, math.sin(lifted), 0, 1, 0)
     half = 0.5 * math.hypot(*(corners[0] - 0.5 * (corners[1] + corners[2]))[[0, 2]])
     place = _numbers(-tail.arm, 0, tail.height)
-    _add_shape(body, "box", pos=place, xyaxes=axes, size=_numbers(half, 0.5 * corners[1, 1], _THICKNESS / 2))
+    _add_shape(body, "box", pos=place, xyaxes=axes, size=_numbers(half, 0.5 * corners[1, 1], THICKNESS / 2))
     Xml.SubElement(body, "site", name="tail", pos=place, xyaxes=axes, size="0.001")
     return body
 
@@ -116,7 +115,7 @@ def _add_part(holder: Xml.Element, side: str, part: Part, width: float, place: d
         Xml.SubElement(body, "joint", name=f"{side}_{joint.name}", type=kind, axis=axis)
     Xml.SubElement(body, "inertial", _inertia(part, sign))
     for strip in part.strips:
-        half = _numbers(strip.chord / 2, width / 2, _THICKNESS / 2)
+        half = _numbers(strip.chord / 2, width / 2, THICKNESS / 2)
         _add_shape(body, "box", pos=_numbers(-strip.chord / 4, sign * strip.station, 0), size=half)
         at = _numbers(0, sign * strip.station, 0)
         Xml.SubElement(body, "site", name=f"{side}_strip_{strip.number}", pos=at, size="0.001")

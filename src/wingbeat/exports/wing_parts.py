@@ -10,22 +10,26 @@ normal; its origin is on the line of the quarter chords.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from wingbeat._base import Fault, InvalidInputError
 from wingbeat.animal.kinematics import LAWS, Wingbeat
 from wingbeat.animal.vehicle import Wing
-from wingbeat.exports.gait import Laws
 from wingbeat.mechanics.wing_motion import strips_of
 from wingbeat.mechanics.wing_shape import twist_factors
+
+if TYPE_CHECKING:
+    from wingbeat.exports.gait import Laws
 
 SIDES = {"left": 1.0, "right": -1.0}
 # Multibody programs refuse a part without mass or inertia, so a zero is written as this [kg, kg m2], too small to
 # matter.
 NOTHING = 1e-14
-_AT_ZERO = np.array([float(name == "span_ratio") for name in LAWS])
+_THICK = 1e-13  # inertia that thickness gives to a plate about its axes, as a share of that about its normal
+THICKNESS = 0.002  # of the drawn wing [m]
+AT_ZERO = np.array([float(name == "span_ratio") for name in LAWS])  # of each law, where its joint stands at zero
 _FLAP, _FOLD = (1.0, 0.0, 0.0), (-1.0, 0.0, 0.0)
 _SWEEP, _PITCH, _SPAN = (0.0, 0.0, -1.0), (0.0, -1.0, 0.0), (0.0, 1.0, 0.0)
 
@@ -71,8 +75,11 @@ class Part:
         away_x, away_y = x - centre[0], y - centre[1]
         about_x = max(mass @ away_y**2, NOTHING)
         about_y = mass @ (away_x**2 + chord**2 / 12)
-        across = -mass @ (away_x * away_y)
-        inertia = [[about_x, across, 0.0], [across, about_y, 0.0], [0.0, 0.0, about_x + about_y]]
+        across, about_z = -mass @ (away_x * away_y), about_x + about_y
+        # Of a plate without thickness, the inertias about two axes sum up to the third. MuJoCo refuses the plate if
+        # rounding makes their sum the smaller one, which it does to every fourth wing.
+        about_x, about_y = about_x + _THICK * about_z, about_y + _THICK * about_z
+        inertia = [[about_x, across, 0.0], [across, about_y, 0.0], [0.0, 0.0, about_z]]
         return float(whole), np.array([*centre, 0.0]), np.array(inertia)
 
     def all_joints(self) -> list[Joint]:
@@ -137,6 +144,11 @@ def wing_parts(wing: Wing, wingbeat: Wingbeat, count: int) -> Part:
     return Part("wing", 0.0, tuple(shoulder), (), tuple(held))
 
 
+def law_factors(joints: list[Joint]) -> np.ndarray:
+    """Return the factor of each law on each joint, shape (joints, laws)."""
+    return np.array([[joint.laws.get(name, 0.0) for name in LAWS] for joint in joints])
+
+
 class WingJoints(NamedTuple):
     """All joints of both wings, in order: the left wing's, then the right wing's."""
 
@@ -147,7 +159,7 @@ class WingJoints(NamedTuple):
     def of(cls, part: Part) -> WingJoints:
         """Return the joints of a wing with this part at the shoulder, and of its mirror image."""
         joints = part.all_joints()
-        factors = np.array([[joint.laws.get(name, 0.0) for name in LAWS] for joint in joints])
+        factors = law_factors(joints)
         names = tuple(f"{side}_{joint.name}" for side in SIDES for joint in joints)
         return cls(names, np.vstack([factors, factors]))
 
@@ -155,4 +167,4 @@ class WingJoints(NamedTuple):
         """Return positions, rates and accelerations of the joints, shape (..., joints), from those of the laws."""
         value, rate, acceleration = laws
         # A slide stands at zero at full span.
-        return (value - _AT_ZERO) @ self.factors.T, rate @ self.factors.T, acceleration @ self.factors.T
+        return (value - AT_ZERO) @ self.factors.T, rate @ self.factors.T, acceleration @ self.factors.T

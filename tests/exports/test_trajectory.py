@@ -144,7 +144,7 @@ def test_simulink_finds_structures_with_time(orbit, table, tmp_path):
 
 @pytest.mark.parametrize("name", ["gait.nc", "gait.txt", "gait", "gait.csv.gz"])
 def test_another_suffix_is_refused(name, rigid_orbit, tmp_path):
-    words = r"does not end in a suffix for a gait; end the name in \.csv, \.mat .*\.c3d .*or \.xml"
+    words = r"does not end in a suffix for a gait; end the name in \.csv, \.mat .*\.c3d .*\.xml .* or \.yaml"
     with pytest.raises(wb.InvalidInputError, match=words):
         wb.export(rigid_orbit, tmp_path / name)
     assert not list(tmp_path.iterdir())

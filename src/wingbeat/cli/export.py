@@ -1,4 +1,4 @@
-"""``wingbeat export``: the gait of a saved orbit for robot controllers, MATLAB, motion capture and MuJoCo."""
+"""``wingbeat export``: a saved orbit for robot controllers, ROS, MATLAB, motion capture and MuJoCo."""
 
 from __future__ import annotations
 
@@ -23,19 +23,20 @@ def export(
         Path,
         written_to(
             "The file to write: .csv or .mat for the motion and torques of one wing, .c3d for motion capture, "
-            ".xml for MuJoCo."
+            ".xml for MuJoCo, .urdf for ROS and other robotics, .sdf for Gazebo, .yaml for a message of ROS 2."
         ),
     ],
-    samples: Annotated[Whole, option("Number of equal phases of the beat.")] = SAMPLES,
+    samples: Annotated[Whole, option("Number of equal phases of the beat; not for .urdf and .sdf.")] = SAMPLES,
 ) -> int:
     """Write the gait of a saved orbit for another tool.
 
     .csv: time, angles, rates, accelerations, torques and power of one wing, for a robot's controller. .mat: the
     same for MATLAB and Simulink. .c3d: points of body and wings in the world; needs the extra c3d. .xml: a MuJoCo
-    model of the vehicle with the gait as keyframe and table. Units are SI, angles in radians.
-    Exit code 3: the orbit is not certified.
+    model of the vehicle with the gait as keyframe and table. .urdf, .sdf: links with mass and inertia, joints with
+    axes and limits. .yaml: one beat of these joints as a trajectory_msgs/msg/JointTrajectory, for `ros2 topic pub`.
+    Units are SI, angles in radians. Exit code 3: the orbit is not certified.
 
-    Examples: wingbeat export pigeon.nc -o gait.csv --samples 200; wingbeat export pigeon.nc -o pigeon.xml
+    Examples: wingbeat export pigeon.nc -o gait.csv --samples 200; wingbeat export pigeon.nc -o pigeon.urdf
     """
     faults = FaultList()
     check_export(faults, "--output", output, samples)

@@ -1,1 +1,1 @@
-"""An orbit's gait for other tools: robot controllers, MATLAB and Simulink, motion capture, MuJoCo."""
+"""An orbit's gait for other tools: robot controllers, ROS, MATLAB and Simulink, motion capture, MuJoCo."""

@@ -81,6 +81,12 @@ class Gait:
         """The body's states (x, z, body_pitch, u, w, pitch_rate), shape (K + 1, 6)."""
         return np.stack([self.dataset[name].values for name in self.orbit.initial_state._fields], axis=-1)
 
+    @property
+    def about(self) -> str:
+        """Whose gait it is, and at which speed."""
+        what = self.orbit.inputs
+        return f"{what['species']['name']} at {what['speed']:g} m/s"
+
     @functools.cached_property
     def columns(self) -> list[tuple[Term, np.ndarray]]:
         """Time, each law that moves with its rate and acceleration, and torques and powers of one wing."""
@@ -135,18 +141,13 @@ def gait_of(orbit: Orbit, samples: int) -> Gait:
     return Gait(orbit, samples, series)
 
 
-def _about(gait: Gait) -> str:
-    what = gait.orbit.inputs
-    return f"{what['species']['name']} at {what['speed']:g} m/s"
-
-
 def gait_csv(gait: Gait) -> bytes:
     """Return a CSV table: a header of comment lines with units, then one row for each equal phase of the beat.
 
     It leaves out the end of the beat, for the first row follows again one time step after the last.
     """
     out = io.StringIO()
-    out.write(f"# gait of one wing of {_about(gait)}, written by the package wingbeat; SI units, radians\n")
+    out.write(f"# gait of one wing of {gait.about}, written by the package wingbeat; SI units, radians\n")
     out.write("# the wings move alike; the beat repeats after the last row\n")
     for name, (value, unit) in gait.constants.items():
         out.write(f"# {name} = {json.dumps(value)}{_bracket(unit)}\n")
@@ -182,7 +183,7 @@ def gait_mat(gait: Gait) -> bytes:
         "meaning": {term.name: term.label for term, _ in gait.columns},
         "constants": {name: value for name, (value, _) in gait.constants.items()},
         "constants_units": {name: unit for name, (_, unit) in gait.constants.items()},
-        "about": _about(gait),
+        "about": gait.about,
     }
     held = io.BytesIO()
     savemat(held, content, long_field_names=True, do_compression=True, oned_as="column")

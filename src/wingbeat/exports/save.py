@@ -9,13 +9,17 @@ from typing import TYPE_CHECKING
 from wingbeat._base import FaultList, write_atomically
 from wingbeat.exports.gait import gait_csv, gait_mat, gait_of, write_c3d
 from wingbeat.exports.mujoco_flight import mujoco_xml
+from wingbeat.exports.robot import joint_trajectory, sdf, urdf
 from wingbeat.orbits.options import check_certified
 
 if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit
 
 SAMPLES = 256
-_WRITERS = {".csv": gait_csv, ".mat": gait_mat, ".xml": mujoco_xml}
+_WRITERS = {
+    **{".csv": gait_csv, ".mat": gait_mat, ".xml": mujoco_xml},
+    **{".urdf": urdf, ".sdf": sdf, ".yaml": joint_trajectory},
+}
 EXPORT_SUFFIXES = (*_WRITERS, ".c3d")
 # As many as `simulate` allows in a beat; MuJoCo 3 reads no more than 500 numbers in a row.
 _MOST_SAMPLES = {".xml": 499}
@@ -27,7 +31,10 @@ def check_export(faults: FaultList, where: str, path: str | PathLike[str], sampl
     suffix = os.path.splitext(path)[1].lower()
     faults.whole("samples", samples, 2, _MOST_SAMPLES.get(suffix, _MOST), "equal phases of one beat")
     if suffix not in EXPORT_SUFFIXES:
-        fix = "end the name in .csv, .mat (MATLAB), .c3d (motion capture) or .xml (MuJoCo)"
+        fix = (
+            "end the name in .csv, .mat (MATLAB), .c3d (motion capture), .xml (MuJoCo), .urdf, .sdf (Gazebo) or "
+            ".yaml (ROS 2)"
+        )
         if suffix == ".nc":
             fix += "; an orbit is saved as .nc by `wingbeat orbit -o`"
         faults.add(where, os.fspath(path), "does not end in a suffix for a gait", fix)
@@ -43,6 +50,9 @@ def export(orbit: Orbit, path: str | PathLike[str], samples: int = SAMPLES) -> N
     .mat   the same as structures with time, which Simulink's From Workspace takes
     .c3d   points of body and wings in the world, a frame per phase; needs the extra ``c3d``
     .xml   a MuJoCo model with body, wings, motors and the gait as keyframe and table
+    .urdf  links with mass and inertia, joints with limits, for ROS and other robotics
+    .sdf   the same for Gazebo
+    .yaml  one beat as a message trajectory_msgs/msg/JointTrajectory of ROS 2
     ====== ===================================================================================
 
     `Orbit.save` is for all results of an orbit, as they were computed; `export` is for the motion alone, sampled at
@@ -52,7 +62,7 @@ def export(orbit: Orbit, path: str | PathLike[str], samples: int = SAMPLES) -> N
     ----------
     orbit : a certified orbit.
     path : of the file to write.
-    samples : number of equal phases of the beat.
+    samples : number of equal phases of the beat; .urdf and .sdf have no table and need none.
 
     Raises
     ------

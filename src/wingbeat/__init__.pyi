@@ -73,6 +73,9 @@ from .results.curve import load_curve as load_curve
 from .results.curve import solve_curve as solve_curve
 from .results.differentiable import DifferentiableOptimum as DifferentiableOptimum
 from .results.differentiable import differentiable_optimum as differentiable_optimum
+from .results.error_bars import Difference as Difference
+from .results.error_bars import difference_by_samples as difference_by_samples
+from .results.error_bars import uncertainty_by_samples as uncertainty_by_samples
 from .results.flight import Flight as Flight
 from .results.flight import TorqueDrivenFlight as TorqueDrivenFlight
 from .results.flight import simulate as simulate
@@ -89,7 +92,6 @@ from .results.pareto import ParetoFront as ParetoFront
 from .results.pareto import pareto_front as pareto_front
 from .results.sensitivities import Sensitivities as Sensitivities
 from .results.sensitivities import sensitivities as sensitivities
-from .results.sensitivities import uncertainty_by_samples as uncertainty_by_samples
 from .results.spread import Spread as Spread
 from .results.spread import orbit_spread as orbit_spread
 from .results.terms import TermTrace as TermTrace

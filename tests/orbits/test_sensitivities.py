@@ -25,7 +25,8 @@ from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.solution import correct_guess
 from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.orbits.uncertainty import ErrorBar, OptimumSlopes, ParameterSpread, first_order
-from wingbeat.results.sensitivities import Comparison, _compared, _of_fit
+from wingbeat.results.error_bars import Comparison, _compared
+from wingbeat.results.sensitivities import _of_fit
 
 POWER = QUANTITIES["mean_positive_power"]
 SHARE = 0.005

@@ -59,7 +59,7 @@ COMMANDS = {
 _LONGEST = 10_000
 _DEEPEST = 50
 # Longest line on stderr; the middle of a longer line is left out.
-_LINE = 600
+_LINE = 2000
 
 # Commands of the two packages that know this one; this one knows them by these names alone.
 _COMPANIONS = {

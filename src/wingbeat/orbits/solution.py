@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.animal.kinematics import Wingbeat, parameter
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.flight.certificate import Certificate, monodromy, multipliers_of
 from wingbeat.orbits.flight.period import CLOSURE, PATH_NAMES
@@ -153,6 +153,8 @@ class Solution:
 
     def value_of(self, quantity: Quantity, beat: Beat | None = None) -> float:
         """Return a quantity of the certified flight, whose `beat` may be given; for a series, its largest value."""
+        if quantity.parameter in self.problem.free:
+            return float(parameter(self.wingbeat, quantity.parameter))
         if isinstance(quantity, MapQuantity):
             return float(np.max(quantity.of(self.monodromy)))
         return float(np.max(quantity.of(self.beat() if beat is None else beat)))

@@ -222,7 +222,9 @@ class OptimumSlopes:
         stroke_map, beat = None, None
         found = []
         for quantity in quantities:
-            if isinstance(quantity, MapQuantity):
+            if quantity.parameter in self.problem.free:
+                found.append(unknowns[4 + self.problem.free.index(quantity.parameter)])
+            elif isinstance(quantity, MapQuantity):
                 if stroke_map is None:
                     # Not the certifier's: its map is a difference of flights, and that error of 1e-6 is 1 % of a
                     # derivative.
@@ -399,15 +401,17 @@ def sample_orbits(
     progress: Progress | None = None,
     options: SolverOptions = DEFAULTS,
     starts: int = 1,
+    deviations: np.ndarray | None = None,
 ) -> Samples:
-    """Solve a problem for random draws of its parameters, and compute quantities of each certified orbit.
+    """Solve a problem for draws of its parameters, also given ones, and compute quantities of certified orbits.
 
     The derivatives predict an optimum of the same family; its correction, a local search, and a last search from
     `starts` starts follow until one finds an orbit.
     """
-    generator = np.random.default_rng(seed)
     parameters = [p for spread in spreads for p in spread.parameters]
-    deviations = np.concatenate([spread.draw(generator, count) for spread in spreads], axis=1)
+    if deviations is None:
+        generator = np.random.default_rng(seed)
+        deviations = np.concatenate([spread.draw(generator, count) for spread in spreads], axis=1)
     by_path = {s.parameter.path: [*s.initial_state.values(), *s.wingbeat.values()] for s in slopes}
     predicted = unknowns + deviations @ np.array([by_path[p.path] for p in parameters])
     drawn = []

@@ -1,15 +1,16 @@
-"""What an orbit depends on most, what its bounds cost, and its error bars to first order and from samples."""
+"""What an orbit depends on most, what its bounds cost, and its error bars to first order."""
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from wingbeat._base import (
-    PRECISION,
     Fault,
     FaultList,
     InvalidInputError,
@@ -18,27 +19,28 @@ from wingbeat._base import (
     Reported,
     Row,
     Table,
+    cf,
+    for_people,
+    plain_unit,
+    suggest,
     written,
 )
 from wingbeat.aero.model_file import Fitted
 from wingbeat.orbits.options import DEFAULTS, SolverOptions, check_certified
 from wingbeat.orbits.problem.parameters import CURVES, Parameter, parameters_of
 from wingbeat.orbits.problem.problem import OrbitProblem
-from wingbeat.orbits.problem.quantities import named_quantity
+from wingbeat.orbits.problem.quantities import QUANTITIES as BY_NAME
+from wingbeat.orbits.problem.quantities import named_objective
 from wingbeat.orbits.problem.quantity import MapQuantity, Quantity
-from wingbeat.orbits.solve import Progress
 from wingbeat.orbits.uncertainty import (
     ErrorBar,
     OptimumSlopes,
     ParameterSpread,
-    Samples,
     Sensitivity,
     first_order,
-    sample_orbits,
     uniform_spread,
 )
 from wingbeat.plots.draw_influences import tornado_page
-from wingbeat.records.shares import LimitShare, StableShare, limit_share, stable_share
 from wingbeat.records.tables import table_of
 from wingbeat.results.orbit import Orbit
 
@@ -215,7 +217,8 @@ def sensitivities(
     Parameters
     ----------
     orbit : a certified orbit, from `solve_orbit` or `load_orbit`.
-    quantities : what to differentiate besides objective and wingbeat, quantities or their names.
+    quantities : what to differentiate besides objective and wingbeat: quantities, their names, or names of free
+        parameters of the wingbeat.
     options : of the solvers.
 
     Raises
@@ -229,13 +232,38 @@ def sensitivities(
     >>> [price.parameter.path for price in found.prices]
     ['bounds.flap_amplitude.upper']
     """
-    known, faults = [named_quantity(q) if isinstance(q, str) else q for q in quantities], FaultList()
+    free = orbit.problem.free
+    known, faults = [quantity_of(q, free) if isinstance(q, str) else q for q in quantities], FaultList()
     for unknowing in (q.name for q in known if isinstance(q, MapQuantity) and q.name != "spectral_radius"):
         if (wake := orbit.problem.aero.wake) != "none":
             rule = f"has states of the flight that {unknowing} does not know"
             faults.add("aero.wake", wake, rule, f"leave out {unknowing}, or solve the orbit without the wake")
     faults.raise_if_any()
     return differentiated(orbit, known, options)
+
+
+@dataclass(frozen=True)
+class _OfWingbeat:
+    """A free parameter of the wingbeat, which is read off the unknowns: a beat does not hold it."""
+
+    name: str
+
+    def __call__(self, beat: Any) -> Any:
+        raise LookupError(f"{self.name} is not a number of the beat")
+
+
+def quantity_of(name: str, free: Sequence[str] = ()) -> Quantity:
+    """Return the quantity of this name, or the free parameter of the wingbeat; hyphens may replace underscores."""
+    parameter = name.replace("-", "_")
+    if parameter in free and parameter not in BY_NAME:
+        return Quantity(parameter, _OfWingbeat(parameter), plain_unit(parameter), parameter=parameter)
+    try:
+        return named_objective(name)
+    except InvalidInputError as error:
+        others = [one for one in free if one not in BY_NAME]
+        near = suggest(parameter, others, most=1, otherwise=error.faults[0].fix)
+        also = f"; free parameters here are {', '.join(others)}" if others and "known quantities" in near else ""
+        raise InvalidInputError([dataclasses.replace(error.faults[0], fix=near + also)]) from None
 
 
 def differentiated(orbit: Orbit, known: Sequence[Quantity], options: SolverOptions) -> Sensitivities:
@@ -299,7 +327,8 @@ def influence_report(found: Sensitivities, bars: Sequence[ErrorBar] | None = Non
 
 
 def ranked_in_words(bar: ErrorBar) -> str:
-    """Return what a quantity depends on most, without an error bar."""
+    """Return what a quantity depends on most, without an error bar; angles are in degrees."""
+    bar = _for_people(bar)
     parts = ", ".join(f"{name} ({share:.0%})" for name, share in list(bar.ranking.items())[:_NAMED])
     if parts:
         due = f"largest shares of the variance: {parts}"
@@ -314,9 +343,18 @@ def in_words(bar: ErrorBar) -> str:
     """Return an error bar as a line: value, standard deviation, and its main causes."""
     if not bar.ranking:
         return ranked_in_words(bar)
+    bar = _for_people(bar)
     parts = ", ".join(f"{name} {deviation:.2g}" for name, deviation in list(bar.due_to.items())[:_NAMED])
     shown = written(bar.value, bar.deviation, bar.unit)
     return f"{bar.quantity.replace('_', ' ')} {shown}; largest contributions: {parts}"
+
+
+def _for_people(bar: ErrorBar) -> ErrorBar:
+    """Return an error bar in the unit that readers prefer."""
+    factor, unit = for_people(cf(bar.unit))
+    due_to = {name: factor * deviation for name, deviation in bar.due_to.items()}
+    numbers = {name: factor * getattr(bar, name) for name in ("value", "deviation", "shift")}
+    return bar._replace(unit=unit, due_to=due_to, **numbers)
 
 
 def price_in_words(price: Sensitivity, found: Sensitivities) -> str:
@@ -329,116 +367,3 @@ def price_in_words(price: Sensitivity, found: Sensitivities) -> str:
         for name in found.values
     ]
     return f"{amount:.3g} {unit} more of {parameter.path}: {', '.join(changes)}"
-
-
-# Share of the draws' variance that the first-order estimate must predict. At a tenth and at three tenths of every
-# range it predicts 97 to 99.9 %, and its standard deviation agrees with that of the draws. Over the bat's whole
-# ranges it predicts 6 %, and the two deviations disagree (docs/guide/sensitivities.md).
-_BORNE_OUT = 0.9
-
-
-class Comparison(NamedTuple):
-    """A quantity's first-order uncertainty, compared with its uncertainty from random samples.
-
-    Attributes
-    ----------
-    first_order : the first-order estimate.
-    mean, deviation : mean and standard deviation of the samples.
-    standard_error : standard error of `deviation`.
-    explained : share of the samples' variance that the first-order estimate of each draw explains.
-    certified, drawn : number of certified draws, and number of all draws.
-    stable : of the quantity ``spectral_radius``, how many of the orbits are stable; otherwise None.
-    limited : how many of the orbits have the quantity at a bound or limit of its own.
-    """
-
-    first_order: ErrorBar
-    mean: float
-    deviation: float
-    standard_error: float
-    explained: float
-    certified: int
-    drawn: int
-    stable: StableShare | None = None
-    limited: LimitShare = LimitShare((), 0, 0, None)
-
-    @property
-    def first_order_holds(self) -> bool:
-        """Whether the samples confirm the first-order estimate; if not, use it only to rank the inputs."""
-        return self.explained >= _BORNE_OUT
-
-
-def uncertainty_by_samples(
-    found: Sensitivities,
-    quantities: Sequence[str] = QUANTITIES,
-    samples: int = 2000,
-    seed: int = 0,
-    fit: Fitted | None = None,
-    share: float = 1.0,
-    processes: int = 1,
-    progress: Progress | None = None,
-    options: SolverOptions = DEFAULTS,
-) -> dict[str, Comparison]:
-    """Solve the orbit for randomly drawn parameters, and compare the uncertainty with its first-order estimate.
-
-    Parameters
-    ----------
-    found : the sensitivities of the orbit.
-    quantities : names of quantities that were differentiated; with ``spectral_radius`` among them, stable
-        orbits are counted.
-    samples : number of random samples.
-    seed : of the samples.
-    fit, share : as in `Sensitivities.spreads`.
-    processes, progress, options : as in `solve_orbits`.
-
-    Raises
-    ------
-    InvalidInputError : samples not a whole number from 10 to 100000; nothing that is uncertain; inputs that
-        `Sensitivities.error_bar` refuses.
-
-    >>> import wingbeat as wb
-    >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
-    >>> found = wb.sensitivities(orbit)
-    >>> checked = wb.uncertainty_by_samples(found, ["frequency"], samples=10, share=0.1)["frequency"]
-    >>> checked.drawn, checked.first_order_holds
-    (10, True)
-    """
-    faults = FaultList()
-    check_draws(faults, found.problem, samples, share, fit)
-    faults.raise_if_any()
-    bars = [found.error_bar(name, fit, share) for name in quantities]
-    spreads = found.spreads(fit, share)
-    read = [named_quantity(name) for name in quantities]
-    drawn = sample_orbits(
-        found.problem, found.unknowns, found.slopes, spreads, read, samples, seed, processes, progress, options
-    )
-    slopes = {s.parameter.path: s for s in found.slopes}
-    return {bar.quantity: _compared(bar, drawn, i, slopes) for i, bar in enumerate(bars)}
-
-
-def check_draws(faults: FaultList, problem: OrbitProblem, samples: int, share: float, fit: Fitted | None) -> None:
-    """Note a number of samples or a share out of range, and a problem of which nothing is uncertain."""
-    faults.whole("samples", samples, 10, 100_000)
-    faults.number("share", share, above=0, at_most=1)
-    if fit is None and not any(parameter.plausible for parameter in parameters_of(problem)):
-        rule = "has no plausible ranges, so there is nothing to draw"
-        faults.add("species", problem.species.name, rule, "give ranges in the species file, or a fit as aero")
-
-
-def _compared(bar: ErrorBar, drawn: Samples, column: int, slopes: dict[str, Sensitivity]) -> Comparison:
-    values = drawn.quantities[drawn.certified, column]
-    predicted = drawn.deviations[drawn.certified] @ [slopes[path].quantities[bar.quantity] for path in drawn.paths]
-    deviation, error, explained = 0.0, 0.0, 1.0
-    # All draws agree to their last digits if a bound or limit holds the quantity.
-    if np.ptp(values) > PRECISION * np.abs(values).max():
-        centred = values - values.mean()
-        deviation = float(values.std(ddof=1))
-        # The error of a deviation from n draws, by their fourth moment.
-        kurtosis = float(np.mean(centred**4)) / deviation**4
-        error = deviation * np.sqrt(max(kurtosis - 1.0, 0.0) / (4 * len(values)))
-        explained = 1.0 - float(np.var(values - bar.value - predicted) / np.var(values))
-    count = len(drawn.certified)
-    stable = stable_share(values, count) if bar.quantity == "spectral_radius" else None
-    held = np.zeros(count, bool) if drawn.at_limit is None else drawn.at_limit[:, column]
-    limited = limit_share(values, held[drawn.certified])
-    numbers = float(values.mean()), deviation, float(error), explained
-    return Comparison(bar, *numbers, len(values), count, stable, limited)

@@ -367,3 +367,13 @@ def test_a_tail_is_drawn_with_the_body(animal_orbit, tmp_path):
     place = [float(value) for value in box.find("origin").get("xyz").split()]
     assert place == [-tail.arm, 0.0, tail.height]
     assert all(link.find("inertial") is not None for link in read.top.iter("link"))
+
+
+@pytest.mark.parametrize("suffix", [".urdf", ".sdf"])
+def test_any_name_makes_a_file(rigid_orbit, suffix, tmp_path):
+    problem = rigid_orbit.problem
+    species = dataclasses.replace(problem.species, name='my -- "best" <robot> & Vögel 2')
+    named = dataclasses.replace(problem, species=species)
+    read = Read(wb.Orbit.of_record(rigid_orbit.record(), named, starts=2), suffix, tmp_path)
+    model = read.top if suffix == ".urdf" else read.top.find("model")
+    assert model.get("name") == "my_best_robot_Vögel_2"

@@ -10,6 +10,7 @@ from wingbeat._base import FaultList
 from wingbeat.cli.arguments import Whole, check_outputs, option, written_to
 from wingbeat.cli.problem_options import unpacking
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
+from wingbeat.exports.robot import GUESSED
 from wingbeat.exports.save import SAMPLES, check_export
 from wingbeat.exports.save import export as write_gait
 from wingbeat.orbits.options import Status
@@ -49,5 +50,6 @@ def export(
         _ = orbit.problem
     check_outputs(output)
     write_gait(orbit, output, samples)
-    print(f"wrote {output}", file=sys.stderr)
+    note = f"; {GUESSED}" if output.suffix.lower() in (".urdf", ".sdf") else ""
+    print(f"wrote {output}{note}", file=sys.stderr)
     return EXIT_GOOD

@@ -116,8 +116,8 @@ def _add_part(holder: Xml.Element, side: str, part: Part, width: float, place: d
     Xml.SubElement(body, "inertial", _inertia(part, sign))
     for strip in part.strips:
         half = _numbers(strip.chord / 2, width / 2, THICKNESS / 2)
-        _add_shape(body, "box", pos=_numbers(-strip.chord / 4, sign * strip.station, 0), size=half)
-        at = _numbers(0, sign * strip.station, 0)
+        _add_shape(body, "box", pos=_numbers(strip.mid_chord, sign * strip.station, 0), size=half)
+        at = _numbers(strip.quarter_chord, sign * strip.station, 0)
         Xml.SubElement(body, "site", name=f"{side}_strip_{strip.number}", pos=at, size="0.001")
     for inner in part.parts:
         _add_part(body, side, inner, width, {"pos": _numbers(0, sign * inner.station, 0)})

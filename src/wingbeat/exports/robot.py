@@ -204,7 +204,7 @@ def _robot(orbit: Orbit) -> _Robot:
             holder, place, pitch = name, (0.0, 0.0, 0.0), 0.0
         width = wing.semi_span / strips
         drawn = (
-            _Shape("box", {"size": _numbers(s.chord, width, THICKNESS)}, (-s.chord / 4, sign * s.station, 0.0))
+            _Shape("box", {"size": _numbers(s.chord, width, THICKNESS)}, (s.mid_chord, sign * s.station, 0.0))
             for s in part.strips
         )
         links.append(_Link(holder, *part.inertia(sign), tuple(drawn)))
@@ -219,14 +219,20 @@ def _robot(orbit: Orbit) -> _Robot:
     return _Robot(re.sub(r"\W+", "_", orbit.inputs["species"]["name"]), links, hinges)
 
 
+# What a reader of the file has to know, for its vehicle may leave the plane of symmetry.
+GUESSED = "the body's inertias in roll and yaw are guesses"
 _ABOUT = (
     "written by the package wingbeat. Units: SI, radians. Axes: x forward, y to the left, z up. Positive are: wing "
-    "up, leading edge up. The link body flies freely and contains the tail's mass. Its inertias in roll and yaw "
-    "are guesses. Efforts and velocities are the peaks of one wing in the beat; the effort of a hinge is that of "
-    "actuator and springs together. A joint that follows another one (mimic) has no actuator and no effort. An "
-    f"effort of {NO_LIMIT:g} limits nothing: wingbeat does not compute it. The model has no air loads. A mass of "
-    f"{NOTHING:g} stands for none. "
+    f"up, leading edge up. The link body flies freely and contains the tail's mass; {GUESSED}. Efforts and "
+    "velocities are the peaks of one wing in the beat; the effort of a hinge is that of actuator and springs "
+    "together. A joint that follows another one (mimic) has no actuator and no effort. An effort of "
+    f"{NO_LIMIT:g} limits nothing: wingbeat does not compute it. The model has no air loads. A mass of {NOTHING:g} "
+    "stands for none. "
 )
+
+
+def _about(gait: Gait) -> Xml.Element:
+    return Xml.Comment(f" {re.sub('-+', '-', gait.about)}, {_ABOUT}")  # two dashes would end a comment
 
 
 def urdf(gait: Gait) -> bytes:
@@ -236,7 +242,7 @@ def urdf(gait: Gait) -> bytes:
     """
     robot = _robot(gait.orbit)
     top = Xml.Element("robot", name=robot.name)
-    top.append(Xml.Comment(f" {gait.about}, {_ABOUT}"))
+    top.append(_about(gait))
     Xml.SubElement(Xml.SubElement(top, "mujoco"), "compiler", fusestatic="false", discardvisual="false")
 
     def origin(holder: Xml.Element, place: np.ndarray | Triple, pitch: float = 0.0) -> None:
@@ -269,7 +275,7 @@ def sdf(gait: Gait) -> bytes:
     """Return the vehicle as SDF 1.11, which needs no other file."""
     robot = _robot(gait.orbit)
     top = Xml.Element("sdf", version="1.11")
-    top.append(Xml.Comment(f" {gait.about}, {_ABOUT}"))
+    top.append(_about(gait))
     model, held = Xml.SubElement(top, "model", name=robot.name), {hinge.child: hinge for hinge in robot.hinges}
 
     def put(holder: Xml.Element, texts: dict[str, str]) -> None:
@@ -318,7 +324,7 @@ def joint_trajectory(gait: Gait) -> bytes:
     lines = [
         f"# one wingbeat of {gait.about}, written by the package wingbeat; SI units, radians",
         "# ros2 topic pub --once /joint_trajectory_controller/joint_trajectory \\",
-        "#   trajectory_msgs/msg/JointTrajectory --yaml-file FILE",
+        '#   trajectory_msgs/msg/JointTrajectory --yaml-file FILE    (or "$(cat FILE)", in older releases)',
         "# The wings move at its end: set allow_nonzero_velocity_at_trajectory_end of the controller to true.",
         "header: {stamp: {sec: 0, nanosec: 0}, frame_id: ''}",
         f"joint_names: [{', '.join(found.names[i] for i in own)}]",

@@ -9,6 +9,7 @@ normal; its origin is on the line of the quarter chords.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -44,12 +45,20 @@ class Joint(NamedTuple):
 
 
 class Strip(NamedTuple):
-    """A strip of a part."""
+    """A strip of a part. Its places along the chord are ahead of the part's origin, the axis of pitch."""
 
     number: int  # from 1 at the root
     station: float  # place along the span of the part [m]
     chord: float  # [m]
     mass: float  # [kg]
+    quarter_chord: float  # [m]
+    centre: float  # of its mass [m]
+    gyration: float  # radius of gyration of its mass along the chord [m]
+
+    @property
+    def mid_chord(self) -> float:
+        """Its place along the chord [m]."""
+        return self.quarter_chord - 0.25 * self.chord
 
 
 @dataclass(frozen=True)
@@ -65,16 +74,16 @@ class Part:
     def inertia(self, sign: float) -> tuple[float, np.ndarray, np.ndarray]:
         """Return mass, centre of mass and inertia about it, shape (3, 3), of the strips of this part alone.
 
-        Each strip is a uniform rod along its chord. `sign` is that of the side, from `SIDES`.
+        Each strip is a rod along its chord. `sign` is that of the side, from `SIDES`.
         """
         if not self.strips:
             return NOTHING, np.zeros(3), np.diag([NOTHING] * 3)
-        station, chord, mass = (np.array([strip[i] for strip in self.strips]) for i in (1, 2, 3))
-        x, y, whole = -chord / 4, sign * station, mass.sum()
+        station, mass, x, gyration = (np.array([strip[i] for strip in self.strips]) for i in (1, 3, 5, 6))
+        y, whole = sign * station, mass.sum()
         centre = mass @ x / whole, mass @ y / whole
         away_x, away_y = x - centre[0], y - centre[1]
         about_x = max(mass @ away_y**2, NOTHING)
-        about_y = mass @ (away_x**2 + chord**2 / 12)
+        about_y = mass @ (away_x**2 + gyration**2)
         across, about_z = -mass @ (away_x * away_y), about_x + about_y
         # Of a plate without thickness, the inertias about two axes sum up to the third. MuJoCo refuses the plate if
         # rounding makes their sum the smaller one, which it does to every fourth wing.
@@ -116,12 +125,16 @@ def wing_parts(wing: Wing, wingbeat: Wingbeat, count: int) -> Part:
         fix = "export the gait as .csv, .mat or .c3d"
         raise InvalidInputError([Fault("wingbeat.fold_amplitude", wingbeat.fold_amplitude, rule, fix)])
     fraction, chord, mass = (np.asarray(a) for a in strips_of(wing, count))
+
+    def strip(i: int, station: float) -> Strip:
+        return Strip(i + 1, station, chord[i], mass[i], 0.0, -0.25 * chord[i], chord[i] / math.sqrt(12.0))
+
     shoulder = [Joint("flap", False, _FLAP, {"flap": 1.0})]
     if _sweeps(wingbeat):
         shoulder.append(Joint("sweep", False, _SWEEP, {"sweep": 1.0}))
     if is_rigid(wingbeat):
         shoulder.append(Joint("wing_pitch", False, _PITCH, {"wing_pitch": 1.0}))
-        own = [Strip(i + 1, wing.semi_span * fraction[i], chord[i], mass[i]) for i in range(count)]
+        own = [strip(i, wing.semi_span * fraction[i]) for i in range(count)]
         return Part("wing", 0.0, tuple(shoulder), tuple(own))
     wrist = wingbeat.wrist if wingbeat.fold_amplitude else 1.0
     factors = np.asarray(twist_factors(wingbeat, fraction))
@@ -133,7 +146,7 @@ def wing_parts(wing: Wing, wingbeat: Wingbeat, count: int) -> Part:
         reach = wing.semi_span * float(fraction[i] - inner)
         turn = {"wing_pitch": float(factors[i]), "tip_twist": float(fraction[i])}
         pitch = Joint(f"wing_pitch_{i + 1}", False, _PITCH, turn)
-        only = Strip(i + 1, 0.0, chord[i], mass[i])
+        only = strip(i, 0.0)
         return Part(f"strip_{i + 1}", reach, (*slide(str(i + 1), reach), pitch), (only,))
 
     held = [part(i, 0.0) for i in range(count) if fraction[i] <= wrist]

@@ -377,3 +377,12 @@ def test_any_name_makes_a_file(rigid_orbit, suffix, tmp_path):
     read = Read(wb.Orbit.of_record(rigid_orbit.record(), named, starts=2), suffix, tmp_path)
     model = read.top if suffix == ".urdf" else read.top.find("model")
     assert model.get("name") == "my_best_robot_Vögel_2"
+
+
+def test_only_sdf_gives_drake_actuators(bat_orbit, tmp_path):
+    """To Drake, effort makes an actuator in SDF; in URDF it would take a transmission."""
+    found = {suffix: Read(bat_orbit.orbit, suffix, tmp_path).plant for suffix in (".urdf", ".sdf")}
+    assert found[".urdf"].num_actuators() == 0
+    actuators = [found[".sdf"].get_joint_actuator(i) for i in found[".sdf"].GetJointActuatorIndices()]
+    own = [f"{side}_{name}" for side in SIDES for name in ("flap", "fold", "wing_pitch_10")]
+    assert sorted(actuator.name() for actuator in actuators) == sorted(own)

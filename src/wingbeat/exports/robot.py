@@ -314,7 +314,7 @@ def joint_trajectory(gait: Gait) -> bytes:
     """Return one beat as YAML, a message trajectory_msgs/msg/JointTrajectory of ROS 2.
 
     It has the joints that follow no other one. Its last point is the next top of the stroke. Efforts are left out,
-    because ROS's joint_trajectory_controller refuses trajectories that have them.
+    because ROS's joint_trajectory_controller refuses them unless its hardware takes efforts as commands.
     """
     wingbeat, problem = gait.orbit.wingbeat, gait.orbit.problem
     root = wing_parts(problem.vehicle.wing, wingbeat, problem.model.strips)

@@ -12,6 +12,7 @@ from wingbeat.cli.arguments import Whole, check_files, check_outputs, figure, fl
 from wingbeat.cli.problem_options import Gust, Turbulence, WindSeed, saved_orbit, wind_of
 from wingbeat.cli.terminal import deliver, plain_console, print_report, progress_bar
 from wingbeat.plots import gust_page
+from wingbeat.records.judgements import conditions_of
 from wingbeat.stability.beat_feedback import Feedback
 from wingbeat.stability.beat_feedback import feedback as compute
 from wingbeat.stability.gust_flights import GustFlight, fly_gust
@@ -102,7 +103,8 @@ def feedback(
         flights = {FREE: fly_gust(orbit, wind, beats), HELD: fly_gust(orbit, wind, feedback=held, **asked)}
         surveyed = survey_gusts(orbit, {FREE: None, HELD: held}, survey, **asked) if survey else None
     delayed = f", feedback {beats_of(delay + late)} late" if delay + late else ""
-    title = f"{heading(str(orbit.inputs['species']['name']))} at {orbit.inputs['speed']:g} m/s{delayed}"
+    there = f"{orbit.inputs['speed']:g} m/s{conditions_of(orbit.record())}"
+    title = f"{heading(str(orbit.inputs['species']['name']))} at {there}{delayed}"
     record = held.record() | {"late": late, "beats": beats}
     record["flights"] = {name: one.record() for name, one in flights.items()}
     record["survey"] = None if surveyed is None else surveyed.record()

@@ -79,7 +79,7 @@ def show(
     if json:
         print_json(chosen.as_dict())
     else:
-        from wingbeat.animal.species.species import species_report
+        from wingbeat.animal.species.report import species_report
 
         print_report(species_report(chosen))
 

@@ -23,6 +23,7 @@ from wingbeat.orbits.options import DEFAULTS, ContinuationOptions, SolverOptions
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import (
     Solution,
+    at_orbit,
     better_of,
     correct_guess,
     families,
@@ -297,12 +298,13 @@ def find_beside(known: Solution, starts: int, seed: int = 0) -> Solution:
     best = first_certified(programme, [c for c in others if c.objective <= objective + error])
     if best is not None:
         return better_of(solution_of(best, programme, begun, found, len(found), seed), known)
-    optima = families([*known.as_optimum(), *optima_of(found)], known.problem.unknowns().scale, apart)
+    place = known.problem.unknowns().scale, apart
+    optima = families([*known.as_optimum(), *optima_of(found)], *place)
     return dataclasses.replace(
         known,
         starts=known.starts + len(found),
         seed=seed,
-        distinct_optima=len(optima),
+        distinct_optima=len(optima) + 1 - len(at_orbit(optima, known.unknowns, *place)),
         optima=optima,
         seconds=known.seconds + time.perf_counter() - begun,
         certify_seconds=known.certify_seconds + sum(programme.certifying),

@@ -6,7 +6,7 @@ import dataclasses
 import functools
 import re
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -61,6 +61,12 @@ def families(optima: Iterable[Optimum], scale: np.ndarray, apart: float) -> tupl
     return tuple(found)
 
 
+def at_orbit(optima: Sequence[Optimum], unknowns: np.ndarray, scale: np.ndarray, apart: float) -> list[Optimum]:
+    """Return the optima that are of the family of a certified orbit: all that are near, or else the nearest."""
+    away = [float(np.abs((optimum.unknowns - unknowns) / scale).max()) for optimum in optima]
+    return [one for one, far in zip(optima, away, strict=True) if far <= max(apart, min(away, default=apart))]
+
+
 def place_of(problem: OrbitProblem, unknowns: np.ndarray) -> np.ndarray:
     """Return unknowns in the optimiser's scale, without the mean velocity, to compare orbits at two speeds."""
     drift = np.zeros(unknowns.size)
@@ -104,9 +110,8 @@ class Solution:
         """How many starts ended in the family of this optimum."""
         if self.status is not Status.CONVERGED:
             return 0
-        scale, apart = self.problem.unknowns().scale, self.options.search.same_optimum
-        near = [o.starts for o in self.optima if np.abs((o.unknowns - self.unknowns) / scale).max() <= apart]
-        return max(sum(near), 1)
+        place = self.unknowns, self.problem.unknowns().scale, self.options.search.same_optimum
+        return max(sum(o.starts for o in at_orbit(self.optima, *place)), 1)
 
     @property
     def limited(self) -> frozenset[str]:
@@ -174,11 +179,13 @@ def better_of(own: Solution, other: Solution) -> Solution:
     """Return the better of two solutions of one problem, with the starts, optima and times of both."""
     converged = [s for s in (own, other) if s.status is Status.CONVERGED]
     known = [o for s in (own, other) for o in (s.optima or s.as_optimum())]
-    optima = families(known, own.problem.unknowns().scale, own.options.search.same_optimum)
+    best = min(converged, key=lambda s: s.objective, default=own)
+    place = own.problem.unknowns().scale, own.options.search.same_optimum
+    optima = families(known, *place)
     return dataclasses.replace(
-        min(converged, key=lambda s: s.objective, default=own),
+        best,
         starts=own.starts + other.starts,
-        distinct_optima=len(optima),
+        distinct_optima=len(optima) - max(len(at_orbit(optima, best.unknowns, *place)) - 1, 0),
         optima=optima,
         seed=own.seed,
         seconds=own.seconds + other.seconds,
@@ -211,8 +218,12 @@ def solution_of(
     """Return what the solver found since `begun` [s]; without an `ending`, the orbit is certified."""
     seconds, certifying = time.perf_counter() - begun, sum(programme.certifying)
     search = programme.options.search
-    optima = families(optima_of(found), programme.problem.unknowns().scale, search.same_optimum)
+    place = programme.problem.unknowns().scale, search.same_optimum
+    optima = families(optima_of(found), *place)
+    distinct = len(optima)
     if ending is None:
+        here = at_orbit(optima, best.programme.physical(best.scaled), *place)
+        distinct = max(distinct + 1 - len(here), 1)
         status, message = Status.CONVERGED, f"certified: re-flown, it closes to {size(best.residual):.0e}"
         problem = best.programme.problem
         if is_at_lower_bound(problem, best.programme.physical(best.scaled), search.bound_tolerance):
@@ -230,7 +241,7 @@ def solution_of(
         active_bounds=_active_bounds(best.programme, best.scaled),
         optimality=best.optimality,
         starts=searches,
-        distinct_optima=max(len(optima), 1) if status is Status.CONVERGED else len(optima),
+        distinct_optima=distinct,
         seed=seed,
         seconds=seconds,
         certify_seconds=certifying,

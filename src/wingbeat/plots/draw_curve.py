@@ -27,7 +27,7 @@ from wingbeat._base.style import (
 from wingbeat.experiment.flights_file import FlightPoints
 from wingbeat.plots.published import Published
 from wingbeat.records.characteristic import best_line, characteristic_speeds
-from wingbeat.records.judgements import set_by_limits_along
+from wingbeat.records.judgements import conditions_of, set_by_limits_along
 from wingbeat.records.measured import COMPARED
 from wingbeat.words.curve_words import speed_in_words, speed_label
 
@@ -129,7 +129,7 @@ def curve_title(about: Mapping[str, Any]) -> str:
     if len(kept) > _MOST_LIMITS:
         limits = f", within {len(kept)} limits"
     at = f" at {about['speed']:g} m/s" if over_of(about) == "frequency" else ""
-    who = f"{heading(about['species'])}{at}{climb_text(about['climb'])}"
+    who = f"{heading(about['species'])}{at}{climb_text(about['climb'])}{conditions_of(about)}"
     loads = f"{in_words(aero['coefficients'])} coefficients, {in_words(aero['extension'])}"
     return textwrap.fill(f"{who}: wingbeats of minimum {in_words(about['objective'])}{limits}; {loads}", _LINE)
 

@@ -21,6 +21,7 @@ from wingbeat._base.style import (
     letter_panels,
     new_figure,
 )
+from wingbeat.records.judgements import conditions_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -73,7 +74,7 @@ def glide_page(dataset: xr.Dataset) -> Figure:
         count, asked = int(dataset["trimmed"].sum()), dataset.sizes["angle_of_attack"]
         where = "" if count == asked else f" at {count} of {asked} angles"
         coefficients = in_words(json.loads(about["aero"])["coefficients"])
-        title = f"{heading(about['species'])} gliding, wings held still, {coefficients} coefficients"
-        title += f"; pitching moment balanced{where}"
+        title = f"{heading(about['species'])} gliding{conditions_of(about)}, wings held still, "
+        title += f"{coefficients} coefficients; pitching moment balanced{where}"
         figure.suptitle(title, fontsize=8.5, parse_math=False)
     return figure

@@ -26,6 +26,7 @@ from wingbeat._base.style import (
     new_figure,
 )
 from wingbeat.orbits.problem.problem import OrbitProblem
+from wingbeat.records.judgements import conditions_in_words, conditions_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -71,9 +72,9 @@ def tornado_page(found: _Ranked) -> Figure:
     with drawing():
         figure = new_figure(PAGE, _HEAD + _ROW * count)
         problem = found.problem
-        title = (
-            f"{heading(problem.species.name)} at {problem.speed:g} m/s, minimum {in_words(problem.minimise.name)}"
-        )
+        there = conditions_in_words(vars(problem.air), problem.species.added_mass)
+        title = f"{heading(problem.species.name)} at {problem.speed:g} m/s{there}, minimum "
+        title += in_words(problem.minimise.name)
         figure.suptitle(f"{title}: which uncertain numbers matter most", fontsize=8, parse_math=False)
         panels = figure.subplots(1, len(found.values), squeeze=False)[0]
         for panel, name in zip(panels, found.values, strict=True):
@@ -120,7 +121,9 @@ def pareto_page(record: dict[str, Any]) -> Figure:
     figure = new_figure(PAGE, 76.0)
     minimised, limited = (in_words(record[kind]) for kind in _KINDS)
     where = f"{heading(record['species'])} at {record['speed']:g} m/s{climb_text(record['climb'])}"
-    figure.suptitle(f"{where}: least {minimised} for each limit of the {limited}", fontsize=8.5)
+    figure.suptitle(
+        f"{where}{conditions_of(record)}: least {minimised} for each limit of the {limited}", fontsize=8.5
+    )
     front, changes = figure.subplots(1, 2)
     good = [point for point in record["points"] if point["quantity_value"] is not None]
     groups: dict[str, tuple[list[Any], dict[str, Any]]] = {
@@ -191,7 +194,9 @@ def terms_page(record: dict[str, Any]) -> Figure:
         *first, last = (word for name, words in _TERMS.items() if name in record["aero"] for word in words)
         terms = f"{', '.join(first)} and {last}" if first else last
         name = heading(record["species"])
-        title = f"{name} at {record['speed']:.4g} m/s: the share of {terms} rises from 0 to 1"
+        title = (
+            f"{name} at {record['speed']:.4g} m/s{conditions_of(record)}: the share of {terms} rises from 0 to 1"
+        )
         figure.suptitle(title, fontsize=8.5, parse_math=False)
         frequency, amplitude, power = figure.subplots(1, 3)
         runs = _runs(record)

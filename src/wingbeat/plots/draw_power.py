@@ -21,6 +21,7 @@ from wingbeat._base.style import (
     new_figure,
     shade_downstrokes,
 )
+from wingbeat.records.judgements import conditions_of
 from wingbeat.records.numbers import SHARES, power_account
 
 if TYPE_CHECKING:
@@ -53,7 +54,7 @@ def power_page(dataset: xr.Dataset) -> Figure:
         figure = new_figure(PAGE, 76.0)
         name, speed = heading(str(dataset.attrs["species"])), dataset.attrs["speed"]
         certified = "" if dataset.attrs["status"] == "converged" else ", NOT CERTIFIED"
-        title = f"{name} at {speed:.4g} m/s: hinge power of both wings{certified}"
+        title = f"{name} at {speed:.4g} m/s{conditions_of(dataset.attrs)}: hinge power of both wings{certified}"
         figure.suptitle(title, fontsize=8.5, parse_math=False)
         shares, loop, costs = figure.subplots(1, 3)
         shade_downstrokes(shares, 0.0, 1.0, downstrokes(phase, dataset["flap_rate"].values))

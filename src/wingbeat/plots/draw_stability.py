@@ -26,6 +26,7 @@ from wingbeat._base.style import (
     new_figure,
 )
 from wingbeat.animal.kinematics import ANGLES
+from wingbeat.records.judgements import conditions_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -104,7 +105,8 @@ def stability_page(records: Sequence[dict[str, Any]]) -> Figure:
     figure = new_figure(PAGE, 74.0)
     first, last, several = records[0], records[-1], len(records) > 1
     speeds = f"{first['speed']:g} to {last['speed']:g} m/s" if several else f"{first['speed']:g} m/s"
-    title = f"{heading(first['species'])} at {speeds}: what a disturbance is multiplied by in one beat"
+    title = f"{heading(first['species'])} at {speeds}{conditions_of(first)}: "
+    title += "what a disturbance is multiplied by in one beat"
     figure.suptitle(title + ("; marks grow with speed" if several else ""), fontsize=8.5)
     plane, sizes, bars = figure.subplots(1, 3, width_ratios=(1, 1.1, 1))
     turn = np.linspace(0.0, 2 * np.pi, 181)
@@ -262,7 +264,7 @@ def manoeuvre_page(plan: _Plan, flights: Mapping[str, _Flown]) -> Figure:
     figure = new_figure(PAGE, 110.0)
     orbit = plan.beat_map.orbit
     speeds = " to ".join(f"{speed:g}" for speed in (orbit.inputs["speed"], *(end.speed for end in plan.ends)))
-    title = f"{heading(str(orbit.inputs['species']['name']))}: from {speeds} m/s"
+    title = f"{heading(str(orbit.inputs['species']['name']))}{conditions_of(orbit.record())}: from {speeds} m/s"
     figure.suptitle(title, fontsize=8.5, parse_math=False)
     panels = figure.subplots(2, 2).ravel()
     states = (

@@ -27,8 +27,8 @@ from wingbeat._base.style import (
     new_figure,
     shade_downstrokes,
 )
-from wingbeat.records.judgements import statements
-from wingbeat.words.orbit_words import frequency_in_words, limits_in_words, mass_of
+from wingbeat.records.judgements import conditions_of, statements
+from wingbeat.words.orbit_words import frequency_in_words, limits_in_words, mass_of, other_frequency
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -109,7 +109,7 @@ def _described(dataset: xr.Dataset) -> tuple[list[tuple[str, dict[str, Any]]], f
 
 
 # What the two statements on an orbit, and what its limits have set, are read from, beside status and objective.
-_READ = ("closure", "plausibility", "active_bounds", "wingbeat")
+_READ = ("closure", "plausibility", "active_bounds", "wingbeat", "warnings")
 
 
 def _orbit_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[str, Any]]]:
@@ -128,12 +128,14 @@ def _orbit_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[st
         parts.append((said.plausible[:1].upper() + said.plausible[1:], _GOOD if said.good else _ALARM))
         if frequency := frequency_in_words(record):
             parts.append((f"Given, not predicted: {frequency}", _TEXT))
+        parts += [(note[:1].upper() + note[1:], _ALARM) for note in other_frequency(record)]
         if limits := limits_in_words(record):
             parts.append((f"Set by limits, not predicted: {limits}", _TEXT))
     else:
         parts = [(f"NOT CERTIFIED ({about['status']}): {about['message']}", _ALARM)]
     lines = [(line, look) for text, look in ((second, _TEXT), *parts) for line in textwrap.wrap(text, 120)]
-    return [(first, _TITLE), *lines]
+    there = conditions_of(about).removeprefix(", ")
+    return [(first, _TITLE), *([(there[:1].upper() + there[1:], _TEXT)] if there else []), *lines]
 
 
 def _flight_title(dataset: xr.Dataset, frequency: str) -> list[tuple[str, dict[str, Any]]]:

@@ -221,6 +221,7 @@ def inputs_of(
             "numbers": species.numbers,
             "plausible": species.plausible,
             **({"frequencies": species.frequencies} if species.frequencies else {}),
+            **({} if species.own_mass is None else {"own_mass": species.own_mass}),
             **shape,
         },
         "vehicle": vehicle_record(problem.vehicle),
@@ -311,6 +312,7 @@ def species_from(inputs: dict[str, Any]) -> Species:
         warnings=tuple(known["warnings"]),
         shape=shape,
         frequencies=tuple(_own_frequency(*one) for one in known.get("frequencies", [])),
+        own_mass=known.get("own_mass"),
     )
 
 

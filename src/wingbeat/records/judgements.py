@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._base import in_words
 from wingbeat.animal.species.species import Species
+from wingbeat.animal.vehicle import Air
 from wingbeat.orbits.flight.period import PATH_NAMES
 
 if TYPE_CHECKING:
@@ -20,6 +23,9 @@ JUDGED_NAMES = {
     **{"peak_force_over_weight": "peak force over weight", "mean_body_pitch": "mean body pitch"},
     **{"body_pitch_range": "range of body pitch", "strouhal": "Strouhal number", "reynolds": "Reynolds number"},
 }
+# Begins the warning that the frequency is not that of this load or air.
+OTHER_FREQUENCY = "the frequency is that of the bird's own mass at sea level"
+_THIN = 1e-3  # share by which the density of an air is that of another
 _KEYS = {"name", "value", "unit", "low", "high", "within", "source"}
 
 
@@ -45,6 +51,26 @@ def judged(species: Species, speed: float, name: str, value: float | None) -> di
         within = (low is None or value >= low - near) and (high is None or value <= high + near)
     judgement = {"name": name, "value": value, "unit": known.unit, "low": low, "high": high}
     return judgement | {"within": within, "source": known.source}
+
+
+def conditions_in_words(air: Mapping[str, float], added_mass: float = 0.0) -> str:
+    """Return what a title says of a load [kg] and of air that is not that at sea level; an empty text for neither.
+
+    >>> conditions_in_words({"density": 0.9093}, 0.03)
+    ', with 30 g added, in air of 0.9093 kg/m3'
+    """
+    load = (
+        f", with {1e3 * abs(added_mass):.3g} g {'added' if added_mass > 0 else 'taken off'}" if added_mass else ""
+    )
+    usual = math.isclose(air["density"], Air().density, rel_tol=_THIN)
+    return load if usual else f"{load}, in air of {air['density']:.4g} kg/m3"
+
+
+def conditions_of(record: Mapping[str, Any]) -> str:
+    """Return what a title says of the load and the air of a record, or of a data set's attributes."""
+    air = record.get("air")
+    air = json.loads(air) if isinstance(air, str) else air
+    return conditions_in_words(air or vars(Air()), float(record.get("added_mass", 0.0)))
 
 
 def is_judgement(value: Any) -> bool:

@@ -24,7 +24,7 @@ from wingbeat.orbits.problem.quantity import discharged, driven
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.starts import is_at_lower_bound
 from wingbeat.records.inputs import aero_record, vehicle_record, wingbeat_record
-from wingbeat.records.judgements import judged
+from wingbeat.records.judgements import OTHER_FREQUENCY, conditions_in_words, judged
 from wingbeat.records.numbers import beat_numbers, detached_share, judged_values
 from wingbeat.records.tables import finite_or_none
 
@@ -46,6 +46,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "air": dict(vars(problem.air)),
         "speed": float(problem.speed),
         "climb": float(problem.climb),
+        **({"added_mass": problem.species.added_mass} if problem.species.added_mass else {}),
         "objective": problem.minimise.name,
         "objective_value": solution.objective,
         "constraints": {str(c): solution.value_of(c.quantity, beat) for c in problem.subject_to},
@@ -202,17 +203,19 @@ def battery_warnings(beat: Beat) -> list[str]:
 
 
 def _other_frequency(problem: OrbitProblem) -> list[str]:
-    """Warn that a bird's own frequency is not that of a load, of another mass or of thin air."""
+    """Warn that a bird's own frequency is not that of a load, of another mass or of thin air, and give theirs."""
+    added, air, whole = problem.species.added_mass, problem.air, problem.vehicle.mass
 
-    def law(mass: float = 1.0, density: float = Air().density) -> float:
+    def law(mass: float, density: float) -> float:
         return BIRD_FREQUENCY(mass, 1.0, 1.0, density, 1.0)
 
-    in_air, by_mass = law(density=problem.air.density) / law(), 100 * (law(mass=1.01) / law() - 1)
-    told = [f"{in_air:.2f} times as high in this air"] * (abs(in_air - 1) >= _NOTICED)
-    loaded = problem.species.is_set_by_hand("vehicle.body.mass")
-    told += [f"higher by {by_mass:.2f} % for each per cent of mass"] * loaded
-    said = "the frequency is that of the bird's own mass at sea level; by Pennycuick's law it is"
-    return [f"{said} {' and '.join(told)} (--frequency)"] if told else []
+    times = law(whole, air.density) / law(whole - added, Air().density)
+    if abs(times - 1) < _NOTICED:
+        return []
+    own = problem.species.own_frequency(problem.speed).value
+    there = conditions_in_words({"density": air.density}, added).removeprefix(", ")
+    theirs = f"{times * own:.4g}"
+    return [f"{OTHER_FREQUENCY}; {there}, by Pennycuick's law, it is about {theirs} Hz: --frequency {theirs}"]
 
 
 def rivals(solution: Solution) -> list[str]:

@@ -34,6 +34,7 @@ from wingbeat.records.characteristic import (
 )
 from wingbeat.records.curve_dataset import curve_dataset
 from wingbeat.records.inputs import inputs_of
+from wingbeat.records.judgements import OTHER_FREQUENCY
 from wingbeat.records.measured import measured_beside
 from wingbeat.records.result_files import Saveable, load_dataset
 from wingbeat.records.tables import finite_or_none, frame_of
@@ -354,5 +355,6 @@ def _common_warnings(records: Sequence[dict[str, Any]], values: Sequence[float],
     alike: dict[str, tuple[str, list[float]]] = {}
     for record, value in zip(records, values, strict=True):
         for text in record["warnings"]:
-            alike.setdefault(re.sub(r"[\d.]+", "#", text), (text, []))[1].append(value)
+            key = text if text.startswith(OTHER_FREQUENCY) else re.sub(r"[\d.]+", "#", text)
+            alike.setdefault(key, (text, []))[1].append(value)
     return [f"at {span_in_words(where)} {unit}: {text}" for text, where in alike.values()]

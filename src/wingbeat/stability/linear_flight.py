@@ -235,11 +235,12 @@ class LinearFlight(Reported):
 
     def record(self) -> dict[str, Any]:
         """Return all numbers as a JSON-able dictionary in SI units and radians; complex numbers become pairs."""
-        asked, harmonics = self.orbit.inputs, self.compensation
+        asked, harmonics, flown = self.orbit.inputs, self.compensation, self.orbit.record()
         return {
             "species": asked["species"]["name"],
             "speed": asked["speed"],
             "climb": asked["climb"],
+            **{name: flown[name] for name in ("air", "added_mass") if name in flown},
             "frequency": self.orbit.wingbeat.frequency,
             "dt": self.dt,
             "state": list(self.state),
@@ -253,7 +254,7 @@ class LinearFlight(Reported):
                 for name, row in zip(self.inputs, harmonics.shares.T.tolist(), strict=True)
             },
             "spectral_radius": self.spectral_radius,
-            "stable": self.orbit.record()["stable"],  # by the certified multipliers
+            "stable": flown["stable"],  # by the certified multipliers
             "modes": [mode.record() for mode in self.modes],
             "averaged": {
                 "spectral_radius": abs(self.averaged_modes[0].multiplier),

@@ -25,7 +25,7 @@ from wingbeat._base import (
     written_range,
 )
 from wingbeat.records.judgements import called, set_by_limit
-from wingbeat.words.orbit_words import DEFAULT_AIR, FREQUENCY_BASES, air_in_words
+from wingbeat.words.orbit_words import DEFAULT_AIR, FREQUENCY_BASES, air_in_words, other_frequency
 
 # Of characteristic speeds that do not say it by their name.
 _LABELS = {
@@ -72,6 +72,7 @@ def curve_report(record: dict[str, Any]) -> Report:
         Line(f"{animal}, minimum {minimised}: {certified} of {len(points)} {PLURALS[over]} certified"),
         *([Line(f"air: {air_in_words(record['air'])}")] if record["air"] != DEFAULT_AIR else []),
         *([Line("given, not predicted: the frequency, the animal's own")] if record.get("own_frequency") else []),
+        *(Line(note, tone="warning") for note in other_frequency(record)),
         Table(rows, tuple(headings), "r" * (len(headings) - 1) + "l"),
         *([Line("* added to find the characteristic speeds")] if any(point["refined"] for point in points) else []),
         *_limited(record, over),

@@ -27,7 +27,7 @@ from wingbeat._base import (
 from wingbeat.animal.vehicle import Air
 from wingbeat.orbits.problem.origin import loads_in_words, model_rows, place_in_words
 from wingbeat.orbits.problem.quantity import OF_DRIVE
-from wingbeat.records.judgements import SetBy, called, set_by_limit, statements
+from wingbeat.records.judgements import OTHER_FREQUENCY, SetBy, called, set_by_limit, statements
 
 Rows = list[tuple[str, str]]
 # What the two metabolic powers of a record are.
@@ -113,6 +113,11 @@ def frequency_in_words(record: dict[str, Any]) -> str:
     own = [one for one in record.get("plausibility") or () if one["name"] == "frequency" and one["low"] is not None]
     band = f", {_range(own[0]['low'], own[0]['high'], 'Hz', 1.0)}" if own and basis != "given" else ""
     return f"frequency {_number(record['wingbeat']['frequency'], 'Hz', 1.0)}, {FREQUENCY_BASES[basis]}{band}"
+
+
+def other_frequency(record: Mapping[str, Any]) -> list[str]:
+    """Return the warning that a bird's own frequency is not that of this load or air; none, if it is."""
+    return [note for note in record.get("warnings") or () if OTHER_FREQUENCY in note]
 
 
 def flight_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
@@ -297,6 +302,7 @@ def orbit_report(record: dict[str, Any]) -> Report:
         ]
         if frequency := frequency_in_words(record):
             lines.append(status_line("given, not predicted", frequency, "title"))
+        lines += [Line(note, tone="warning") for note in other_frequency(record)]
         if limits := limits_in_words(record):
             lines.append(status_line("set by limits, not predicted", limits, "doubtful"))
     else:

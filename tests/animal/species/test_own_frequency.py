@@ -286,7 +286,7 @@ def test_a_bound_keeps_its_reason_when_its_parameter_becomes_free():
 
 
 @pytest.mark.slow
-def test_thin_air_and_a_load_say_that_the_frequency_is_not_theirs():
+def test_thin_air_and_a_load_say_that_the_frequency_is_not_theirs(tmp_path):
     starling = wb.load_species("common-starling")
     said = {}
     for name, bird in (
@@ -295,11 +295,29 @@ def test_thin_air_and_a_load_say_that_the_frequency_is_not_theirs():
         ("loaded", starling.with_payload(0.01)),
     ):
         problem = wb.models.animal(bird).problem(bird, speed=11.0)
-        said[name] = " ".join(wb.solve_orbit(problem, starts=1).record()["warnings"])
+        orbit = wb.solve_orbit(problem, starts=1)
+        said[name] = " ".join(orbit.record()["warnings"])
+        head = " ".join(text_of(orbit._report()).split()).partition(" flight species, mean speed")[0]
+        beside = "Hz the frequency is that of the bird's own mass at sea level"
+        assert (beside in head.partition("given, not predicted: ")[2]) == (name != "own")
+        title = " ".join(text.get_text() for text in orbit.plot().texts)
+        assert ("with 10 g added" in title.lower()) == (name == "loaded")
+        assert ("in air of 0.9093 kg/m3" in title.lower()) == (name == "high")
+        orbit.save(tmp_path / "orbit.nc")
+        assert wb.load_orbit(tmp_path / "orbit.nc").record()["warnings"] == orbit.record()["warnings"]
+        assert wb.load_orbit(tmp_path / "orbit.nc").problem.species.added_mass == bird.added_mass
     assert "Pennycuick's law" not in said["own"]
-    density = starling.at_altitude(3000.0).air.density
-    assert f"it is {(density / 1.225) ** -0.375:.2f} times as high in this air" in said["high"]
-    assert "0.37 % for each per cent of mass" in said["loaded"]
+    # Pennycuick 1996: frequency goes with mass to the power 3/8, and with density to the power -3/8.
+    own, density = starling.own_frequency(11.0).value, starling.at_altitude(3000.0).air.density
+    high = f"{own * (density / 1.225) ** -0.375:.4g} Hz"
+    assert (
+        f"in air of 0.9093 kg/m3, by Pennycuick's law, it is about {high}: --frequency {high[:-3]}" in said["high"]
+    )
+    mass = starling.vehicle.mass
+    assert (
+        f"with 10 g added, by Pennycuick's law, it is about {own * (1 + 0.01 / mass) ** 0.375:.4g} Hz"
+        in said["loaded"]
+    )
 
 
 @pytest.mark.slow

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import Any
 
-from wingbeat._base import Block, Line, Row, Table, cf, for_people
+from wingbeat._base import Block, Line, Report, Row, Table, cf, for_people
 from wingbeat.animal.species.numbers import (
     ALL_SPEEDS,
     Bound,
@@ -14,6 +15,23 @@ from wingbeat.animal.species.numbers import (
     bound_cells,
     display,
 )
+
+
+def species_report(animal: Any) -> Report:
+    """Return every number of a `Species` with its source, the bounds of free parameters, and the plausible ranges."""
+    names = ", ".join(name for name in (animal.common_name, animal.scientific_name, animal.kind) if name)
+    bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()} | animal.path_bounds
+    own = {path: path.removeprefix("wingbeat.") for path in bounds}
+    told = {path: Bound(bounds[path], animal.reasons[n], n in animal.guessed_bounds) for path, n in own.items()}
+    sources: dict[str, int] = {}
+    blocks: list[Block] = [Line(f"{animal.name}{': ' if names else ''}{names}")]
+    blocks += [*number_blocks("numbers", animal.numbers, sources), *bound_blocks(told)]
+    blocks += [*range_blocks(animal.plausible, sources), *frequency_blocks(animal.frequencies, sources)]
+    for name, other in animal.alternatives.items():
+        blocks += number_blocks(f"alternative {name}: {other.reason}", other.numbers, sources)
+    if animal.shape is not None:
+        blocks += number_blocks("shape, which only drawings use", animal.shape.numbers, sources)
+    return [*blocks, *last_blocks(sources, animal.warnings)]
 
 
 def number_blocks(title: str, numbers: Mapping[str, Number], sources: dict[str, int]) -> list[Block]:

@@ -10,9 +10,7 @@ from typing import Any, cast
 
 from wingbeat._base import (
     TRACED,
-    Block,
     FaultList,
-    Line,
     Report,
     Reported,
     is_traced,
@@ -43,7 +41,6 @@ from wingbeat.animal.species.numbers import (
     KEYS,
     UNKNOWN,
     Alternative,
-    Bound,
     Number,
     Numbers,
     OwnFrequency,
@@ -56,7 +53,7 @@ from wingbeat.animal.species.numbers import (
     range_of_tilt,
     to_si,
 )
-from wingbeat.animal.species.report import bound_blocks, frequency_blocks, last_blocks, number_blocks, range_blocks
+from wingbeat.animal.species.report import species_report
 from wingbeat.animal.species.scaling import frequencies_by_law, muscle_numbers, tail_numbers
 from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.vehicle import Air, Vehicle
@@ -86,6 +83,7 @@ class Species(Reported):
     shape : how it looks, for drawings alone; None if the file does not say it.
     frequencies : at which the animal beats by flight speed, from its file or else by the law of bats; see
         `own_frequency`.
+    own_mass : the animal's whole mass before a payload or a mass set by hand [kg]; None if nothing changed it.
 
     >>> from wingbeat import load_species
     >>> pigeon = load_species("pigeon")
@@ -114,6 +112,12 @@ class Species(Reported):
     warnings: tuple[str, ...]
     shape: Shape | None = None
     frequencies: tuple[OwnFrequency, ...] = ()
+    own_mass: float | None = None
+
+    @property
+    def added_mass(self) -> float:
+        """What a payload, or a mass set by hand, adds to the animal's own mass [kg]."""
+        return 0.0 if self.own_mass is None else self.vehicle.mass - self.own_mass
 
     def own_frequency(self, speed: float) -> OwnFrequency:
         """Return the frequency at which the animal beats at a flight speed, with its band, basis and source.
@@ -205,7 +209,9 @@ class Species(Reported):
             old = self.numbers.get(key.path)
             number = Number(to_si(value, path), key.unit, set_by_hand(key.path, old), old and old.range)
             given.put(key, number, path, value)
-        return self._rebuilt(self.numbers | given, given, faults)
+        changed, mass = self._rebuilt(self.numbers | given, given, faults), self.vehicle.mass
+        weighed = self.own_mass is not None or changed.vehicle.mass == mass
+        return changed if weighed else dataclasses.replace(changed, own_mass=mass)
 
     def with_record(self, record: Vehicle | Wingbeat) -> Species:
         """Return this species with its vehicle or its stock wingbeat replaced, and its `numbers` to match.
@@ -430,20 +436,3 @@ class Species(Reported):
         plain["guessed_bounds"] = sorted(self.guessed_bounds)
         plain["shape"] = self.shape and self.shape.drawn() | {"numbers": self.shape.numbers}
         return jsonable(plain)
-
-
-def species_report(animal: Species) -> Report:
-    """Return every number of a species with its source, the bounds of free parameters, and the plausible ranges."""
-    names = ", ".join(name for name in (animal.common_name, animal.scientific_name, animal.kind) if name)
-    bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()} | animal.path_bounds
-    own = {path: path.removeprefix("wingbeat.") for path in bounds}
-    told = {path: Bound(bounds[path], animal.reasons[n], n in animal.guessed_bounds) for path, n in own.items()}
-    sources: dict[str, int] = {}
-    blocks: list[Block] = [Line(f"{animal.name}{': ' if names else ''}{names}")]
-    blocks += [*number_blocks("numbers", animal.numbers, sources), *bound_blocks(told)]
-    blocks += [*range_blocks(animal.plausible, sources), *frequency_blocks(animal.frequencies, sources)]
-    for name, other in animal.alternatives.items():
-        blocks += number_blocks(f"alternative {name}: {other.reason}", other.numbers, sources)
-    if animal.shape is not None:
-        blocks += number_blocks("shape, which only drawings use", animal.shape.numbers, sources)
-    return [*blocks, *last_blocks(sources, animal.warnings)]

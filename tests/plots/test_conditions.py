@@ -44,5 +44,5 @@ def test_titles_name_the_conditions():
     assert "Pigeon: wingbeats of minimum frequency" in curve_title(about).replace("\n", " ")
     title = curve_title(about | {"air": '{"density": 0.9093}', "added_mass": high.added_mass})
     assert title.startswith("Pigeon, with 30 g added, in air of 0.9093 kg/m3: wingbeats of")
-    title = wb.glide_polar(high).plot().get_suptitle()
+    title = wb.plots.glide_page(wb.glide_polar(high).dataset).get_suptitle()
     assert title.startswith("Pigeon gliding, with 30 g added, in air of 0.9093 kg/m3, wings held still")

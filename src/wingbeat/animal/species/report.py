@@ -18,7 +18,7 @@ from wingbeat.animal.species.numbers import (
 
 
 def species_report(animal: Any) -> Report:
-    """Return every number of a `Species` with its source, the bounds of free parameters, and the plausible ranges."""
+    """Return every number of a `Species` with its source, bounds of free parameters, and plausible ranges."""
     names = ", ".join(name for name in (animal.common_name, animal.scientific_name, animal.kind) if name)
     bounds = {f"wingbeat.{name}": limits for name, limits in animal.bounds.items()} | animal.path_bounds
     own = {path: path.removeprefix("wingbeat.") for path in bounds}

@@ -344,3 +344,15 @@ def test_new_refuses_folders_and_unwritable_places(run: Any, tmp_path: Path) -> 
         assert (code, out, len(errors)) == (2, "", 1)
         assert errors[0].startswith("error: cannot write")
     assert os.listdir(tmp_path) == []
+
+
+def test_a_species_is_shown_with_the_bounds_of_a_model(run: Any) -> None:
+    """A warning called a bound a guess that no command showed."""
+    code, out, _ = run("species", "pigeon", "--model", "animal")
+    assert code == 0
+    for name, bounds in (("flap_mean_deg", "-10 to 25"), ("downstroke_fraction", "0.4 to 0.6")):
+        assert re.search(rf"wingbeat\.{name} +{bounds} .*guess: ", out)
+    assert "guess: guess" not in out
+    assert "downstroke_fraction    0.4" not in run("species", "pigeon")[1]
+    assert run("species", "pigeon", "--model", "animals")[0] == 2
+    assert run("species", "--model", "animal")[0] == 2

@@ -40,3 +40,15 @@ def test_the_warning_counts_each_start_once():
     assert (both.starts, both.starts_at_best, both.distinct_optima) == (4, 2, 2)
     said = "4 starts found 2 distinct optima; 2 ended in this one"
     assert any(note.startswith(said) for note in orbit_warnings(both, both.beat()))
+
+
+def test_a_guessed_bound_says_where_it_is_listed():
+    pigeon = wb.load_species("pigeon")
+    solution = find_orbit(wb.OrbitProblem(pigeon, speed=12.0), Settings(1))
+    at_bound = dataclasses.replace(solution, active_bounds=("flap_amplitude",))
+    (note,) = (note for note in orbit_warnings(at_bound, solution.beat()) if "that bound is a guess" in note)
+    assert note.endswith("see `wingbeat species NAME`")
+    origin = wb.models.animal(pigeon).problem(pigeon, speed=12.0).origin
+    by_model = dataclasses.replace(at_bound, problem=dataclasses.replace(solution.problem, origin=origin))
+    (note,) = (note for note in orbit_warnings(by_model, solution.beat()) if "that bound is a guess" in note)
+    assert note.endswith("see `wingbeat species NAME --model animal`")

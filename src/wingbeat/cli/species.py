@@ -33,6 +33,9 @@ def show(
     alternative: Annotated[
         str | None, option("Use this alternative: a named set of numbers in the species file, such as body-drag.")
     ] = None,
+    model: Annotated[
+        str, option("animal: with the tail, muscle, free parameters and bounds that this model adds.")
+    ] = "paper",
     set_: Annotated[
         list[str] | None, several("Numbers to change, PATH=VALUE: wing.mass=0.02 air.density=1.0 ...", "--set")
     ] = None,
@@ -54,7 +57,7 @@ def show(
     faults = FaultList()
     if name is None:
         changes = {"--alternative": alternative, "--set": set_ or None, "--altitude": altitude}
-        changes |= {"--temperature": temperature}
+        changes |= {"--temperature": temperature, "--model": None if model == "paper" else model}
         if given := [each for each, value in changes.items() if value is not None]:
             fix = f"wingbeat species pigeon {given[0]} ..."
             faults.add(given[0], "no species", "needs a species to change", fix)
@@ -66,6 +69,13 @@ def show(
     if alternative is not None:
         try:
             chosen = chosen.with_alternative(alternative)
+        except InvalidInputError as error:
+            faults.faults += error.faults
+    if model != "paper":
+        from wingbeat.models import model_of  # slow to import
+
+        try:
+            chosen = model_of(model, chosen).species(chosen)
         except InvalidInputError as error:
             faults.faults += error.faults
     if any(value is not None for value in (set_, altitude, temperature)):

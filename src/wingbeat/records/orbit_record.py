@@ -143,9 +143,11 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
         notes.append(f"the upstroke factor of {aero.upstroke_factor:g} is a guess: no source measured it")
     # Bounds that the user set do not count as guesses.
     own = problem.species.path_bounds | problem.species.bounds
+    options = " --model animal" if problem.origin is not None and problem.origin.name == "animal" else ""
     for name in solution.active_bounds:
         if name in problem.species.guessed_bounds and problem.bounds[name] == own[name]:
-            notes.append(f"the optimum is at the bound of {name}; that bound is a guess, see the species file")
+            guess = f"that bound is a guess, see `wingbeat species NAME{options}`"
+            notes.append(f"the optimum is at the bound of {name}; {guess}")
         if name in ("u", "w", "pitch_rate"):
             what = NOMENCLATURE[name].short_label
             notes.append(f"the initial {what} is at the solver's limit; do not trust this orbit")

@@ -54,7 +54,14 @@ def bound_blocks(bounds: Mapping[str, Bound]) -> list[Block]:
     rows = []
     for path, bound in bounds.items():
         guess = "guess: " if bound.guessed else ""
-        rows.append(Row((*bound_cells(path, bound.bounds), guess + bound.reason.removeprefix("guess: "))))
+        rows.append(
+            Row(
+                (
+                    *bound_cells(path, bound.bounds),
+                    guess + bound.reason.removeprefix("guess: ").removeprefix("guess; "),
+                )
+            )
+        )
     title = "free parameters, and limits that hold throughout the wingbeat"
     return [*_titled(title), Table(tuple(rows), ("quantity", "bounds", "unit", "reason"), "nrll")]
 

@@ -101,6 +101,7 @@ def faults_of_uv_run(words, made):
         except (CycloptsError, AssertionError) as error:
             faults.append(f"not understood: {error}")
         needed = {"app"} & set(rest[:1]) | ({"cluster"} if "--dask" in rest else set())
+        needed |= {"pareto"} if rest[:2] == ["study", "front"] else set()
         needed |= {ending for ending in ("parquet", "c3d") if any(word.endswith(f".{ending}") for word in rest)}
     elif program == "python":
         source = (ROOT / rest[0]).read_text(encoding="utf-8") if (ROOT / rest[0]).is_file() else ""

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 from cyclopts import App, Parameter, Token
 
 from wingbeat._base import FaultList, suggest
-from wingbeat.cli.arguments import Whole, check_outputs, flag, option, written_to
+from wingbeat.cli.arguments import Whole, check_outputs, flag, option, several, written_to
 from wingbeat.cli.process import EXIT_GOOD, EXIT_NOT_CERTIFIED
-from wingbeat.cli.terminal import FIRST_POINT, duration, exit_of, pace, say, say_stopping, study_bar
+from wingbeat.cli.terminal import FIRST_POINT, duration, exit_of, pace, print_report, say, say_stopping, study_bar
 
 if TYPE_CHECKING:
     from wingbeat.studies.study import Study
@@ -25,7 +25,7 @@ study = App(name="study", help="Solve a grid or sample of problems; an interrupt
 _WIDE = 10_000
 
 # What may follow the word `study` in place of a file.
-_COMMANDS = ("run", "status", "export", "plot", "salvage")
+_COMMANDS = ("run", "status", "export", "plot", "front", "salvage")
 
 
 def _file(kind: Any, tokens: Sequence[Token]) -> Path:
@@ -118,6 +118,46 @@ def plot(
 
     with _written(output, check_figure_name, "figure.png, .pdf or .svg") as path:
         save_figure(study_page(*_read(file).drawing(quantity)), path)
+
+
+@study.command
+def front(
+    file: File,
+    *,
+    best: Annotated[
+        list[str],
+        several("Wanted quantities, each with the end that is best: speed=max electrical_power=min payload=max."),
+    ],
+    output: Annotated[Path | None, written_to("A table of the front: .nc, .csv or .parquet.")] = None,
+) -> int:
+    """Print the Pareto front: the certified points that no other point beats in every wanted quantity.
+
+    Any column of the table can be wanted, and mass, the whole mass. Exit codes: 0; 3, no point is certified.
+
+    Examples: wingbeat study front designs.toml --best speed=max electrical_power=min payload=max
+    """
+    from wingbeat.studies.front import front_report
+    from wingbeat.studies.table import check_table_name, save_table, varied_numbers
+
+    faults = FaultList()
+    wanted: dict[str, str] = {}
+    for text in best:
+        name, sign, way = text.partition("=")
+        if not sign or name in wanted:
+            rule = "is given twice" if sign else "must be NAME=min or NAME=max"
+            faults.add("--best", text, rule, "for example speed=max electrical_power=min")
+        wanted[name] = way
+    if output is not None:
+        check_table_name(faults, "--output", output)
+    faults.raise_if_any()
+    check_outputs(output)
+    asked = _read(file)
+    found = asked.front(wanted)
+    print_report(front_report(found, wanted, varied_numbers(found, asked.plan.paths)))
+    if output is not None:
+        save_table(found, asked._about(), output)
+        print(f"wrote {output}", file=sys.stderr)
+    return EXIT_NOT_CERTIFIED if found.empty else EXIT_GOOD
 
 
 @study.command

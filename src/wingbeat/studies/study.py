@@ -37,6 +37,7 @@ from wingbeat.results.orbit import Orbit
 from wingbeat.studies.driver import Progress, Tally, drive
 from wingbeat.studies.engine import Engine, LocalProcesses
 from wingbeat.studies.form import check_form
+from wingbeat.studies.front import front_of
 from wingbeat.studies.plan import Plan, make_plan
 from wingbeat.studies.recipe import AIR, MOTION, changed_code, starts_of
 from wingbeat.studies.stopping import Stop, listening
@@ -252,6 +253,19 @@ class Study(Reported):
     def to_dataset(self) -> xr.Dataset:
         """Return the table as a dataset along ``point``."""
         return to_dataset(self.to_dataframe(), self._about())
+
+    def front(self, best: Mapping[str, str]) -> pd.DataFrame:
+        """Return the rows of the Pareto front, by the epsilon-constraint (see `wingbeat.studies.front.front_of`).
+
+        Parameters
+        ----------
+        best : columns of the table, or ``mass``, with ``"min"`` or ``"max"``: ``{"speed": "max", "mass": "min"}``.
+
+        Raises
+        ------
+        InvalidInputError, FileError : an unknown column or end, fewer than two; as of `orbits`; without moocore.
+        """
+        return front_of(self.to_dataframe(), best)
 
     def export(self, path: str | PathLike[str]) -> None:
         """Write the table as NetCDF (.nc), CSV (.csv) or Parquet (.parquet), whole or not at all.

@@ -29,6 +29,7 @@ LINES = {
     "study.run": "study run study.toml",
     "study.export": "study export study.toml",
     "study.plot": "study plot study.toml -o page.png",
+    "study.front": "study front study.toml --best speed=max mean_power=min",
     "simulate.simulate": "simulate pigeon",
     "species.show": "species pigeon",
     "species.new": "species new mine.toml --kind bird --mass 0.3 --wing-span 0.6 --wing-area 0.06",

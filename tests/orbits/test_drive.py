@@ -10,6 +10,7 @@ from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.orbits.problem.quantity import OF_DRIVE
 from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.orbits.uncertainty import OptimumSlopes
+from wingbeat.records.orbit_record import battery_warnings
 
 PIGEON = wb.load_species("pigeon")
 STRONG = PIGEON.with_muscle().with_values(
@@ -85,6 +86,46 @@ def test_the_record_has_the_numbers_of_muscle_and_motor():
         assert record[name] > 0.0, name
     assert record["vehicle"]["muscle"]["isometric_stress"] == 1e6
     assert "metabolic_power" not in wb.solve_orbit(problem(PIGEON), starts=1).record()
+
+
+BATTERY = {"battery.cells": 5, "battery.capacity": 0.85, "battery.internal_resistance": 0.06}
+
+
+def test_the_record_says_how_long_a_battery_lasts():
+    """The beat takes what the cells give from full to the end of the flight, less a few per cent of heat."""
+    orbit = wb.solve_orbit(problem(PIGEON.with_values({**MOTOR, **BATTERY}), minimise="electrical_power"), starts=1)
+    record = orbit.record()
+    assert record["flight_range"] == pytest.approx(12.0 * record["endurance"])
+    spent = record["electrical_power"] * record["endurance"] / 3600.0  # [Wh]
+    held = 0.85 * 5 * 3.83 * (1.0 - record["charge_left"])  # at the cell's mean voltage, 3.83 V
+    assert 0.95 * held < spent < 0.99 * held
+    text = orbit.summary()
+    assert f"{record['endurance'] / 60:.4g} min" in text
+    assert f"{record['flight_range'] / 1000:.4g} km" in text
+    bare = wb.solve_orbit(problem(PIGEON.with_values(MOTOR), minimise="electrical_power"), starts=1).record()
+    assert bare["electrical_power"] == pytest.approx(record["electrical_power"])
+    assert "endurance" not in bare
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({}, []),
+        ({"battery.cells": 3}, ["cannot feed this beat: the full battery has 12.3 V", "the motor needs 14.5 V"]),
+        (
+            {"battery.cells": 4, "battery.internal_resistance": 0.1},
+            ["voltage ends the flight with", "limit peak_motor_voltage"],
+        ),
+        ({"battery.max_current": 5.0}, ["may give at most 5 A"]),
+        ({"battery.capacity": 25.0}, ["the best lithium cells alone hold 350 Wh/kg"]),
+    ],
+)
+def test_a_battery_that_gives_too_little_is_warned_of(cheap, change, says):
+    """The beat of least metabolic power, driven by a motor: its largest voltage is 13.6 V, its mean power 60 W."""
+    drive = PIGEON.with_values({**MOTOR, **BATTERY, **change}).vehicle.drive
+    notes = battery_warnings(cheap.beat()._replace(drive=drive))
+    assert len(notes) == bool(says)
+    assert all(one in notes[0] for one in says)
 
 
 def test_a_limit_on_activation_holds(cheap):

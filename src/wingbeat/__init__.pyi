@@ -110,6 +110,7 @@ from .stability import Mode as Mode
 from .stability import Reach as Reach
 from .stability import SegmentFeedback as SegmentFeedback
 from .stability import SegmentFlight as SegmentFlight
+from .stability import Servo as Servo
 from .stability import StabilitySensitivities as StabilitySensitivities
 from .stability import feedback as feedback
 from .stability import feedback_in_beat as feedback_in_beat

@@ -119,3 +119,43 @@ def test_bad_input_gets_its_sentence(asked, said, capsys):
 def test_what_the_library_refuses_gets_its_sentence(saved, asked, said, capsys):
     assert main(["feedback", saved, *asked]) == 2
     assert said in capsys.readouterr().err
+
+
+@pytest.mark.slow
+def test_feedback_in_real_time_is_that_of_the_library(saved, cruise, capsys, tmp_path):
+    drawn = tmp_path / "gusts.png"
+    servo = ["--servo", "speed_deg=600", "pitch.lower_deg=-3", "flap.bandwidth=8"]
+    timing = ["--sample-rate", "100", "--delay-time", "0.01", *servo]
+    asked = ["--survey", "20", "--largest-gust", "3", "--json", "--plot", str(drawn)]
+    assert main(["feedback", saved, *timing, *asked]) == 0
+    record = json.loads(capsys.readouterr().out)
+    speed = math.radians(600)
+    servos = {"pitch": wb.Servo(speed=speed, lower=math.radians(-3)), "flap": wb.Servo(speed=speed, bandwidth=8.0)}
+    held = wb.feedback_in_beat(cruise, sample_rate=100.0, delay_time=0.01, servos=servos)
+    assert np.allclose(record["gains"], held.gains, rtol=1e-6, atol=1e-6)
+    assert record["lower"] == pytest.approx({"flap": math.radians(-12), "pitch": math.radians(-3)})
+    assert record["survey"]["survived"]["feedback"] == 1.0
+    assert record["survey"]["largest_gust"] < 3.0
+    flown = record["flights"]["feedback"]
+    gust = held.fly(wb.winds.CosineGust(w=2.0, duration=0.3), 30)
+    assert flown["largest_pitch"] == pytest.approx(np.abs(gust.deviations[:, 1]).max(), rel=1e-6)
+    assert drawn.read_bytes().startswith(b"\x89PNG")
+    assert main(["feedback", saved, *timing]) == 0
+    printed = capsys.readouterr().out
+    assert "10 samples a beat (95.28 Hz), 10 ms from a measurement to its effect" in printed
+    assert "pitch: -3 to +12 deg, 600 deg/s, bandwidth 9.55 Hz" in printed
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        (["--delay", "1", "--delay-time", "0.01"], "--delay = 1: is for feedback from beat to beat"),
+        (["--servo", "speed=600"], "--servo = 'speed'"),
+        (["--servo", "speed_deg=0"], "servo.speed = 0.0: must be > 0"),
+        (["--largest-gust", "0"], "--largest-gust = 0.0"),
+        (["--sample-rate", "2"], "sample_rate = 2.0: makes 0 samples in a beat"),
+    ],
+)
+def test_bad_timing_gets_its_sentence(saved, asked, said, capsys):
+    assert main(["feedback", saved, *asked]) == 2
+    assert said in capsys.readouterr().err

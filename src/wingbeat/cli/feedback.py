@@ -7,7 +7,7 @@ import math
 from pathlib import Path
 from typing import Annotated, Any
 
-from wingbeat._base import FaultList, Line, heading
+from wingbeat._base import FaultList, InvalidInputError, Line, heading
 from wingbeat.cli.arguments import Whole, check_files, check_outputs, figure, flag, named_numbers, option, several
 from wingbeat.cli.problem_options import Gust, Turbulence, WindSeed, saved_orbit, wind_of
 from wingbeat.cli.terminal import deliver, plain_console, print_report, progress_bar
@@ -18,15 +18,17 @@ from wingbeat.stability.beat_feedback import feedback as compute
 from wingbeat.stability.gust_flights import GustFlight, fly_gust
 from wingbeat.stability.many_flights import MOST_FLIGHTS, GustSurvey, survey_gusts
 from wingbeat.stability.options import MOST_DELAY, check_delay, check_inputs, check_noise
-from wingbeat.stability.reports import STATE_UNITS, beats_of, feedback_report, survey_report
+from wingbeat.stability.real_time import SERVO_LAWS, Servo, check_timing
+from wingbeat.stability.reports import STATE_UNITS, beats_of, feedback_report, segment_report, survey_report
+from wingbeat.stability.segment_feedback import SegmentFeedback, feedback_in_beat
 
 FREE, HELD = "no feedback", "feedback"
 # The gust that is flown if none is given: upward at 2 m/s, for 0.3 s.
 _GUST = ["w=2", "duration=0.3"]
 _ADVICE = (
     "The gains are those of small deviations, and this gust leads beyond them. A weaker gust (--gust w=1), "
-    "feedback in the same beat (--delay 0) or a gait that is stable by itself (wingbeat orbit ... --stable) may "
-    "survive."
+    "feedback in the same beat (--delay 0) or within it (--segments 4), or a gait that is stable by itself "
+    "(wingbeat orbit ... --stable) may survive."
 )
 
 
@@ -45,6 +47,23 @@ def feedback(
         Whole,
         option("Further beats by which the inputs are late in the flights; the feedback is computed without them."),
     ] = 0,
+    segments: Annotated[
+        Whole | None,
+        option("Feedback within the beat: so many measurements in each, from 2 to 8, with --servo to 256."),
+    ] = None,
+    sample_rate: Annotated[
+        float | None, option("The same, by measurements per second [Hz]; a beat gets a whole number of them.")
+    ] = None,
+    delay_time: Annotated[
+        float | None, option("The same, with this delay from a measurement to its effect [s].")
+    ] = None,
+    servo: Annotated[
+        list[str] | None,
+        several(
+            "The same, by servos that hold their commands: speed_deg=600 bandwidth=5 lower_deg=-12 upper_deg=8 "
+            "[deg/s, Hz, deg]; flap.speed_deg=600 for one of flap and pitch. If only one is named, only it moves."
+        ),
+    ] = None,
     gust: Gust = None,
     turbulence: Turbulence = None,
     wind_seed: WindSeed = 0,
@@ -53,7 +72,8 @@ def feedback(
         list[str] | None,
         several("Standard deviations of the sensors: z=0.02 body_pitch=0.01 u=0.1 ... [m, rad, m/s, rad/s]."),
     ] = None,
-    survey: Annotated[Whole, option("Number of random gusts of up to 5 m/s to survey; 0 for none.")] = 0,
+    survey: Annotated[Whole, option("Number of random gusts to survey; 0 for none.")] = 0,
+    largest_gust: Annotated[float, option("Of the surveyed gusts [m/s].")] = 5.0,
     seed: Annotated[Whole, option("Seed of the noise and of the surveyed gusts.")] = 0,
     json: Annotated[bool, flag("Print the numbers as JSON and nothing else.")] = False,
     plot: Annotated[Path | None, figure("Draw flights and survey")] = None,
@@ -70,13 +90,16 @@ def feedback(
 
     --json prints, in SI units and radians: species speed climb frequency dt state inputs delay gains (a row for
     each of inputs, a column for each of gain_columns) gain_columns cost lower upper multipliers spectral_radius
-    open_loop controllability sufficient version; late and beats;
+    open_loop controllability sufficient version; late and beats; within the beat, in place of dt to sufficient:
+    segments sample_rate delay_time held state (its names) inputs phases path gains (a matrix for each measurement)
+    lower upper servo_speed servo_bandwidth gait_speed multipliers spectral_radius open_loop;
     flights by name ("no feedback", "feedback"), each with completed survived largest_pitch lowest highest
     settled_beats; and survey (null without --survey) with flights beats largest_gust survived by_size by_direction.
     Exit code 3: the flight with feedback is lost.
 
     Examples: wingbeat feedback pigeon.nc --delay 1 --gust w=3; wingbeat feedback pigeon.nc --survey 1000 --plot
-    gusts.png
+    gusts.png; wingbeat feedback robot.nc --sample-rate 100 --delay-time 0.01 --servo speed_deg=600 --gust w=3
+    --survey 1000 --largest-gust 3
     """
     faults = FaultList()
     check_files(faults, None, plot=plot)
@@ -88,6 +111,15 @@ def feedback(
     check_noise(faults, errors, tuple(STATE_UNITS), seed)
     check_delay(faults, delay)
     faults.whole("late", late, 0, MOST_DELAY)
+    faults.number("--largest-gust", largest_gust, above=0.0, unit="m/s")
+    within = {"segments": segments, "sample_rate": sample_rate, "delay_time": delay_time}
+    within = {name: value for name, value in within.items() if value is not None}
+    servos = _servos(faults, servo)
+    check_timing(faults, segments, sample_rate, delay_time, held=servos is not None)
+    if within or servos is not None:
+        for name, value in (("--inputs", inputs), ("--delay", delay), ("--late", late)):
+            if value:
+                faults.add(name, value, "is for feedback from beat to beat", "leave it out, or give --delay-time")
     if inputs is not None:
         check_inputs(faults, inputs)
     faults.raise_if_any()
@@ -98,11 +130,17 @@ def feedback(
     wind = wind_of(blown, turbulence, wind_seed, airspeed)
     assert wind is not None
     with progress_bar(f"{orbit.inputs['species']['name']}, feedback and flights"):
-        held = compute(orbit, inputs, delay=delay)
+        held: Feedback | SegmentFeedback
+        if within or servos is not None:
+            held = feedback_in_beat(orbit, servos=servos, **within)
+        else:
+            held = compute(orbit, inputs, delay=delay)
         asked: dict[str, Any] = {"beats": beats, "late": late, "noise": errors, "seed": seed}
         flights = {FREE: fly_gust(orbit, wind, beats), HELD: fly_gust(orbit, wind, feedback=held, **asked)}
-        surveyed = survey_gusts(orbit, {FREE: None, HELD: held}, survey, **asked) if survey else None
+        both = {FREE: None, HELD: held}
+        surveyed = survey_gusts(orbit, both, survey, size=largest_gust, **asked) if survey else None
     delayed = f", feedback {beats_of(delay + late)} late" if delay + late else ""
+    delayed = f", feedback {1e3 * delay_time:.3g} ms late" if delay_time else delayed
     there = f"{orbit.inputs['speed']:g} m/s{conditions_of(orbit.record())}"
     title = f"{heading(str(orbit.inputs['species']['name']))} at {there}{delayed}"
     record = held.record() | {"late": late, "beats": beats}
@@ -113,9 +151,36 @@ def feedback(
     return deliver(record, report, flights[HELD].survived, json=json, plot=plot, page=page)
 
 
-def _print(held: Feedback, flights: dict[str, GustFlight], late: int, survey: GustSurvey | None) -> None:
+def _servos(faults: FaultList, words: list[str] | None) -> Servo | dict[str, Servo] | None:
+    """Return the servos of words such as ``pitch.speed_deg=600``; those without a law are for both."""
+    if words is None:
+        return None
+    names = ("speed_deg", "bandwidth", "lower_deg", "upper_deg")
+    known = (*names, *(f"{law}.{name}" for law in SERVO_LAWS for name in names))
+    found = named_numbers(faults, "--servo", words, known, "speed_deg=600")
+    laws = [law for law in SERVO_LAWS if any(name.startswith(law) for name in found)] or list(SERVO_LAWS)
+    servos = {}
+    for law in laws:
+        own = {name: found.get(f"{law}.{name}", found.get(name)) for name in names}
+        numbers = {
+            name.removesuffix("_deg"): math.radians(value) if name.endswith("_deg") else value
+            for name, value in own.items()
+            if value is not None
+        }
+        try:
+            servos[law] = Servo(**numbers)
+        except InvalidInputError as error:
+            faults.faults += error.faults
+            break
+    return servos
+
+
+def _print(
+    held: Feedback | SegmentFeedback, flights: dict[str, GustFlight], late: int, survey: GustSurvey | None
+) -> None:
     console = plain_console()
-    print_report([*feedback_report(held.record()), Line("")], console)
+    report = segment_report if isinstance(held, SegmentFeedback) else feedback_report
+    print_report([*report(held.record()), Line("")], console)
     for name, one in flights.items():
         called = name if name == FREE or not late else f"{name}, {beats_of(late)} late"
         record, told = one.record(), "lost"

@@ -19,6 +19,7 @@ from .options import FeedbackOptions as FeedbackOptions
 from .options import LinearOptions as LinearOptions
 from .options import ManoeuvreOptions as ManoeuvreOptions
 from .options import ManyOptions as ManyOptions
+from .real_time import Servo as Servo
 from .riccati import Reach as Reach
 from .segment_feedback import SegmentFeedback as SegmentFeedback
 from .segment_feedback import SegmentFlight as SegmentFlight

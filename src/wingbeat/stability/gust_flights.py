@@ -5,18 +5,21 @@ from __future__ import annotations
 import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from wingbeat._base import FaultList
 from wingbeat.aero.winds import CosineGust, Wind
+from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.mechanics.flights import air_at
 from wingbeat.orbits.flight.period import PITCH_STATE
 from wingbeat.orbits.options import check_certified
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.stability.beat_feedback import Feedback, feedback
 from wingbeat.stability.options import FEEDBACK, MANY, ManyOptions, check_no_wake
 from wingbeat.stability.reports import beats_of
+from wingbeat.stability.segment_feedback import SegmentFeedback
 from wingbeat.viewer.scene import Push
 
 if TYPE_CHECKING:
@@ -31,6 +34,16 @@ _LASTS = 2  # beats that a gust lasts
 _EVERY = 4  # of the samples of a flight, the page gets each fourth one: 16 in a beat
 
 
+class SampledFlight(NamedTuple):
+    """A flight with feedback within the beat, as figures take it."""
+
+    time: np.ndarray  # of the samples [s]
+    states: np.ndarray  # (x, z, body_pitch, u, w, pitch_rate) there
+    wingbeats: tuple[Wingbeat, ...]  # of each beat
+    air: np.ndarray  # its velocity at the samples, forward and up [m/s]
+    completed: bool
+
+
 @dataclass(frozen=True)
 class GustFlight:
     """A flight through a wind, and the orbit on which it began.
@@ -39,10 +52,10 @@ class GustFlight:
     scale of `FeedbackOptions`.
     """
 
-    flight: Flight
+    flight: Flight | SampledFlight
     pitch: np.ndarray  # deviation of the body pitch from the orbit's at the same phase [rad], shape (K,)
     height: np.ndarray  # above the orbit's path at the tops of the stroke [m], shape (beats + 1,)
-    changes: np.ndarray  # of the inputs in each beat, shape (beats, inputs) [Hz, rad or shares]
+    changes: np.ndarray  # of the inputs, as `ManyFlights.changes` of one flight
     survived: bool  # as in `ManyFlights`
     settled: int | None
 
@@ -67,13 +80,15 @@ def fly_gust(
     wind: Wind | tuple[float, float],
     beats: int = 30,
     *,
-    feedback: Feedback | None = None,
+    feedback: Feedback | SegmentFeedback | None = None,
     late: int = 0,
     noise: Mapping[str, float] | None = None,
     seed: int = 0,
     options: ManyOptions = MANY,
 ) -> GustFlight:
-    """Fly an orbit through a wind with the adaptive integrator; arguments are those of `simulate_many`."""
+    """Fly an orbit through a wind, without servos by the adaptive integrator; arguments as in `simulate_many`."""
+    if isinstance(feedback, SegmentFeedback):
+        return _within_beats(feedback, wind, beats, noise, seed, options)
     controller = None if feedback is None else feedback.controller(noise, seed, late=late)
     model, beat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
     species = orbit.problem.species
@@ -84,10 +99,34 @@ def fly_gust(
     height = tops[:, 1] - float(start.z) - float(orbit.inputs["climb"]) * flown.time[::SAMPLES]
     kept = flown.completed and bool(options.keeps(np.abs(pitch).max(), height.min()))
     changes = np.zeros((beats, 0)) if controller is None else np.array(controller.commands)
+    settled = _settled(tops[:, 2:] - np.array(start, dtype=float)[2:])
+    return GustFlight(flown, pitch, height, changes, kept, settled)
+
+
+def _settled(away: np.ndarray) -> int | None:
+    """Return after how many beats deviations of the pitch state at the tops of the stroke stay small."""
     scales = np.array([FEEDBACK.scale(name) for name in PITCH_STATE])
-    away = np.abs((tops[:, 2:] - np.array(start, dtype=float)[2:]) / scales).max(axis=1)
-    settled = max(np.flatnonzero(~(away < 0.5)).tolist(), default=-1) + 1
-    return GustFlight(flown, pitch, height, changes, kept, settled if settled < len(tops) else None)
+    settled = max(np.flatnonzero(~(np.abs(away / scales).max(axis=1) < 0.5)).tolist(), default=-1) + 1
+    return settled if settled < len(away) else None
+
+
+def _within_beats(
+    held: SegmentFeedback,
+    wind: Wind | tuple[float, float],
+    beats: int,
+    noise: Mapping[str, float] | None,
+    seed: int,
+    options: ManyOptions,
+) -> GustFlight:
+    flown, beat = held.fly(wind, beats, noise, seed), held.orbit.wingbeat
+    count = len(held.gains)
+    time = (np.append(held.phases[:-1] + np.arange(beats)[:, None], beats)) / beat.frequency
+    air = air_at(wind, time)
+    pitch, height = flown.deviations[:, 1], flown.deviations[::count, 0]
+    completed = bool(np.isfinite(flown.states).all())
+    kept = completed and bool(options.keeps(np.abs(pitch).max(), height.min()))
+    path = SampledFlight(time, flown.states, (beat,) * beats, air, completed)
+    return GustFlight(path, pitch, height, flown.bumps, kept, _settled(flown.deviations[::count, 1:]))
 
 
 def fly_pushes(
@@ -150,6 +189,7 @@ def _push(
     forward, up = (size * part for part in DIRECTIONS[direction])
     gust = CosineGust(u=forward, w=up, duration=_LASTS / orbit.wingbeat.frequency)
     flown = fly_gust(orbit, gust, beats, feedback=held, options=options)
+    assert isinstance(flown.flight, Flight)
     path = float(orbit.initial_state.z) + float(orbit.inputs["climb"]) * flown.flight.time
     height = flown.flight.states[:, 1] - path
     kept = np.cumprod(options.keeps(np.abs(flown.pitch), height)).astype(bool)

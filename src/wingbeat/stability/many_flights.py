@@ -132,8 +132,8 @@ class ManyFlights:
     states : (x, z, body_pitch, u, w, pitch_rate) at all tops of the stroke, shape (flights, beats + 1, 6)
         [m, m, rad, m/s, m/s, rad/s]; may be huge or not a number after a flight is lost.
     time : of these tops [s], shape (flights, beats + 1).
-    changes : of the inputs in each beat, shape (flights, beats, inputs) [Hz, rad or shares]; or bumps of flap
-        and pitch in each segment, shape (flights, beats * segments, 2) [rad].
+    changes : of the inputs in each beat, shape (flights, beats, inputs) [Hz, rad or shares]; or bumps or commands
+        of flap and pitch in each segment, shape (flights, beats * segments, 2) [rad].
     largest_pitch : largest deviation of the body pitch from the orbit's at the same phase [rad], shape (flights,).
     lowest : least height above the orbit's path at a top of the stroke [m], shape (flights,).
     survived : whether all numbers are finite, `largest_pitch` is at most `ManyOptions.tilt`, and `lowest` is not
@@ -184,9 +184,8 @@ def simulate_many(
         finite, beats or lateness that are no whole numbers, feedback of another orbit, lateness of feedback within
         a beat, noise of an unknown state or that is negative.
 
-    One flight was compared with the adaptive `simulate`: a pigeon with feedback, 30 beats through a gust of 3 m/s.
-    With 64 steps of the classical Runge-Kutta method in a beat, the states at the tops of the stroke differ by less
-    than 3e-3 in SI units. Without feedback, an unstable orbit enlarges this difference like any other disturbance.
+    A pigeon with feedback, flown for 30 beats through a gust of 3 m/s in 64 steps of the classical Runge-Kutta
+    method a beat, differs at the tops of the stroke by less than 3e-3 in SI units from the adaptive `simulate`.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
@@ -213,24 +212,41 @@ def simulate_many(
     faults.raise_if_any()
     deviations = noise_of(noise, FLIGHT_STATE, seed)
     lanes = min(options.lanes, len(winds)) if len(winds) < 8 else options.lanes
-    hold, names = _hold(orbit, feedback, options.steps)
-    place = np.array(orbit.initial_state, dtype=float), np.array(float(orbit.inputs["climb"]))
-    fly = fly_held.bind(orbit.problem.model, orbit.wingbeat, hold, *place, **names, late=late)
-    slower = 0.0 if isinstance(feedback, SegmentFeedback) else min([0.0, *hold.lower.tolist()])
+    slower = 0.0
+    segments = len(feedback.gains) if isinstance(feedback, SegmentFeedback) else 1
+    if isinstance(feedback, SegmentFeedback) and feedback.timing is not None:
+        fly = _timed(feedback, options.steps)
+    else:
+        hold, names = _hold(orbit, feedback, options.steps)
+        place = np.array(orbit.initial_state, dtype=float), np.array(float(orbit.inputs["climb"]))
+        fly = fly_held.bind(orbit.problem.model, orbit.wingbeat, hold, *place, **names, late=late)
+        slower = 0.0 if isinstance(feedback, SegmentFeedback) else min([0.0, *hold.lower.tolist()])
     random, found = np.random.default_rng(seed), []
     for air in _tables(orbit, winds, beats, slower, lanes, options.air_samples):
-        measured = deviations[:, None] * random.standard_normal((beats, len(hold.gains), len(FLIGHT_STATE), lanes))
+        measured = deviations[:, None] * random.standard_normal((beats, segments, len(FLIGHT_STATE), lanes))
         found.append(fly(air, 1.0 / (options.air_samples * orbit.wingbeat.frequency), measured))
     states, time, changes, pitch = (
         np.concatenate([np.moveaxis(part[i], -1, 0) for part in found])[: len(winds)] for i in range(4)
     )
-    changes = changes.reshape(len(winds), beats * len(hold.gains), changes.shape[-1])
+    changes = changes.reshape(len(winds), beats * segments, changes.shape[-1])
     states = np.concatenate([np.broadcast_to(orbit.initial_state, (len(winds), 1, 6)), states], axis=1)
     time = np.concatenate([np.zeros((len(winds), 1)), time], axis=1)
     height = states[:, :, 1] - float(orbit.initial_state.z) - float(orbit.inputs["climb"]) * time
     lowest = height.min(axis=1)
     survived = np.isfinite(states).all(axis=(1, 2)) & options.keeps(pitch, lowest)
     return ManyFlights(states, time, changes, pitch, lowest, survived)
+
+
+def _timed(feedback: SegmentFeedback, steps: int) -> Any:
+    """Return a function that flies feedback with a timing, and returns what `fly_held` does."""
+    fly = feedback.bound(steps)
+
+    def flown(air: np.ndarray, spacing: float, noise: np.ndarray) -> tuple[np.ndarray, ...]:
+        states, commands, _, largest = (np.asarray(part) for part in fly(air, spacing, noise))
+        ends = np.arange(1, len(states) + 1) / feedback.orbit.wingbeat.frequency
+        return states[:, -1], np.repeat(ends[:, None], len(largest), axis=1), commands, largest
+
+    return flown
 
 
 def _hold(orbit: Orbit, feedback: Feedback | SegmentFeedback | None, steps: int) -> tuple[Hold, dict[str, Any]]:
@@ -243,7 +259,7 @@ def _hold(orbit: Orbit, feedback: Feedback | SegmentFeedback | None, steps: int)
     if isinstance(feedback, SegmentFeedback):
         gains, ends, path = feedback.gains, feedback.phases, feedback.path[:-1]
         inputs, shares = bump_parameters(len(gains))
-        limits = np.full(shares.shape[1], -feedback.limit), np.full(shares.shape[1], feedback.limit)
+        limits = feedback.lower, feedback.upper
     elif feedback is not None:
         gains, limits, delay = feedback.gains[None], (feedback.lower, feedback.upper), feedback.delay
         inputs, harmonics, shares = feedback.inputs, feedback.flight.compensation, np.eye(len(feedback.inputs))

@@ -117,6 +117,35 @@ def feedback_report(record: dict[str, Any]) -> Report:
     ]
 
 
+def segment_report(record: dict[str, Any]) -> Report:
+    """Return what feedback within a beat does, its servos, and what these leave out."""
+    free, held = record["open_loop"]["spectral_radius"], record["spectral_radius"]
+    lines = [
+        f"{record['species']} at {record['speed']:g} m/s, {record['frequency']:.4g} Hz: "
+        f"spectral radius {free:.3f} without feedback, {held:.3f} with feedback",
+        f"{record['segments']} samples a beat ({record['sample_rate']:.4g} Hz), "
+        f"{1e3 * record['delay_time']:.3g} ms from a measurement to its effect",
+    ]
+    for name in record["inputs"]:
+        low, high, speed, bandwidth = (
+            record[key][name] for key in ("lower", "upper", "servo_speed", "servo_bandwidth")
+        )
+        if low == high:
+            lines.append(f"{name}: not moved")
+            continue
+        quick = "" if speed is None else f", {math.degrees(speed):.4g} deg/s"
+        quick += "" if bandwidth is None else f", bandwidth {bandwidth:.3g} Hz"
+        lines.append(f"{name}: {math.degrees(low):+.3g} to {math.degrees(high):+.3g} deg{quick}")
+    for name, speed in record["servo_speed"].items():
+        own = record["gait_speed"][name]
+        if speed is not None and own > speed and record["lower"][name] < record["upper"][name]:
+            lines.append(
+                f"The gait moves {name} at up to {math.degrees(own):.0f} deg/s: this servo of "
+                f"{math.degrees(speed):.0f} deg/s can add to the gait, not make it."
+            )
+    return [Line(line, wraps=False) for line in lines]
+
+
 def survey_report(record: dict[str, Any]) -> Report:
     """Return the share of random gusts that were survived with each feedback."""
     shares = tuple(Row((f"  {name}", f"{share:.1%}")) for name, share in record["survived"].items())

@@ -3,29 +3,47 @@
 A beat is cut into M equal segments of the stroke. In each, flap and pitch are raised by a bump ``b sin^2(M pi s)``,
 with s the phase of the stroke. It begins and ends without a jump of position or speed. Within its segment, a bump
 is a change of the mean by b/2 and of the cosine of order M by -b/2, so it needs no law of its own.
+
+With a delay or with servos, `real_time` samples the beat at equal times and adds the servos' angles instead.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import HIGHEST_ORDER, FaultList
+from wingbeat._base import HIGHEST_ORDER, FaultList, Report, Reported, __version__
 from wingbeat.aero.winds import Wind
-from wingbeat.animal.kinematics import Wingbeat, parameter, stroke_phase, with_parameters
+from wingbeat.animal.kinematics import Wingbeat, flap_angle, parameter, pitch_angle, stroke_phase, with_parameters
 from wingbeat.mechanics.flight_model import State
-from wingbeat.mechanics.flights import air_at, air_phases, check_wind, fly_through
+from wingbeat.mechanics.flights import air_at, air_phases, check_wind, fly_through, state_of
 from wingbeat.orbits.flight.period import flier
 from wingbeat.orbits.options import check_certified
-from wingbeat.stability.options import FEEDBACK, FLIGHT_STATE, FeedbackOptions, check_no_wake
+from wingbeat.stability.options import FEEDBACK, FLIGHT_STATE, FeedbackOptions, check_no_wake, noise_of
+from wingbeat.stability.real_time import (
+    MOST_SAMPLES,
+    MOST_WAITING,
+    SERVO_LAWS,
+    WITHOUT_END,
+    Servo,
+    Timing,
+    check_servos,
+    check_timing,
+    fly_in_time,
+    sample_maps,
+    timed_hold,
+)
+from wingbeat.stability.reports import pairs, segment_report
 from wingbeat.stability.riccati import multipliers_over, periodic_linear_quadratic
 
 if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit
 
-_LAWS = ("flap", "pitch")
+_TIMED_STEPS = 256  # of a beat, in which `SegmentFeedback.fly` flies with a delay or servos
 _SAMPLES = 8  # of a segment, between which the adaptive integrator flies
 
 
@@ -37,7 +55,8 @@ class SegmentFlight:
     ----------
     states : (x, z, body_pitch, u, w, pitch_rate) at the ends of all segments, shape (beats * segments + 1, 6).
     deviations : of (z, body_pitch, u, w, pitch_rate) from the orbit there, shape (beats * segments + 1, 5).
-    bumps : of flap and pitch in each segment [rad], shape (beats * segments, 2).
+    bumps : of flap and pitch in each segment [rad], shape (beats * segments, 2); or the commands of servos.
+    angles : of the servos at the ends of all segments [rad], likewise; None for bumps without delay.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -49,11 +68,12 @@ class SegmentFlight:
     states: np.ndarray
     deviations: np.ndarray
     bumps: np.ndarray
+    angles: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
-class SegmentFeedback:
-    """Feedback that adds bumps to flap and pitch in each segment of a beat; made by `feedback_in_beat`.
+class SegmentFeedback(Reported):
+    """Feedback that adds bumps or servos' angles to flap and pitch; made by `feedback_in_beat`.
 
     Attributes
     ----------
@@ -61,8 +81,10 @@ class SegmentFeedback:
     phases : ends of the segments, shape (segments + 1,), from 0 to 1.
     path : (z, body_pitch, u, w, pitch_rate) of the orbit there, z from that at phase 0, shape (segments + 1, 5).
     A, B : linear maps over each segment, by the state and by the bumps, shapes (segments, 5, 5), (segments, 5, 2).
-    gains : of each segment, shape (segments, 2, 5) [rad per unit of the state].
-    limit : largest bump [rad].
+        With `timing` the state goes on behind these five: see `state`.
+    gains : of each segment, shape (segments, 2, 5) [rad per unit of the state], or (segments, 2, states).
+    lower, upper : smallest and largest bumps or commands of flap and pitch, shape (2,) [rad].
+    timing : samples, delay and servos; None for bumps without delay.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -77,7 +99,19 @@ class SegmentFeedback:
     A: np.ndarray
     B: np.ndarray
     gains: np.ndarray
-    limit: float
+    lower: np.ndarray
+    upper: np.ndarray
+    timing: Timing | None = None
+
+    @property
+    def state(self) -> tuple[str, ...]:
+        """Names of the columns of `gains`: the state, angles of the servos, and commands that wait."""
+        if self.timing is None:
+            return FLIGHT_STATE
+        servos = tuple(f"{law} servo" for law in SERVO_LAWS) if self.timing.held else ()
+        ago = range(1, self.timing.waiting + 2)
+        waiting = (f"{law}, {n} sample{'s' if n > 1 else ''} ago" for n in ago for law in SERVO_LAWS)
+        return (*FLIGHT_STATE, *servos, *waiting)
 
     @property
     def multipliers(self) -> np.ndarray:
@@ -90,7 +124,7 @@ class SegmentFeedback:
         return float(np.abs(self.multipliers[0]))
 
     def wingbeat(self, bumps: np.ndarray) -> Wingbeat:
-        """Return the wingbeat that flies bumps; it holds within one segment.
+        """Return the wingbeat that flies bumps without delay; it holds within one segment.
 
         Parameters
         ----------
@@ -100,30 +134,45 @@ class SegmentFeedback:
         changed = [float(parameter(beat, name)) for name in names] + shares @ bumps
         return with_parameters(beat, dict(zip(names, changed.tolist(), strict=True)))
 
-    def fly(self, wind: Wind | tuple[float, float], beats: int = 30) -> SegmentFlight:
+    def fly(
+        self,
+        wind: Wind | tuple[float, float],
+        beats: int = 30,
+        noise: Mapping[str, float] | None = None,
+        seed: int = 0,
+        start: State | None = None,
+    ) -> SegmentFlight:
         """Fly the orbit through a wind with this feedback, the whole equations of motion.
 
         Parameters
         ----------
         wind : velocity of the air, as in `simulate`.
         beats : number of wingbeats.
+        noise : standard deviations of what is measured of the state, by name [m, rad, m/s, rad/s].
+        seed : of the noise.
+        start : at the top of the stroke; default the orbit's.
 
         Raises
         ------
-        InvalidInputError : beats that are no whole number, a wind that is not finite.
+        InvalidInputError : beats that are no whole number, a wind that is not finite, noise of an unknown state.
         """
         faults = FaultList()
         faults.whole("beats", beats, 1, 10_000)
         check_wind(faults, wind)
         faults.raise_if_any()
+        begun = np.array(self.orbit.initial_state if start is None else state_of(start), dtype=float)
+        random = np.random.default_rng(seed)
+        error = noise_of(noise, FLIGHT_STATE, seed) * random.standard_normal((beats, len(self.gains), 5))
+        if self.timing is not None:
+            return self._fly_in_time(wind, beats, error, begun)
         model, period = self.orbit.problem.model, 1.0 / self.orbit.wingbeat.frequency
-        state, climb = np.array(self.orbit.initial_state, dtype=float), float(self.orbit.inputs["climb"]) * period
-        states, deviations, bumps = [state], [np.zeros(5)], []
+        state, climb = begun, float(self.orbit.inputs["climb"]) * period
+        states, deviations, bumps = [state], [begun[1:] - self.path[0] - [begun[1], 0, 0, 0, 0]], []
         for beat in range(beats):
             table = air_at(wind, period * (beat + air_phases()))
             raised = np.array([states[0][1] + climb * beat, 0.0, 0.0, 0.0, 0.0])
             for j in range(len(self.gains)):
-                taken = np.clip(-self.gains[j] @ deviations[-1], -self.limit, self.limit)
+                taken = np.clip(-self.gains[j] @ (deviations[-1] + error[beat, j]), self.lower, self.upper)
                 taken = np.where(np.isfinite(taken), taken, 0.0)  # the vehicle has tumbled
                 phases = np.linspace(self.phases[j], self.phases[j + 1], _SAMPLES + 1)
                 flown, _ = fly_through(model, self.wingbeat(taken), State(*state), phases, air=table)
@@ -133,39 +182,171 @@ class SegmentFeedback:
                 bumps.append(taken)
         return SegmentFlight(np.stack(states), np.stack(deviations), np.stack(bumps))
 
+    @property
+    def gait_speed(self) -> tuple[float, float]:
+        """Largest speeds of flap and pitch of the orbit's own wingbeat [rad/s], to which servos add."""
+        beat, phase = self.orbit.wingbeat, np.linspace(0.0, 1.0, 4097)
+        laws = (np.asarray(law(beat, phase)) for law in (flap_angle, pitch_angle))
+        flap, pitch = (float(np.abs(np.diff(law)).max() * 4096 * beat.frequency) for law in laws)
+        return flap, pitch
 
-def feedback_in_beat(orbit: Orbit, segments: int = 4, *, options: FeedbackOptions = FEEDBACK) -> SegmentFeedback:
-    """Compute the linear feedback that holds an orbit by bumps of flap and pitch several times a beat.
+    def _report(self) -> Report:
+        return segment_report(self.record())
+
+    def record(self) -> dict[str, Any]:
+        """Return all numbers as a JSON-able dictionary in SI units and radians; what has no limit is None."""
+        orbit, N = self.orbit, len(self.gains)
+        frequency, timing = float(orbit.wingbeat.frequency), self.timing
+        free = [WITHOUT_END] * len(SERVO_LAWS)
+        speed, pace = (free, free) if timing is None else (timing.speed.tolist(), timing.pace.tolist())
+
+        def named(values: Any) -> dict[str, float | None]:
+            return {k: v if v < WITHOUT_END else None for k, v in zip(SERVO_LAWS, values, strict=True)}
+
+        return {
+            "species": orbit.inputs["species"]["name"],
+            "speed": orbit.inputs["speed"],
+            "climb": orbit.inputs["climb"],
+            "frequency": frequency,
+            "segments": N,
+            "sample_rate": N * frequency,
+            "delay_time": 0.0 if timing is None else (timing.waiting + timing.fraction) / (N * frequency),
+            "held": timing is not None and timing.held,
+            "state": list(self.state),
+            "inputs": list(SERVO_LAWS),
+            "phases": self.phases.tolist(),
+            "path": self.path.tolist(),
+            "gains": self.gains.tolist(),
+            "lower": dict(zip(SERVO_LAWS, self.lower.tolist(), strict=True)),
+            "upper": dict(zip(SERVO_LAWS, self.upper.tolist(), strict=True)),
+            "servo_speed": named(speed),
+            "servo_bandwidth": named([one / (2.0 * math.pi) if one < WITHOUT_END else one for one in pace]),
+            "gait_speed": dict(zip(SERVO_LAWS, self.gait_speed, strict=True)),
+            "multipliers": pairs(self.multipliers),
+            "spectral_radius": self.spectral_radius,
+            "open_loop": {"spectral_radius": float(np.abs(multipliers_over(list(self.A))[0]))},
+            "version": __version__,
+        }
+
+    def bound(self, steps: int, start: np.ndarray | None = None) -> Callable[..., Any]:
+        """Return `fly_in_time` with this feedback, which has a `timing`, in at least so many steps a beat.
+
+        Parameters
+        ----------
+        steps : of a beat.
+        start : state at the start, shape (6,); default the orbit's.
+        """
+        orbit, timing, limits = self.orbit, self.timing, (self.lower, self.upper)
+        assert timing is not None
+        hold = timed_hold(orbit, timing, self.gains, limits, self.path[:-1], steps)
+        begun = np.array(orbit.initial_state, dtype=float) if start is None else start
+        place = begun, np.array(float(orbit.inputs["climb"]))
+        named = {"held": timing.held, "samples": timing.samples}
+        return fly_in_time.bind(orbit.problem.model, orbit.wingbeat, hold, *place, **named)
+
+    def _fly_in_time(
+        self, wind: Wind | tuple[float, float], beats: int, error: np.ndarray, begun: np.ndarray
+    ) -> SegmentFlight:
+        samples, spacing = len(self.gains), 1.0 / (_TIMED_STEPS * self.orbit.wingbeat.frequency)
+        air = air_at(wind, spacing * np.arange(-1, beats * _TIMED_STEPS + 3))
+        found = self.bound(_TIMED_STEPS, begun)(air[None], spacing, error[..., None])
+        states, bumps, angles = (np.asarray(part)[..., 0].reshape(beats * samples, -1) for part in found[:3])
+        states = np.concatenate([begun[None], states])
+        along = np.concatenate([np.tile(self.path[:-1], (beats, 1)), self.path[:1]])
+        climbed = self.path[-1, 0] - self.path[0, 0]  # in a beat
+        along[:, 0] += begun[1] + climbed * (np.arange(len(states)) // samples)
+        return SegmentFlight(states, states[:, 1:] - along, bumps, angles)
+
+
+def feedback_in_beat(
+    orbit: Orbit,
+    segments: int | None = None,
+    *,
+    sample_rate: float | None = None,
+    delay_time: float = 0.0,
+    servos: Servo | Mapping[str, Servo] | None = None,
+    options: FeedbackOptions = FEEDBACK,
+) -> SegmentFeedback:
+    """Compute the linear feedback that holds an orbit by changes of flap and pitch several times a beat.
 
     Parameters
     ----------
     orbit : a certified orbit.
-    segments : number of segments of a beat, 2 to 8; the state is measured at the start of each.
+    segments : number of segments of a beat, 2 to 8, or with servos to 256; the state is measured at the start of
+        each. Default: 4, or what is nearest to `sample_rate`.
+    sample_rate : measurements per second [Hz], in place of `segments`; a beat has a whole number of them.
+    delay_time : from a measurement to the start of its effect [s].
+    servos : of flap and pitch, or by the names of those that there are. Commands are held from sample to sample,
+        and the servos follow them; without a speed or a bandwidth they make bumps without a jump.
     options : scales of the state, and unit and reach of angles.
 
     Raises
     ------
     InvalidInputError : an orbit that is not certified or has the lag of the wake, segments that are no whole
-        number from 2 to 8.
+        number from 2 to 8, a sample rate or a delay out of range, what is no servo.
 
     The gains minimise the sum over all segments of squared deviations in scales and squared bumps in units; they
     solve the periodic discrete Riccati equation (Bittanti, Colaneri & De Nicolao 1991, in The Riccati Equation).
+    They know the delay and the servos' bandwidth; limits and speeds act in flights alone. Theory: equation
+    ``sampled-map``.
 
-    >>> import wingbeat as wb
+    >>> import math, wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
     >>> wb.feedback_in_beat(orbit, 4).spectral_radius < 1
     True
+    >>> servo = wb.Servo(speed=math.radians(600))
+    >>> slow = wb.feedback_in_beat(orbit, sample_rate=100.0, delay_time=0.01, servos=servo)
+    >>> len(slow.gains), slow.spectral_radius < 1
+    (10, True)
     """
     faults = FaultList()
     check_certified(faults, orbit.status, "hold a certified orbit")
     check_no_wake(faults, orbit.problem.aero.wake)
-    faults.whole("segments", segments, 2, HIGHEST_ORDER, "4 for example")
+    moved = check_servos(faults, servos)
+    held = any(not one.ideal for one in moved.values())
+    check_timing(faults, segments, sample_rate, delay_time, held)
     faults.raise_if_any()
-    phases, path, by_state, by_bumps = _segment_maps(orbit, segments, options.linear.blocks)
+    count, most = segments or 4, MOST_SAMPLES if held else HIGHEST_ORDER
+    frequency = float(orbit.wingbeat.frequency)
+    if sample_rate is not None:
+        count = round(sample_rate / frequency)
+        if not 2 <= count <= most:
+            more = "" if held else "; servos with a speed or a bandwidth allow more"
+            rule = f"makes {count} samples in a beat of {frequency:.3g} Hz, which may have 2 to {most}{more}"
+            faults.add("sample_rate", sample_rate, rule, f"give {2 * frequency:.3g} to {most * frequency:.3g} Hz")
+    late = delay_time * frequency * count
+    if late > MOST_WAITING:
+        fix = f"give at most {MOST_WAITING / frequency / count:.2g} s"
+        faults.add("delay_time", delay_time, f"lasts longer than {MOST_WAITING} samples", fix)
+    faults.raise_if_any()
+    reach = options.reach * options.angle
+    lower, upper, speed, pace = np.zeros((4, len(SERVO_LAWS)))
+    speed[:], pace[:] = WITHOUT_END, max((one.pace for one in moved.values()), default=0.0)  # one that is not moved
+    for i, law in enumerate(SERVO_LAWS):
+        if law in moved:
+            one = moved[law]
+            lower[i] = -reach if one.lower is None else one.lower
+            upper[i] = reach if one.upper is None else one.upper
+            speed[i], pace[i] = min(one.speed, WITHOUT_END), one.pace
+    used = upper - lower > 0.0
+    if not used.any():
+        faults.add("servos", servos, "leave nothing that can move", "give limits that differ")
+        faults.raise_if_any()
     scales = np.array([options.scale(name) for name in FLIGHT_STATE])
-    costs = np.diag(1.0 / scales**2), np.eye(len(_LAWS)) / options.angle**2
-    gains = periodic_linear_quadratic(by_state, by_bumps, *costs)
-    return SegmentFeedback(orbit, phases, path, by_state, by_bumps, gains, options.reach * options.angle)
+    if held or delay_time > 0.0:
+        waiting = math.floor(late + 1e-9)
+        timing = Timing(count, waiting, max(late - waiting, 0.0), held, speed, pace)
+        path, by_state, by_bumps = sample_maps(orbit, timing)
+        phases = np.linspace(0.0, 1.0, count + 1)
+    else:
+        timing = None
+        phases, path, by_state, by_bumps = _segment_maps(orbit, count, options.linear.blocks)
+    state_cost = np.zeros(by_state.shape[1:])
+    state_cost[: len(scales), : len(scales)] = np.diag(1.0 / scales**2)
+    input_cost = np.eye(int(used.sum())) / options.angle**2
+    gains = np.zeros((count, len(SERVO_LAWS), len(state_cost)))
+    gains[:, used] = periodic_linear_quadratic(by_state, by_bumps[:, :, used], state_cost, input_cost)
+    return SegmentFeedback(orbit, phases, path, by_state, by_bumps, gains, lower, upper, timing)
 
 
 def bump_parameters(segments: int) -> tuple[tuple[str, ...], np.ndarray]:
@@ -173,8 +354,8 @@ def bump_parameters(segments: int) -> tuple[tuple[str, ...], np.ndarray]:
 
     Theory: equation ``bump``.
     """
-    names = tuple(name for law in _LAWS for name in (f"{law}_mean", f"{law}_cos_{segments}"))
-    return names, np.kron(np.eye(len(_LAWS)), [[0.5], [-0.5]])
+    names = tuple(name for law in SERVO_LAWS for name in (f"{law}_mean", f"{law}_cos_{segments}"))
+    return names, np.kron(np.eye(len(SERVO_LAWS)), [[0.5], [-0.5]])
 
 
 def _segment_maps(orbit: Orbit, segments: int, blocks: int) -> tuple[np.ndarray, ...]:

@@ -60,6 +60,7 @@ WORK = (
     "wingbeat.stability.beat_feedback.linearise",
     "wingbeat.stability.manoeuvre_search.BeatMap.__init__",
     "wingbeat.cli.feedback.compute",
+    "wingbeat.cli.feedback.feedback_in_beat",
     "wingbeat_evidence.commands.compare.compare_with_lattice",
     "wingbeat.cli.export.write_gait",
     "wingbeat.cli.view.write_page",

@@ -1,0 +1,432 @@
+"""Feedback in real time: sampled, late, and flown by servos that follow held commands; for `feedback_in_beat`.
+
+A beat has N samples at equal times. Each sets a command for flap and pitch, which acts after the delay. Servos add
+what they reach to the laws of the gait: ideal ones a bump, real ones a held angle that they follow with finite
+speed and bandwidth. Flights are computed in steps. Between the ends of a step, the angle of a servo is a cubic, so
+the wing's momentum is that of the servo's velocity.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from wingbeat._base import HIGHEST_ORDER, FaultList
+from wingbeat._jax.arrays import at_default, jax, jnp
+from wingbeat._jax.exported import exported
+from wingbeat.animal.kinematics import Wingbeat, parameter, stroke_phase, unpack
+from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
+from wingbeat.mechanics.flights import air_between, fly_through
+
+if TYPE_CHECKING:
+    from wingbeat._jax.arrays import (
+        AirOfFlights,
+        Flights,
+        FlownCommands,
+        FlownSamples,
+        NoiseOfFlights,
+        Samples,
+        Scalar,
+        ServoMaps,
+        ServoStates,
+        StateVector,
+    )
+    from wingbeat.results.orbit import Orbit
+
+SERVO_LAWS = ("flap", "pitch")
+MOST_SAMPLES = 256  # of a beat
+MOST_WAITING = 64  # samples of delay
+SUBSTEPS = 8  # of a step, in each of which a servo follows a constant target
+_STEPS = 256  # of a beat, for the linear maps
+# Stands for an infinite speed [rad/s] or bandwidth [1/s] where both meet in one formula.
+WITHOUT_END = 1e9
+_SLOWING = math.radians(10.0)  # distance from its command at which a servo begins to slow down, if not known
+_ORDER = 2  # of the harmonics that carry a servo's velocity and acceleration
+
+
+@dataclass(frozen=True)
+class Servo:
+    """What moves flap or pitch beyond the gait: limits of its angle, its speed and its bandwidth.
+
+    Parameters
+    ----------
+    speed : largest speed [rad/s]. A data sheet's 0.1 s for 60 degrees is ``math.radians(600)``.
+    bandwidth : of a first-order lag [Hz]; an angle follows a small step of the command with the time constant
+        1/(2 pi bandwidth). If only the speed is given, the servo slows down within 10 degrees of its command, a
+        guess: 9.5 Hz with 600 degrees per second. No servo starts and stops at once, and gains that take it for one
+        that does are useless.
+    lower, upper : smallest and largest command [rad], at most and at least 0; None for `FeedbackOptions.reach`
+        units of an angle.
+
+    Raises
+    ------
+    InvalidInputError : a speed or bandwidth that is not positive, limits without 0 between them.
+
+    Theory: equation ``servo``.
+
+    >>> import math, wingbeat as wb
+    >>> wb.Servo(speed=math.radians(600), upper=0.1).ideal, wb.Servo(lower=-0.1).ideal
+    (False, True)
+    """
+
+    speed: float = math.inf
+    bandwidth: float = math.inf
+    lower: float | None = None
+    upper: float | None = None
+
+    def __post_init__(self) -> None:
+        faults = FaultList()
+        fix = "leave it out if there is no such limit"
+        if self.speed != math.inf:
+            faults.number("servo.speed", self.speed, above=0.0, unit="rad/s", fix=fix)
+        if self.bandwidth != math.inf:
+            faults.number("servo.bandwidth", self.bandwidth, above=0.0, unit="Hz", fix=fix)
+        if self.lower is not None:
+            faults.number("servo.lower", self.lower, at_least=-math.pi, at_most=0.0, unit="rad")
+        if self.upper is not None:
+            faults.number("servo.upper", self.upper, at_least=0.0, at_most=math.pi, unit="rad")
+        faults.raise_if_any()
+
+    @property
+    def ideal(self) -> bool:
+        """Whether neither speed nor bandwidth is limited."""
+        return self.speed == math.inf and self.bandwidth == math.inf
+
+    @property
+    def pace(self) -> float:
+        """Inverse of the time constant [1/s]."""
+        own = self.speed / _SLOWING if self.bandwidth == math.inf else 2.0 * math.pi * self.bandwidth
+        return min(own, WITHOUT_END)
+
+
+class Timing(NamedTuple):
+    """How a beat is sampled and what acts when."""
+
+    samples: int  # of a beat
+    waiting: int  # whole samples of delay
+    fraction: float  # of a sample that the delay lasts longer
+    held: bool  # servos follow held commands; else they make bumps
+    speed: np.ndarray  # of flap and pitch, shape (2,) [rad/s]
+    pace: np.ndarray  # inverse of their time constants, shape (2,) [1/s]
+
+
+class TimedHold(NamedTuple):
+    """Feedback in real time as arrays; each command is one of flap and pitch."""
+
+    gains: np.ndarray  # of each sample, shape (samples, 2, 5 + 2 held + 2 (waiting + 1))
+    lower: np.ndarray  # smallest and largest commands, shape (2,)
+    upper: np.ndarray
+    speed: np.ndarray  # of the servos, shape (2,)
+    pace: np.ndarray
+    target: np.ndarray  # from `shares_of_commands`
+    ending: np.ndarray
+    path: np.ndarray  # (z, body_pitch, u, w, pitch_rate) at the samples, z from that at phase 0, shape (samples, 5)
+    pitch: np.ndarray  # body pitch of the orbit at the ends of all steps [rad], shape (samples, steps + 1)
+
+
+# --- servos ---
+
+
+def check_servos(faults: FaultList, servos: Servo | Mapping[str, Servo] | None) -> dict[str, Servo]:
+    """Return the servo of each law that has one, and note what is no servo; None means ideal servos of both."""
+    if servos is None or isinstance(servos, Servo):
+        return dict.fromkeys(SERVO_LAWS, servos or Servo())
+    if not isinstance(servos, Mapping) or not servos:
+        faults.add("servos", servos, "must be a Servo, or servos by name", "for example {'pitch': wb.Servo()}")
+        return {}
+    for name, one in servos.items():
+        faults.choice("servos", name, SERVO_LAWS)
+        if not isinstance(one, Servo):
+            faults.add(f"servos.{name}", one, "must be a Servo", "for example wb.Servo(speed=10.0)")
+    if len({one.ideal for one in servos.values() if isinstance(one, Servo)}) > 1:
+        rule = "mix a servo without limits of speed or bandwidth with one that has them"
+        faults.add("servos", list(servos), rule, "give both a speed or a bandwidth, or leave one out")
+    return dict(servos) if not faults.faults else {}
+
+
+def check_timing(
+    faults: FaultList, segments: int | None, sample_rate: float | None, delay_time: float | None, held: bool
+) -> None:
+    """Note numbers out of range, and two of which only one can be given; None stands for what is not given."""
+    if segments is not None:
+        faults.whole("segments", segments, 2, MOST_SAMPLES if held else HIGHEST_ORDER, "4 for example")
+    if delay_time is not None:
+        faults.number("delay_time", delay_time, at_least=0.0, unit="s")
+    if sample_rate is not None:
+        faults.number("sample_rate", sample_rate, above=0.0, unit="Hz")
+        if segments is not None:
+            faults.add("segments", segments, "is given beside a sample rate", "leave one of them out")
+
+
+def follow(angle: Any, target: Any, speed: Any, pace: Any, time: Any) -> Any:
+    """Return the angle of a servo that follows a constant target for some time. Theory: equation ``servo``."""
+    away = target - angle
+    far = jnp.abs(away)
+    slewing = jnp.clip((far - speed / pace) / speed, 0.0, time)
+    left = (far - speed * slewing) * jnp.exp(-pace * (time - slewing))
+    return target - jnp.sign(away) * left
+
+
+def shares_of_commands(timing: Timing, steps: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the shares of the older and the newer of the two commands that act in a sample of so many steps.
+
+    For servos: shares of their mean target in each substep, and of that at its end, shape (steps, SUBSTEPS, 2)
+    each. For bumps: of the angle and of its slope by time in samples at the ends of all steps, (steps + 1, 2) each.
+    Theory: equation ``late-command``.
+    """
+    late = timing.fraction
+    if timing.held:
+        ends = np.linspace(0.0, 1.0, steps * SUBSTEPS + 1)
+        newer = np.diff(np.maximum(ends - late, 0.0)) * steps * SUBSTEPS, (ends[1:] > late + 1e-12) * 1.0
+        mean, last = (np.stack([1.0 - one, one], axis=-1).reshape(steps, SUBSTEPS, 2) for one in newer)
+        return mean, last
+    since = np.linspace(0.0, 1.0, steps + 1)[:, None] + [1.0 - late, -late]
+    inside = (since >= 0.0) & (since <= 1.0)
+    return inside * np.sin(np.pi * since) ** 2, inside * np.pi * np.sin(2.0 * np.pi * since)
+
+
+# --- flights ---
+
+
+def _cubic(angle: Any, rate: Any, angle_end: Any, rate_end: Any, time: Any) -> tuple[Any, Any, Any]:
+    """Return the cubic through angles and rates at both ends of a step that lasts `time`.
+
+    Angles, rates and accelerations, each at the start, the middle and the end, which are the second axis.
+    """
+    mean = (angle_end - angle) / time
+    middle = 0.5 * (angle + angle_end) + 0.125 * time * (rate - rate_end), 1.5 * mean - 0.25 * (rate + rate_end)
+    bends = 6.0 * mean - 4.0 * rate - 2.0 * rate_end, rate_end - rate, 2.0 * rate + 4.0 * rate_end - 6.0 * mean
+    return (
+        jnp.stack([angle, middle[0], angle_end], axis=1),
+        jnp.stack([rate, middle[1], rate_end], axis=1),
+        jnp.stack(bends, axis=1) / time,
+    )
+
+
+def with_offsets(wingbeat: Wingbeat, phase: Any, offsets: tuple[Any, Any, Any]) -> Wingbeat:
+    """Return a wingbeat whose flap and pitch are changed at a phase by angles, their rates and accelerations.
+
+    Mean and second harmonic make the change; it holds at this phase alone. Theory: equation ``servo-offset``.
+    """
+    value, rate, acceleration = offsets
+    by_phase, twice = rate / wingbeat.frequency, acceleration / wingbeat.frequency**2
+    at, slope, bend = phase, 1.0, 0.0
+    if not at_default(wingbeat, "downstroke_fraction"):
+
+        def stretched(place: Any) -> Any:
+            return jax.jvp(lambda p: stroke_phase(wingbeat, p), (place,), (jnp.ones_like(place),))
+
+        (at, slope), (_, bend) = jax.jvp(stretched, (phase,), (jnp.ones_like(phase),))
+    turns = 2.0 * math.pi * _ORDER
+    sine = by_phase / (turns * slope)
+    cosine = (turns * sine * bend - twice) / (turns * slope) ** 2
+    c, s = jnp.cos(turns * at), jnp.sin(turns * at)
+    changes = value - cosine, cosine * c - sine * s, cosine * s + sine * c
+    names = tuple(f"{law}_{part}" for law in SERVO_LAWS for part in ("mean", f"cos_{_ORDER}", f"sin_{_ORDER}"))
+    numbers = [parameter(wingbeat, name) + changes[i % 3][i // 3] for i, name in enumerate(names)]
+    return unpack(names, wingbeat, numbers)
+
+
+def _step(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    state: Any,
+    phase: Any,
+    size: Any,
+    servos: tuple[Any, Any, Any],
+    wind_at: Any,
+) -> Any:
+    """Return states of many flights one step of the classical Runge-Kutta method later."""
+    at = jnp.stack([jnp.broadcast_to(phase + part * size, state.shape[1:]) for part in (0.0, 0.5, 1.0)])
+    motion = motion_table(model, with_offsets(wingbeat, at, servos), at)
+    stages = np.array([0, 1, 1, 2])
+    # One body for the four stages, because compiling takes longer than flying.
+    along = jax.tree_util.tree_map(lambda a: jnp.moveaxis(jnp.broadcast_to(a, a.shape), -2, 0)[stages], motion)
+    winds = jnp.stack([wind_at(one) for one in at])[stages]
+
+    def stage(carry: Any, within: Any) -> tuple[Any, None]:
+        last, total = carry
+        moved, wind, share, weight = within
+        place = state + share * size * last
+        # The loads depend on the velocity through the air, and both frames have the same accelerations.
+        by_time = body_rates(model, moved, place[2:].at[1:3].add(-wind))
+        rates = jnp.concatenate([place[3:5], by_time]) / wingbeat.frequency
+        return (rates, total + weight * rates), None
+
+    shares, weights = np.array([0.0, 0.5, 0.5, 1.0]), np.array([1.0, 2.0, 2.0, 1.0]) / 6.0
+    (_, total), _ = jax.lax.scan(stage, (0.0 * state, 0.0 * state), (along, winds, shares, weights))
+    return state + size * total
+
+
+@exported(static=("held", "samples"))
+def fly_in_time(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    hold: TimedHold,
+    start: StateVector,
+    climb: Scalar,
+    air: AirOfFlights,
+    spacing: Scalar,
+    noise: NoiseOfFlights,
+    *,
+    held: bool,
+    samples: int,
+) -> tuple[FlownSamples, FlownCommands, FlownCommands, Flights]:
+    """Fly many flights from the start of an orbit that climbs by `climb` [m/s], each through its own air.
+
+    Return the states at the end of each sample, the commands, the angles of the servos at its end, and the largest
+    deviation of the body pitch from the orbit's.
+    """
+    flights, steps, period = air.shape[0], hold.pitch.shape[1] - 1, 1.0 / wingbeat.frequency
+    size = 1.0 / (samples * steps)
+    time = size * period
+    most, speed, pace = (values[:, None] for values in (hold.speed, hold.speed, hold.pace))
+    queue = (hold.gains.shape[2] - 5 - 2 * held) // 2  # commands that wait at the start of a sample
+
+    def sample(carry: Any, asked: Any) -> tuple[Any, Any]:
+        state, angle, rate, waiting, largest, begun = carry
+        gains, path, pitch, first, error = asked
+        along = jnp.broadcast_to(path[:, None], (5, flights)).at[0].add(start[1] + climb * begun[0])
+        known = [state[1:] - along + error, *([angle] if held else []), *waiting]
+        command = jnp.clip(-gains @ jnp.concatenate(known), hold.lower[:, None], hold.upper[:, None])
+        command = jnp.where(jnp.isfinite(command), command, 0.0)  # the vehicle has tumbled
+        given = jnp.concatenate([command[None], waiting])
+        newer, older = given[queue - 1], given[queue]
+
+        def step(inner: Any, within: Any) -> tuple[Any, None]:
+            state, angle, rate, largest = inner
+            i, target, ending, orbit_pitch = within
+            if held:
+
+                def substep(at: Any, shares: Any) -> tuple[Any, None]:
+                    return follow(at, shares[0] * older + shares[1] * newer, speed, pace, time / SUBSTEPS), None
+
+                angle_end, _ = jax.lax.scan(substep, angle, target)
+                aim = ending[-1, 0] * older + ending[-1, 1] * newer
+                rate_end = jnp.clip(pace * (aim - angle_end), -most, most)
+            else:
+                angle_end = target[1, 0] * older + target[1, 1] * newer
+                rate_end = (ending[1, 0] * older + ending[1, 1] * newer) * (samples / period)
+            servos = _cubic(angle, rate, angle_end, rate_end, time)
+            phase = first + i * size
+
+            def wind_at(at: Any) -> Any:
+                return jax.vmap(air_between, out_axes=1)(air, (begun + at * period) / spacing)
+
+            state = _step(model, wingbeat, state, phase, size, servos, wind_at)
+            away = jnp.abs(state[2] - orbit_pitch)
+            return (state, angle_end, rate_end, jnp.maximum(largest, away)), None
+
+        tables = (hold.target, hold.ending) if held else tuple(_pairs(one) for one in (hold.target, hold.ending))
+        each = jnp.arange(steps, dtype=float), *tables, pitch[1:]
+        largest = jnp.maximum(largest, jnp.abs(state[2] - pitch[0]))
+        (state, angle, rate, largest), _ = jax.lax.scan(step, (state, angle, rate, largest), each)
+        return (state, angle, rate, given[:-1], largest, begun), (state, command, angle)
+
+    def beat(carry: Any, errors: Any) -> tuple[Any, Any]:
+        firsts = jnp.arange(samples, dtype=float) / samples
+        inner, found = jax.lax.scan(sample, carry, (hold.gains, hold.path, hold.pitch, firsts, errors))
+        return (*inner[:-1], inner[-1] + period), found
+
+    zeros, none = jnp.zeros(flights), jnp.zeros((2, flights))
+    begin = jnp.broadcast_to(start[:, None], (6, flights)), none, none, jnp.zeros((queue, 2, flights)), zeros, zeros
+    (*_, largest, _), (states, commands, angles) = jax.lax.scan(beat, begin, noise)
+    return states, commands, angles, largest
+
+
+def _pairs(values: Any) -> Any:
+    """Return each value with the next one."""
+    return jnp.stack([values[:-1], values[1:]], axis=1)
+
+
+def timed_hold(
+    orbit: Orbit,
+    timing: Timing,
+    gains: np.ndarray,
+    limits: tuple[np.ndarray, np.ndarray],
+    path: np.ndarray,
+    steps: int,
+) -> TimedHold:
+    """Return feedback as arrays, for flights in at least so many steps a beat."""
+    count = math.ceil(steps / timing.samples)
+    ends = np.linspace(0.0, 1.0, timing.samples * count + 1)
+    flown, _ = fly_through(orbit.problem.model, orbit.wingbeat, orbit.initial_state, ends)
+    pitch = np.stack([flown[j * count : (j + 1) * count + 1, 2] for j in range(timing.samples)])
+    shares = shares_of_commands(timing, count)
+    return TimedHold(gains, *limits, timing.speed, timing.pace, *shares, path, pitch)
+
+
+# --- linear maps ---
+
+
+@exported
+def _step_maps(model: FlightModel, wingbeat: Wingbeat, states: ServoStates, phases: Samples) -> ServoMaps:
+    """Return derivatives of steps between phases by (z, body_pitch, u, w, pitch_rate), and by the servos' cubic.
+
+    The cubic has angles and rates of flap and pitch at the start, then at the end. Shape (5, 13, steps).
+    """
+    size = phases[1] - phases[0]
+    several = states.shape[0]
+
+    def after(changes: Any) -> Any:
+        whole = jnp.concatenate([jnp.zeros((1, several)), changes[:5]])
+        servos = _cubic(changes[5:7], changes[7:9], changes[9:11], changes[11:], size / wingbeat.frequency)
+        ended = _step(model, wingbeat, states.T + whole, phases[:-1], size, servos, lambda at: 0.0 * at)
+        return ended[1:]
+
+    still = jnp.zeros((13, several))
+
+    def by(direction: Any) -> Any:
+        return jax.jvp(after, (still,), (jnp.broadcast_to(direction[:, None], still.shape),))[1]
+
+    return jnp.moveaxis(jax.vmap(by)(jnp.eye(13)), 0, 1)
+
+
+def sample_maps(orbit: Orbit, timing: Timing) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the orbit's path at the samples, and the maps A and B of each sample by state and commands.
+
+    The state is that of the body, then the angles of the servos if commands are held, then the commands that wait,
+    the newest first. Servos have no limits here. Theory: equation ``sampled-map``.
+    """
+    N, steps, pace = timing.samples, math.ceil(_STEPS / timing.samples), timing.pace
+    phases = np.linspace(0.0, 1.0, N * steps + 1)
+    flown, _ = fly_through(orbit.problem.model, orbit.wingbeat, orbit.initial_state, phases)
+    parts = np.moveaxis(np.asarray(_step_maps(orbit.problem.model, orbit.wingbeat, flown[:-1], phases)), -1, 0)
+    path = flown[::steps, 1:] - [float(orbit.initial_state.z), 0.0, 0.0, 0.0, 0.0]
+    mean, last = shares_of_commands(timing, steps)
+    time = 1.0 / (orbit.wingbeat.frequency * N * steps)
+    keep = np.exp(-pace * time / SUBSTEPS)
+    held, queue = 2 * timing.held, timing.waiting + 1
+    whole = 5 + held + 2 * queue
+    # Each row below is a linear function of (state, command): the last two columns are the command.
+    own = np.eye(whole, whole + 2)
+    commands = [np.eye(whole + 2)[whole:], *(own[5 + held + 2 * i :][:2] for i in range(queue))]
+    newer, older = commands[queue - 1], commands[queue]
+    A, B = np.zeros((N, whole, whole)), np.zeros((N, whole, 2))
+    for j in range(N):
+        body = own[:5]
+        if timing.held:
+            angle = own[5:7]
+            rate = pace[:, None] * (older - angle)
+        else:
+            angle, rate = mean[0, 0] * older + mean[0, 1] * newer, (last[0, 0] * older + last[0, 1] * newer) * N
+            rate = rate * orbit.wingbeat.frequency
+        for k in range(steps):
+            if timing.held:
+                end = angle
+                for s in mean[k]:
+                    aim = s[0] * older + s[1] * newer
+                    end = aim + keep[:, None] * (end - aim)
+                rate_end = pace[:, None] * (last[k, -1, 0] * older + last[k, -1, 1] * newer - end)
+            else:
+                end = mean[k + 1, 0] * older + mean[k + 1, 1] * newer
+                rate_end = (last[k + 1, 0] * older + last[k + 1, 1] * newer) * N * orbit.wingbeat.frequency
+            body = parts[j * steps + k] @ np.concatenate([body, angle, rate, end, rate_end])
+            angle, rate = end, rate_end
+        rows = np.concatenate([body, *([angle] if timing.held else []), *commands[:queue]])
+        A[j], B[j] = rows[:, :whole], rows[:, whole:]
+    return path, A, B

@@ -129,3 +129,10 @@ def test_a_battery_without_a_motor_is_refused():
     whole = {"battery.cells": 3, "battery.capacity": 0.85, "battery.internal_resistance": 0.06}
     with pytest.raises(wb.InvalidInputError, match="must be given for a battery"):
         wb.load_species("pigeon").with_values(whole)
+
+
+def test_it_lasts_as_long_as_in_a_battery_modelling_library():
+    """PyBaMM 26.10.1.1, Thevenin without elements, 10 W a cell: 1107.139 s (findings/pybamm_full_cell.sh)."""
+    found = discharge(PACK, np.full(257, 30.0), np.zeros(257))
+    assert float(found.endurance) == pytest.approx(1107.139, rel=2e-5)
+    assert float(found.charge_left) == pytest.approx(0.035126, abs=1e-5)

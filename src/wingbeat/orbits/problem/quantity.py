@@ -202,9 +202,14 @@ class DriveQuantity:
         return self.of(beat, driven(beat))
 
 
+def _pitch_power(beat: Beat) -> Any:
+    """Return the power of the pitch hinges that somebody pays for [W]."""
+    return beat.pitch_torque * beat.wing_pitch_rate
+
+
 def _pitching(beat: Beat) -> Any:
     """Return the mean positive power of the pitch hinges [W]."""
-    return beat.mean_positive(beat.pitch_torque * beat.wing_pitch_rate)
+    return beat.mean_positive(_pitch_power(beat))
 
 
 def _metabolic_power(beat: Beat, need: Driven) -> Any:
@@ -288,8 +293,7 @@ def discharged(beat: Beat, need: Driven) -> Discharge:
     """Return what the battery does if this beat is flown until the battery no longer allows it."""
     assert beat.drive.battery is not None
     motor = _motor_series(beat, need)
-    pitching = beat.pitch_torque * beat.wing_pitch_rate  # as in the electrical power
-    power = jnp.maximum(motor.power, 0.0) + jnp.maximum(pitching, 0.0)
+    power = jnp.maximum(motor.power, 0.0) + jnp.maximum(_pitch_power(beat), 0.0)  # as in the electrical power
     return discharge(beat.drive.battery, power, motor.voltage)
 
 

@@ -140,7 +140,11 @@ def test_feedback_in_real_time_is_that_of_the_library(saved, cruise, capsys, tmp
     gust = held.fly(wb.winds.CosineGust(w=2.0, duration=0.3), 30)
     assert flown["largest_pitch"] == pytest.approx(np.abs(gust.deviations[:, 1]).max(), rel=1e-6)
     assert drawn.read_bytes().startswith(b"\x89PNG")
-    assert main(["feedback", saved, *timing]) == 0
+    written = tmp_path / "controller.json"
+    assert main(["feedback", saved, *timing, "--output", str(written)]) == 0
+    assert np.allclose(
+        json.loads(written.read_text())["gains_of_state"], held.gains[:, :, :5], rtol=1e-6, atol=1e-6
+    )
     printed = capsys.readouterr().out
     assert "10 samples a beat (95.28 Hz), 10 ms from a measurement to its effect" in printed
     assert "pitch: -3 to +12 deg, 600 deg/s, bandwidth 9.55 Hz" in printed
@@ -150,6 +154,8 @@ def test_feedback_in_real_time_is_that_of_the_library(saved, cruise, capsys, tmp
     ("asked", "said"),
     [
         (["--delay", "1", "--delay-time", "0.01"], "--delay = 1: is for feedback from beat to beat"),
+        (["--output", "controller.json"], "is for feedback within the beat"),
+        (["--output", "controller.txt", "--segments", "4"], "does not end in a suffix for a controller"),
         (["--servo", "speed=600"], "--servo = 'speed'"),
         (["--servo", "speed_deg=0"], "servo.speed = 0.0: must be > 0"),
         (["--largest-gust", "0"], "--largest-gust = 0.0"),

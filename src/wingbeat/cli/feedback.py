@@ -8,13 +8,24 @@ from pathlib import Path
 from typing import Annotated, Any
 
 from wingbeat._base import FaultList, InvalidInputError, Line, heading
-from wingbeat.cli.arguments import Whole, check_files, check_outputs, figure, flag, named_numbers, option, several
+from wingbeat.cli.arguments import (
+    Whole,
+    check_files,
+    check_outputs,
+    figure,
+    flag,
+    named_numbers,
+    option,
+    several,
+    written_to,
+)
 from wingbeat.cli.problem_options import Gust, Turbulence, WindSeed, saved_orbit, wind_of
 from wingbeat.cli.terminal import deliver, plain_console, print_report, progress_bar
 from wingbeat.plots import gust_page
 from wingbeat.records.judgements import conditions_of
 from wingbeat.stability.beat_feedback import Feedback
 from wingbeat.stability.beat_feedback import feedback as compute
+from wingbeat.stability.control_block import check_block
 from wingbeat.stability.gust_flights import GustFlight, fly_gust
 from wingbeat.stability.many_flights import MOST_FLIGHTS, GustSurvey, survey_gusts
 from wingbeat.stability.options import MOST_DELAY, check_delay, check_inputs, check_noise
@@ -75,6 +86,10 @@ def feedback(
     survey: Annotated[Whole, option("Number of random gusts to survey; 0 for none.")] = 0,
     largest_gust: Annotated[float, option("Of the surveyed gusts [m/s].")] = 5.0,
     seed: Annotated[Whole, option("Seed of the noise and of the surveyed gusts.")] = 0,
+    output: Annotated[
+        Path | None,
+        written_to("Write the controller within the beat as difference equations: .json, .mat or .csv."),
+    ] = None,
     json: Annotated[bool, flag("Print the numbers as JSON and nothing else.")] = False,
     plot: Annotated[Path | None, figure("Draw flights and survey")] = None,
 ) -> int:
@@ -92,17 +107,18 @@ def feedback(
     each of inputs, a column for each of gain_columns) gain_columns cost lower upper multipliers spectral_radius
     open_loop controllability sufficient version; late and beats; within the beat, in place of dt to sufficient:
     segments sample_rate delay_time held state (its names) inputs phases path gains (a matrix for each measurement)
-    lower upper servo_speed servo_bandwidth gait_speed multipliers spectral_radius open_loop;
+    lower upper servo_speed servo_bandwidth gait_speed memory (as in --output) multipliers spectral_radius
+    open_loop;
     flights by name ("no feedback", "feedback"), each with completed survived largest_pitch lowest highest
     settled_beats; and survey (null without --survey) with flights beats largest_gust survived by_size by_direction.
     Exit code 3: the flight with feedback is lost.
 
     Examples: wingbeat feedback pigeon.nc --delay 1 --gust w=3; wingbeat feedback pigeon.nc --survey 1000 --plot
     gusts.png; wingbeat feedback robot.nc --sample-rate 100 --delay-time 0.01 --servo speed_deg=600 --gust w=3
-    --survey 1000 --largest-gust 3
+    --survey 1000 --largest-gust 3 -o controller.json
     """
     faults = FaultList()
-    check_files(faults, None, plot=plot)
+    check_files(faults, output, source, plot=plot)
     if source.suffix != ".nc":
         faults.add("ORBIT", str(source), "is not a saved orbit", "save one with wingbeat orbit ... -o orbit.nc")
     faults.whole("--beats", beats, 1, 10_000)
@@ -120,10 +136,15 @@ def feedback(
         for name, value in (("--inputs", inputs), ("--delay", delay), ("--late", late)):
             if value:
                 faults.add(name, value, "is for feedback from beat to beat", "leave it out, or give --delay-time")
+    if output is not None:
+        check_block(faults, "--output", output)
+        if not within and servos is None:
+            rule = "is for feedback within the beat; that from beat to beat is printed by --json"
+            faults.add("--output", str(output), rule, "add --segments 4 or --sample-rate 100")
     if inputs is not None:
         check_inputs(faults, inputs)
     faults.raise_if_any()
-    check_outputs(plot)
+    check_outputs(plot, output)
     orbit = saved_orbit(source)
     airspeed = math.hypot(float(orbit.inputs["speed"]), float(orbit.inputs["climb"]))
     blown = gust if gust is not None or turbulence is not None else _GUST
@@ -148,7 +169,10 @@ def feedback(
     record["survey"] = None if surveyed is None else surveyed.record()
     page = functools.partial(gust_page, flights, surveyed, title)
     report = functools.partial(_print, held, flights, late, surveyed)
-    return deliver(record, report, flights[HELD].survived, json=json, plot=plot, page=page)
+    save = held.save if isinstance(held, SegmentFeedback) else None
+    return deliver(
+        record, report, flights[HELD].survived, json=json, output=output, save=save, plot=plot, page=page
+    )
 
 
 def _servos(faults: FaultList, words: list[str] | None) -> Servo | dict[str, Servo] | None:

@@ -6,6 +6,7 @@ The wings' parts and joints are those of `wing_parts`.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 from xml.etree import ElementTree as Xml
 
@@ -215,6 +216,8 @@ class MujocoFlight:
 
     def reset(self) -> None:
         """Go back to the top of the stroke."""
+        # Of the step under way: its start and length, and angles and rates of servos at both ends.
+        self._servos: tuple[float, float, Any, Any] | None = None
         _mujoco().mj_resetDataKeyframe(self.model, self.data, self.model.key(KEY).id)
         self._beat(self._gait)
 
@@ -236,6 +239,10 @@ class MujocoFlight:
         engine = _mujoco()
         wanted = np.zeros(model.nv)
         laws = laws_at(self._wingbeat, np.array((data.time - self._begun) * self._wingbeat.frequency))
+        if self._servos is not None:
+            laws = laws[0].copy(), laws[1].copy(), laws[2].copy()
+            for law, more in zip(laws, self._offsets(*self._servos, float(data.time)), strict=True):
+                law[HINGES] += more
         position, rate, acceleration = self._joints.motion(laws)
         hold = _HOLD * 2 * np.pi * self._wingbeat.frequency
         behind, slower = position - data.qpos[_WINGS], rate - data.qvel[_WINGS]
@@ -276,7 +283,27 @@ class MujocoFlight:
         rest = np.asarray(found.generalised) - self._moved.T @ on_joints
         return on_joints + self._spread @ rest, np.asarray(found.added_mass)
 
-    def fly(self, beats: int = 1, controller: Controller | None = None) -> MujocoStates:
+    @staticmethod
+    def _offsets(begun: float, step: float, start: Any, end: Any, time: float) -> np.ndarray:
+        """Return what servos add to flap and pitch, with rates and accelerations: a cubic in each step, (3, 2)."""
+        (angle, rate), (angle_end, rate_end) = start, end
+        s, rise = (time - begun) / step, (angle_end - angle) / step
+        bend = 3.0 * rise - 2.0 * rate - rate_end
+        twist = rate + rate_end - 2.0 * rise
+        return np.stack(
+            [
+                angle + step * s * (rate + s * (bend + s * twist)),
+                rate + s * (2.0 * bend + 3.0 * s * twist),
+                (2.0 * bend + 6.0 * s * twist) / step,
+            ]
+        )
+
+    def fly(
+        self,
+        beats: int = 1,
+        controller: Controller | None = None,
+        servos: Callable[[float, float, State], tuple[np.ndarray, np.ndarray]] | None = None,
+    ) -> MujocoStates:
         """Fly from the state in `data` with MuJoCo's own steps, and return the states before and after each step.
 
         Parameters
@@ -284,6 +311,9 @@ class MujocoFlight:
         beats : number of wingbeats.
         controller : gives the wingbeat of each beat from the number of beats flown and the state, as in `simulate`;
             None for the gait of the orbit.
+        servos : called at the start of each step with time [s], length of the step [s] and state; returns the
+            angles and rates that are added to flap and pitch at its end, shape (2,) each. Such is
+            `SegmentFeedback.driver`.
 
         Raises
         ------
@@ -300,7 +330,7 @@ class MujocoFlight:
             state = np.concatenate([data.qpos[_BODY], data.qvel[_BODY]])
             found.append((data.time, state, data.qpos.copy(), data.ctrl.copy()))
 
-        before = engine.get_mjcb_control()
+        before, self._servos = engine.get_mjcb_control(), None
         engine.set_mjcb_control(self.drive)
         try:
             note()
@@ -308,10 +338,15 @@ class MujocoFlight:
                 if controller is not None:
                     self._beat(commanded(controller, beat, State(*found[-1][1])))
                 for _ in range(self._steps):
+                    if servos is not None:
+                        before_it = self._servos[3] if self._servos is not None else (np.zeros(2), np.zeros(2))
+                        time, step = float(data.time), float(self.model.opt.timestep)
+                        self._servos = time, step, before_it, servos(time, step, State(*found[-1][1]))
                     engine.mj_step(self.model, data)
                     note()
         finally:
             engine.set_mjcb_control(before)
+            self._servos = None
         return MujocoStates(*(np.array(column) for column in zip(*found, strict=True)))
 
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from os import PathLike
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import air_at, air_phases, check_wind, fly_through, state_of
 from wingbeat.orbits.flight.period import flier
 from wingbeat.orbits.options import check_certified
+from wingbeat.stability.control_block import ServoDriver, save_block
 from wingbeat.stability.options import FEEDBACK, FLIGHT_STATE, FeedbackOptions, check_no_wake, noise_of
 from wingbeat.stability.real_time import (
     MOST_SAMPLES,
@@ -222,11 +224,32 @@ class SegmentFeedback(Reported):
             "servo_speed": named(speed),
             "servo_bandwidth": named([one / (2.0 * math.pi) if one < WITHOUT_END else one for one in pace]),
             "gait_speed": dict(zip(SERVO_LAWS, self.gait_speed, strict=True)),
+            "memory": {"matrix": self.A[0][5:, 5:].tolist(), "input": self.B[0][5:].tolist()},
             "multipliers": pairs(self.multipliers),
             "spectral_radius": self.spectral_radius,
             "open_loop": {"spectral_radius": float(np.abs(multipliers_over(list(self.A))[0]))},
             "version": __version__,
         }
+
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the controller as a block of difference equations: .json, .mat for MATLAB and Simulink, .csv.
+
+        Theory: equation ``control-block``.
+
+        Parameters
+        ----------
+        path : of the file to write.
+
+        Raises
+        ------
+        InvalidInputError : another suffix.
+        FileError : the file cannot be written.
+        """
+        save_block(self.record(), path)
+
+    def driver(self) -> ServoDriver:
+        """Return the controller and its servos at work, for ``MujocoFlight.fly(servos=...)``."""
+        return ServoDriver(self.record())
 
     def bound(self, steps: int, start: np.ndarray | None = None) -> Callable[..., Any]:
         """Return `fly_in_time` with this feedback, which has a `timing`, in at least so many steps a beat.

@@ -1,0 +1,196 @@
+"""Feedback within a beat for other tools: a block of difference equations, as files and as it runs.
+
+At sample j of a beat, with the deviation x of the measured state from the path and the memory m of the block,
+
+    command = clip(-(gains_of_state[j] @ x + gains_of_memory[j] @ m), lower, upper)
+    m = memory @ m + input @ command; each servo in m changes by at most largest_step
+
+The memory holds the angles of the servos, as they should be, and the commands that have not yet acted. A robot that
+measures its servos puts the measured angles in.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+from os import PathLike
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from wingbeat._base import FaultList, write_atomically
+from wingbeat.stability.real_time import WITHOUT_END, follow
+
+if TYPE_CHECKING:
+    from wingbeat.mechanics.flight_model import State
+
+BLOCK_SUFFIXES = (".json", ".mat", ".csv")
+_STATES = 5  # of the body that are measured
+_USE = (
+    "x = (height above the start and above the climb since then, body_pitch, u, w, pitch_rate) - path[j]",
+    "command = clip(-(gains_of_state[j] @ x + gains_of_memory[j] @ m), lower, upper), for flap and pitch [rad]",
+    "m = memory @ m + input @ command; each servo in m (the first two if held) changes by at most largest_step",
+    "j counts the samples of a beat from the top of the stroke; m is zero at the start; SI units, radians",
+)
+
+
+def block_of(record: dict[str, Any]) -> dict[str, Any]:
+    """Return the block of a record of feedback within a beat: arrays by name, and what they are for.
+
+    Theory: equation ``control-block``.
+    """
+    gains, order = np.array(record["gains"]), _STATES
+    limits = [[record[end][name] for name in record["inputs"]] for end in ("lower", "upper")]
+    speeds = [record["servo_speed"][name] for name in record["inputs"]] if record["held"] else []
+    largest = [None if speed is None else speed / record["sample_rate"] for speed in speeds]
+    return {
+        "use": list(_USE),
+        "sample_rate": record["sample_rate"],
+        "samples": len(gains),
+        "states": record["state"][:order],
+        "memories": record["state"][order:],
+        "commands": record["inputs"],
+        "path": np.array(record["path"])[:-1],
+        "gains_of_state": gains[:, :, :order],
+        "gains_of_memory": gains[:, :, order:],
+        "memory": np.array(record["memory"]["matrix"]),
+        "input": np.array(record["memory"]["input"]),
+        "largest_step": largest,
+        "lower": np.array(limits[0]),
+        "upper": np.array(limits[1]),
+        "climb": record["climb"],
+        "frequency": record["frequency"],
+        "delay_time": record["delay_time"],
+    }
+
+
+def check_block(faults: FaultList, where: str, path: str | PathLike[str]) -> None:
+    """Note a name without a suffix of a block's file."""
+    if os.path.splitext(path)[1].lower() not in BLOCK_SUFFIXES:
+        fix = "end the name in .json, .mat (MATLAB and Simulink) or .csv (a table)"
+        faults.add(where, os.fspath(path), "does not end in a suffix for a controller", fix)
+
+
+def save_block(record: dict[str, Any], path: str | PathLike[str]) -> None:
+    """Write the block of a record to a file; the suffix of its name sets the format."""
+    faults = FaultList()
+    check_block(faults, "path", path)
+    faults.raise_if_any()
+    block = block_of(record)
+    write = {".json": _json, ".mat": _mat, ".csv": _csv}[os.path.splitext(path)[1].lower()]
+    write_atomically(path, write(block))
+
+
+def _plain(block: dict[str, Any]) -> dict[str, Any]:
+    return {name: value.tolist() if isinstance(value, np.ndarray) else value for name, value in block.items()}
+
+
+def _json(block: dict[str, Any]) -> bytes:
+    return (json.dumps(_plain(block), indent=1, allow_nan=False) + "\n").encode()
+
+
+def _mat(block: dict[str, Any]) -> bytes:
+    """Return a MATLAB file, version 5; its last axis counts the samples, and what has no limit is infinite."""
+    from scipy.io import savemat
+
+    content = dict(block)
+    content["largest_step"] = np.array([np.inf if one is None else one for one in block["largest_step"]])
+    content["path"] = block["path"].T
+    for name in ("gains_of_state", "gains_of_memory"):
+        content[name] = np.moveaxis(block[name], 0, -1)
+    for name in ("use", "states", "memories", "commands"):
+        content[name] = np.array(block[name], dtype=object)
+    held = io.BytesIO()
+    savemat(held, {"controller": content}, long_field_names=True, oned_as="column")
+    return held.getvalue()
+
+
+def _csv(block: dict[str, Any]) -> bytes:
+    """Return a table: a row for each sample, with the other numbers of the block in comment lines above."""
+    out, plain = io.StringIO(), _plain(block)
+    for line in block["use"]:
+        out.write(f"# {line}\n")
+    for name, value in plain.items():
+        if name not in ("use", "path", "gains_of_state", "gains_of_memory"):
+            out.write(f"# {name} = {json.dumps(value)}\n")
+    columns = [*block["states"], *block["memories"]]
+    table = csv.writer(out, lineterminator="\n")
+    gains = [f"{command} by {column}" for command in block["commands"] for column in columns]
+    table.writerow(["sample", *(f"path of {name}" for name in block["states"]), *gains])
+    whole = np.concatenate([block["gains_of_state"], block["gains_of_memory"]], axis=-1)
+    for j, row in enumerate(block["path"]):
+        table.writerow([j, *map(repr, row.tolist()), *map(repr, whole[j].ravel().tolist())])
+    return out.getvalue().encode()
+
+
+class ServoDriver:
+    """The block at work, with the servos that follow it: what `MujocoFlight.fly` takes as ``servos``.
+
+    Attributes
+    ----------
+    commands : those so far, each of shape (2,) [rad].
+    """
+
+    def __init__(self, record: dict[str, Any]) -> None:
+        self._block, self._held = block_of(record), record["held"]
+        self._period = 1.0 / record["sample_rate"]
+        speeds, bandwidths = (record[name].values() for name in ("servo_speed", "servo_bandwidth"))
+        self._speed = np.array([WITHOUT_END if one is None else one for one in speeds])
+        self._pace = np.array([WITHOUT_END if one is None else 2.0 * np.pi * one for one in bandwidths])
+        self._steps = np.array([np.inf if one is None else one for one in self._block["largest_step"]])
+        self.commands: list[np.ndarray] = []
+        self._memory, self._angle, self._ground = np.zeros(len(self._block["memory"])), np.zeros(2), 0.0
+
+    def command(self, state: State) -> np.ndarray:
+        """Return the command of the next sample, and remember it.
+
+        Parameters
+        ----------
+        state : measured [m, rad, m/s, rad/s].
+        """
+        block, sample = self._block, len(self.commands)
+        if sample == 0:
+            self._ground = float(state.z)
+        j, beats = sample % block["samples"], sample // block["samples"]
+        away = np.array(state, dtype=float)[1:] - block["path"][j]
+        away[0] -= self._ground + block["climb"] * beats / block["frequency"]
+        wanted = -(block["gains_of_state"][j] @ away + block["gains_of_memory"][j] @ self._memory)
+        command = np.clip(wanted, block["lower"], block["upper"])
+        after = block["memory"] @ self._memory + block["input"] @ command
+        if self._held:
+            after[:2] = self._memory[:2] + np.clip(after[:2] - self._memory[:2], -self._steps, self._steps)
+        self._memory = after
+        self.commands.append(command)
+        return command
+
+    def __call__(self, time: float, step: float, state: State) -> tuple[np.ndarray, np.ndarray]:
+        """Return angles and rates of flap and pitch, added to the gait, at the end of a step.
+
+        Parameters
+        ----------
+        time : at the start of the step [s]; steps follow each other, and each sample starts one.
+        step : its length [s].
+        state : at its start.
+        """
+        if time >= len(self.commands) * self._period - 1e-9:
+            self.command(state)
+        late, end = self._block["delay_time"], time + step
+        change = int(np.floor((end - late) / self._period - 1e-9)) * self._period + late  # of the last command
+        for begin, until in ((time, min(max(change, time), end)), (min(max(change, time), end), end)):
+            if until > begin and self._held:
+                aim = self._aim(0.5 * (begin + until))
+                self._angle = np.asarray(follow(self._angle, aim, self._speed, self._pace, until - begin))
+        if self._held:
+            rate = self._pace * (self._aim(end - 1e-9) - self._angle)
+            return self._angle, np.clip(rate, -self._speed, self._speed)
+        since = (end - late) / self._period
+        part = np.pi * (since - np.floor(since))
+        height = self._aim(end)
+        return height * np.sin(part) ** 2, height * np.sin(2.0 * part) * np.pi / self._period
+
+    def _aim(self, time: float) -> np.ndarray:
+        """Return the command that acts at a time."""
+        at = int(np.floor((time - self._block["delay_time"]) / self._period + 1e-9))
+        return self.commands[at] if at >= 0 else np.zeros(2)

@@ -88,6 +88,11 @@ def test_the_record_has_the_numbers_of_muscle_and_motor():
     assert "metabolic_power" not in wb.solve_orbit(problem(PIGEON), starts=1).record()
 
 
+def test_the_shortest_endurance_is_not_sought():
+    with pytest.raises(wb.InvalidInputError, match="is best where it is largest; minimise electrical_power"):
+        problem(DRIVEN, minimise="endurance")
+
+
 BATTERY = {"battery.cells": 5, "battery.capacity": 0.85, "battery.internal_resistance": 0.06}
 
 

@@ -24,6 +24,7 @@ from wingbeat._base import (
     written,
     written_range,
 )
+from wingbeat.orbits.problem.quantity import LASTING
 from wingbeat.records.judgements import called, set_by_limit
 from wingbeat.words.orbit_words import DEFAULT_AIR, FREQUENCY_BASES, air_in_words, other_frequency
 
@@ -35,7 +36,6 @@ _LABELS = {
     "best_range": "greatest range",
 }
 _RANGE = "maximum_range", True  # of power over speed
-_LASTING = ("endurance", "flight_range")  # of a battery: the longest is best
 # What measured powers are compared with; they are not the same quantities.
 _AGAINST = {
     "mechanical_power": ", beside the mean positive hinge power",
@@ -229,8 +229,8 @@ def _characteristic(record: dict[str, Any]) -> list[Block]:
     for name, found in speeds.items():
         over = " over speed" if name == "best_range" or (name, "minimum_power" in speeds) == _RANGE else ""
         of = (found or {}).get("quantity", record["objective"])
-        over = "" if of in _LASTING else over
-        by = "" if of == record["objective"] else f" of the {'battery' if of in _LASTING else in_words(of)}"
+        over = "" if of in LASTING else over
+        by = "" if of == record["objective"] else f" of the {'battery' if of in LASTING else in_words(of)}"
         lines.append(Line(f"  {speed_label(name)}{by}: {_told(found, in_words(of) + over, of)}"))
     if not {"minimum_power", "maximum_range"} & speeds.keys():
         why = f"not given, because {objective} was minimised; to get them add --minimise positive-power"
@@ -315,7 +315,7 @@ def _told(found: dict[str, Any] | None, quantity: str, objective: str) -> str:
     if "lowest" not in found:
         return f"{text}, {value}" if found["status"] == "found" else text
     near = found["speed"] is not None and abs(found["speed"] - found["lowest"]) <= _NEAR * found["speed"]
-    least, minimum = ("longest", "maximum") if objective in _LASTING else ("least", "minimum")
+    least, minimum = ("longest", "maximum") if objective in LASTING else ("least", "minimum")
     text += f", {value}" if near else f"; the {least} computed is {value} at {found['lowest']:g} m/s"
     if found["status"] in ("found", "at_or_below", "at_or_above"):
         low, high = found["within_2_percent"]

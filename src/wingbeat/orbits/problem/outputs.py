@@ -20,7 +20,7 @@ from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported, jit_soon
 from wingbeat.animal.drive import Drive
 from wingbeat.orbits.flight.beat import BY_STRIP, NUMBERS, PARTS, Beat, WeightedSamples, highest
-from wingbeat.orbits.problem.quantity import MapQuantity, Quantity
+from wingbeat.orbits.problem.quantity import LASTING, MapQuantity, Quantity
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import StrokeMatrix
@@ -257,6 +257,9 @@ def check_quantities(
     if isinstance(minimised, MapQuantity) and minimised.excess is not None:
         rule = "can be limited but not minimised: its optima are at kinks"
         faults.append(Fault("minimise", minimised.name, rule, "minimise gust_response, or limit it"))
+    if minimised is not None and minimised.name in LASTING:
+        fix = f"minimise electrical_power and limit it, such as '{minimised.name}>=600'"
+        faults.append(Fault("minimise", minimised.name, "is best where it is largest", fix))
     for quantity in quantities:
         parts = {None: (), "battery": ("motor", "battery")}.get(quantity.needs, (quantity.needs,))
         lacking = [part for part in parts if getattr(drive, part) is None]

@@ -359,6 +359,7 @@ OF_BATTERY: dict[str, tuple[DriveQuantity, float]] = {
     "endurance": (DriveQuantity(_OfDischarge("endurance")), 100.0),
     "flight_range": (DriveQuantity(_flight_range), 1000.0),
 }
+LASTING = ("endurance", "flight_range")  # to minimise them would be a slip
 OF_DRIVE = {"muscle": OF_MUSCLE, "motor": OF_MOTOR, "battery": OF_BATTERY}  # by the part that they need
 
 

@@ -18,7 +18,8 @@ import numpy as np
 
 import wingbeat as wb
 from wingbeat._jax.arrays import jax, jnp
-from wingbeat.mechanics.flight_model import body_rates, motion_table
+from wingbeat.mechanics.flight_model import motion_table
+from wingbeat.mechanics.state_rates import body_rates
 from wingbeat.orbits.flight.period import STEPS, fly_part, march, tabulated
 from wingbeat.orbits.starts import start_point
 

@@ -27,7 +27,8 @@ import numpy as np
 
 import wingbeat as wb
 from wingbeat.bench import median_seconds
-from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
+from wingbeat.mechanics.flight_model import FlightModel, motion_table
+from wingbeat.mechanics.state_rates import body_rates
 from wingbeat.mechanics.wing_shape import stroke_pitch
 
 LANES = (64, 256, 1024, 4096)

@@ -21,6 +21,7 @@ from .animal.drive import Battery as Battery
 from .animal.drive import Motor as Motor
 from .animal.drive import Muscle as Muscle
 from .animal.drive import Springs as Springs
+from .animal.kinematics import PitchHinge as PitchHinge
 from .animal.kinematics import Wingbeat as Wingbeat
 from .animal.species.making import bat as bat
 from .animal.species.making import bird as bird

@@ -16,7 +16,8 @@ from wingbeat._base import __version__
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat.aero import Dickinson, SuFan
 from wingbeat.animal.species.making import load_species
-from wingbeat.mechanics.flight_model import body_rates, motion_table
+from wingbeat.mechanics.flight_model import motion_table
+from wingbeat.mechanics.state_rates import body_rates
 from wingbeat.orbits.batch import find_orbits
 from wingbeat.orbits.flight.period import flier
 from wingbeat.orbits.problem.problem import OrbitProblem

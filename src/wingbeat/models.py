@@ -83,9 +83,12 @@ class Model:
             elsewhere; inputs that `OrbitProblem` refuses.
         """
         flown = self.species(species)
-        asked: dict[str, Any] = {"aero": self.aero, "minimise": self.objective(flown)} | changes
+        # A wing whose pitch gives way turns by the moment of its loads, so where they act matters.
+        giving = flown.wingbeat.pitch_hinge is not None
+        aero = dataclasses.replace(self.aero, force_point="centre-of-pressure") if giving else self.aero
+        asked: dict[str, Any] = {"aero": aero, "minimise": self.objective(flown)} | changes
         if not isinstance(asked["aero"], BladeElement):
-            asked["aero"] = dataclasses.replace(self.aero, coefficients=asked["aero"])
+            asked["aero"] = dataclasses.replace(aero, coefficients=asked["aero"])
         own: dict[str, Any] = self.own_choices(asked["minimise"], changes.get("free"), changes.get("bounds"))
         origin = Origin(self.name, tuple(self._choices(flown, own)), tuple(self._changed(flown, changes)))
         if self.frequency not in ("own", "free"):

@@ -8,8 +8,9 @@ import pytest
 import wingbeat as wb
 from tests.helpers.programs import compiled
 from wingbeat.animal.species.species import Species
-from wingbeat.mechanics.flight_model import body_rates, motion_table
+from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.mechanics.hinge_torques import hinge_loads, hinge_motion
+from wingbeat.mechanics.state_rates import body_rates
 
 PHASE = np.linspace(0.0, 1.0, 9)[:-1]
 SHOULDER = {"wing.shoulder": [0.03, 0.02, 0.01], "wing.stroke_plane_angle": 1.2}

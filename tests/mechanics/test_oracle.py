@@ -11,7 +11,8 @@ import wingbeat as wb
 from tests.helpers import oracle
 from tests.helpers.models import changed
 from wingbeat._jax.arrays import jax
-from wingbeat.mechanics.flight_model import body_rates, motion_table
+from wingbeat.mechanics.flight_model import motion_table
+from wingbeat.mechanics.state_rates import body_rates
 
 TOLERANCE = 1e-9
 STATES = 100

@@ -237,7 +237,7 @@ def test_coefficients_have_the_shape_of_the_angles(extension):
 @pytest.mark.slow
 def test_a_wrong_shape_is_found(flown, calls):
     model, wingbeat = flown
-    body = importlib.import_module("wingbeat.mechanics.flight_model").body_rates
+    body = importlib.import_module("wingbeat.mechanics.state_rates").body_rates
     table = motion_table(model, wingbeat, np.linspace(0.0, 1.0, 5))
     body(model, table, np.zeros((4, 5)))
     with pytest.raises(AssertionError, match=r"body_rates: state is \(4, 6\)"):

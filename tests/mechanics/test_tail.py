@@ -13,7 +13,8 @@ from tests.helpers.models import changed
 from tests.helpers.programs import compiled
 from tests.helpers.tail_oracle import moment, tail_load
 from wingbeat._jax.arrays import jax, jnp, unchecked
-from wingbeat.mechanics.flight_model import body_air, body_rates, motion_table
+from wingbeat.mechanics.flight_model import body_air, motion_table
+from wingbeat.mechanics.state_rates import body_rates
 from wingbeat.orbits.problem.parameters import parameters_of
 
 PIGEON = wb.load_species("pigeon")

@@ -30,8 +30,9 @@ from tests.helpers.unsteady_flights import (
     states_at,
 )
 from wingbeat._jax.arrays import jax, jnp, unchecked
-from wingbeat.mechanics.flight_model import body_rates, motion_table
+from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.mechanics.flights import fly_beats
+from wingbeat.mechanics.state_rates import body_rates
 from wingbeat.records.flight_dataset import evaluate
 
 # --- The oracle

@@ -56,7 +56,7 @@ def places(vehicle, wingbeat, phase):
         return jnp.stack([times_first(v) for v in (ahead, triple[1], up)], axis=-1)
 
     corners = (shape.ahead, shape.left, shape.above)
-    return Places(*map(in_body, (corners, shape.chordwise, shape.normal, mass_points(shape, strips))))
+    return Places(*map(in_body, (corners, shape.chordwise, shape.normal, mass_points(vehicle.wing, shape, strips))))
 
 
 def in_stroke_axes(vectors, vehicle):

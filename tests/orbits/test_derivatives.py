@@ -12,7 +12,8 @@ from tests.helpers.programs import compiled
 from tests.helpers.reflight import refly_many
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat.animal.kinematics import unpack
-from wingbeat.mechanics.flight_model import body_rates, motion_table
+from wingbeat.mechanics.flight_model import motion_table
+from wingbeat.mechanics.state_rates import body_rates
 from wingbeat.orbits.flight.certificate import certify, floquet_multipliers
 from wingbeat.orbits.flight.period import STEPS, flier
 from wingbeat.orbits.nlp.newton_kkt import correct

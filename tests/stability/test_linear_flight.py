@@ -12,9 +12,10 @@ from tests.helpers.programs import compiled
 from tests.helpers.reflight import dop853, refly_many
 from wingbeat._jax.arrays import jax
 from wingbeat.animal.kinematics import parameter, with_parameters
-from wingbeat.mechanics.flight_model import body_rates, motion_table
+from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.mechanics.flights import state_rates
 from wingbeat.mechanics.glide import held_still
+from wingbeat.mechanics.state_rates import body_rates
 from wingbeat.orbits.flight.certificate import certify, stroke_map
 from wingbeat.stability.linear_flight import averaged_jacobian, averaged_modes, modes_of
 

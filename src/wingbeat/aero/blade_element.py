@@ -309,6 +309,9 @@ class BladeElement:
 OF_ELEMENTS = tuple(field.name for field in fields(BladeElement) if field.name not in ("coefficients", "share"))
 
 
-def blade_element_of(aero: Any) -> BladeElement:
-    """Return the model of the air loads for ``aero``: a `BladeElement`, or what `coefficients_of` takes."""
-    return aero if isinstance(aero, BladeElement) else BladeElement(aero)
+def blade_element_of(aero: Any, force_point: str = "quarter-chord") -> BladeElement:
+    """Return the model of the air loads for ``aero``: a `BladeElement`, or what `coefficients_of` takes.
+
+    `force_point` is that of coefficients, which say none.
+    """
+    return aero if isinstance(aero, BladeElement) else BladeElement(aero, force_point=force_point)

@@ -16,6 +16,7 @@ import numpy as np
 
 from wingbeat._base import FIRST_ORDER, HARMONIC_NAMES, HIGHEST_ORDER, SHARES, FaultList, harmonic_place
 from wingbeat._jax.arrays import at_default, atan2, cos, jnp, register_record, sin, unchecked
+from wingbeat.animal.pitch_hinge import HINGE_NAMES, HeldHinge, PitchHinge
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import Parameters, Phases, Scalar
@@ -57,6 +58,8 @@ class Wingbeat:
     sweep_harmonics : cosine and sine of order 2, of order 3 and so on [rad].
     chord_harmonics : cosine and sine of order 1, 2 and so on, of the chord divided by the full chord.
     twist_harmonics : cosine and sine of order 1, 2 and so on, of the angle whose mean is `twist_mean` [rad].
+    pitch_hinge : a hinge that gives way; unless it only twists the wing, the pitch law has no effect. None for a
+        prescribed pitch.
 
     Raises
     ------
@@ -92,6 +95,7 @@ class Wingbeat:
     sweep_harmonics: tuple[float, ...] = ()
     chord_harmonics: tuple[float, ...] = ()
     twist_harmonics: tuple[float, ...] = ()
+    pitch_hinge: PitchHinge | None = None  # within the equations, a `HeldHinge` may stand in its place
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -167,10 +171,16 @@ class Wingbeat:
 
 WINGBEAT_NAMES = tuple(field.name for field in dataclasses.fields(Wingbeat))
 # The numbers of a wingbeat by name, a harmonic's cosine and sine by names of their own such as flap_cos_2.
-PARAMETER_NAMES = (*(name for name in WINGBEAT_NAMES if not name.endswith("_harmonics")), *HARMONIC_NAMES)
+PARAMETER_NAMES = (
+    *(name for name in WINGBEAT_NAMES if not name.endswith(("_harmonics", "_hinge"))),
+    *HARMONIC_NAMES,
+    *HINGE_NAMES,
+)
+# The pitch law: without effect if the wing's root pitches with a hinge.
+PITCH_LAW = tuple(name for name in PARAMETER_NAMES if name.startswith("pitch_"))
 # The wrist sits between two strips: moving it changes nothing until it jumps over a strip's centre.
 FREE_NAMES = tuple(name for name in PARAMETER_NAMES if name != "wrist")
-_PLAIN = ("frequency", "twist_ratio", "downstroke_fraction")
+_PLAIN = ("frequency", "twist_ratio", "downstroke_fraction", "hinge_stiffness", "hinge_damping")
 ANGLES = tuple(name for name in FREE_NAMES if name not in _PLAIN and not name.startswith(SHARES))
 
 
@@ -220,7 +230,13 @@ def flap_angle(wingbeat: Wingbeat, phase: Phases) -> Phases:
 
 
 def pitch_angle(wingbeat: Wingbeat, phase: Phases) -> Phases:
-    """Return the wing pitch at the root, leading edge up positive [rad]. Theory: equation ``pitch-law``."""
+    """Return the wing pitch at the root, leading edge up positive [rad]; that at rest for a hinge that gives way.
+
+    Theory: equation ``pitch-law``.
+    """
+    hinge = wingbeat.pitch_hinge
+    if hinge is not None and hinge.moves_root:
+        return _hinge_angle(wingbeat, phase) * (1.0 - _twist_share(hinge))
     at = stroke_phase(wingbeat, phase)
     turn = 2 * math.pi * at
     if not at_default(wingbeat, "pitch_phase"):
@@ -272,11 +288,47 @@ def tip_twist(wingbeat: Wingbeat, phase: Phases) -> Phases | None:
     The whole pitch at the tip is this angle plus ``twist_ratio`` times the pitch at the root. At a span fraction
     s/L, the law adds s/L of the angle. Theory: equation ``twist-law``.
     """
+    hinge = wingbeat.pitch_hinge
+    given = None
+    if hinge is not None and _twist_share(hinge):
+        given = _twist_share(hinge) * _hinge_angle(wingbeat, phase)
     if at_default(wingbeat, "twist_mean") and not wingbeat.twist_harmonics:
-        return None
+        return given
     at = stroke_phase(wingbeat, phase)
     base = wingbeat.twist_mean + jnp.zeros_like(at)
-    return with_harmonics(base, wingbeat.twist_harmonics, FIRST_ORDER["twist"], at)
+    law = with_harmonics(base, wingbeat.twist_harmonics, FIRST_ORDER["twist"], at)
+    return law if given is None else law + given
+
+
+def _twist_share(hinge: PitchHinge | HeldHinge) -> float:
+    return hinge.hinge.twist_share if isinstance(hinge, HeldHinge) else hinge.twist_share
+
+
+def _hinge_angle(wingbeat: Wingbeat, phase: Phases) -> Phases:
+    hinge: Any = wingbeat.pitch_hinge
+    if isinstance(hinge, HeldHinge):
+        return hinge.at(phase, wingbeat.frequency)
+    assert hinge is not None
+    return hinge.rest_angle + jnp.zeros_like(phase)
+
+
+def at_rest(wingbeat: Wingbeat, phase: Phases) -> Wingbeat:
+    """Return the wingbeat with its hinge held at its rest angle; a prescribed one as it is."""
+    hinge = wingbeat.pitch_hinge
+    if hinge is None:
+        return wingbeat
+    still = jnp.zeros_like(phase)
+    return held_at(wingbeat, phase, hinge.rest_angle + still, still, still)
+
+
+def held_at(wingbeat: Wingbeat, phase: Phases, angle: Phases, rate: Phases, acceleration: Phases) -> Wingbeat:
+    """Return the wingbeat with its hinge moving so at a phase: near it, its laws hold for every function of phase.
+
+    Their values and first two derivatives there are those of the flight.
+    """
+    assert isinstance(wingbeat.pitch_hinge, PitchHinge)
+    held = HeldHinge(phase, angle, rate, acceleration, wingbeat.pitch_hinge)
+    return unchecked(Wingbeat, vars(wingbeat) | {"pitch_hinge": held})
 
 
 # The laws of a wing, by the names of their series; a law that is off may be None.
@@ -288,7 +340,11 @@ LAWS = {
 
 def in_use(wingbeat: Wingbeat, name: str) -> bool:
     """Return whether a parameter is in use: a harmonic that is given, or a parameter of a law that is on."""
-    harmonic = harmonic_place(name)
+    harmonic, hinge = harmonic_place(name), wingbeat.pitch_hinge
+    if name in HINGE_NAMES:
+        return hinge is not None
+    if name in PITCH_LAW and hinge is not None and hinge.moves_root:
+        return False
     if harmonic is not None:
         return harmonic[1] < len(getattr(wingbeat, harmonic[0]))
     return name not in _OPTIONAL or not at_default(wingbeat, name)
@@ -301,6 +357,8 @@ def parameter(wingbeat: Wingbeat, name: str) -> Scalar:
     0.05
     """
     harmonic = harmonic_place(name)
+    if name in HINGE_NAMES:
+        return 0.0 if wingbeat.pitch_hinge is None else getattr(wingbeat.pitch_hinge, HINGE_NAMES[name])
     if harmonic is None:
         return getattr(wingbeat, name)
     pairs = getattr(wingbeat, harmonic[0])
@@ -312,6 +370,10 @@ def _fields(wingbeat: Wingbeat, values: Mapping[str, Any]) -> dict[str, Any]:
     fields: dict[str, Any] = {}
     for name, value in values.items():
         harmonic = harmonic_place(name)
+        if name in HINGE_NAMES:
+            hinge = fields.get("pitch_hinge", wingbeat.pitch_hinge)
+            fields["pitch_hinge"] = unchecked(PitchHinge, vars(hinge) | {HINGE_NAMES[name]: value})
+            continue
         if harmonic is None:
             fields[name] = value
             continue
@@ -329,7 +391,10 @@ def with_parameters(wingbeat: Wingbeat, values: Mapping[str, Any]) -> Wingbeat:
     >>> with_parameters(Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3), {"pitch_cos_2": 0.1}).pitch_harmonics
     (0.1, 0.0)
     """
-    return dataclasses.replace(wingbeat, **_fields(wingbeat, values))
+    fields = _fields(wingbeat, values)
+    if isinstance(hinge := fields.get("pitch_hinge"), PitchHinge):
+        fields["pitch_hinge"] = PitchHinge(**vars(hinge))  # checked
+    return dataclasses.replace(wingbeat, **fields)
 
 
 def unpack(free: tuple[str, ...], wingbeat: Wingbeat, values: Parameters) -> Wingbeat:

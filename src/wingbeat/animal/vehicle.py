@@ -49,7 +49,11 @@ class Body:
         faults.raise_if_any()
 
 
-@register_record
+# Places on a wing's chords; records leave them out at their defaults, which need no term.
+CHORDWISE = ("pitch_axis", "mass_axis", "mass_gyration")
+
+
+@register_record(optional=CHORDWISE)
 @dataclass(frozen=True)
 class Wing:
     """One wing (the left one; the right one is its mirror image).
@@ -62,11 +66,16 @@ class Wing:
     mass_exponent : exponent p in the strip masses ``(1 - s/L)**p``; 0 is a uniform wing.
     shoulder : position of the shoulder in body axes (forward, left, up) [m].
     stroke_plane_angle : angle of the stroke plane from the body axis [rad]; pi/2 is a vertical plane.
+    pitch_axis : where the axis about which the wing pitches crosses each chord, behind the leading edge, in chords.
+        The stroke carries this axis.
+    mass_axis : where the strips' centres of mass lie, behind the leading edge, in chords.
+    mass_gyration : their radius of gyration about a line along the span through that centre, in chords; the default
+        is that of a uniform strip.
 
     Raises
     ------
     InvalidInputError : a length or mass that is not positive, a negative exponent, fewer than two stations of the
-        chord, a shoulder that is not three numbers, a number that is not finite.
+        chord, a shoulder that is not three numbers, an axis off the chord, a number that is not finite.
 
     >>> import wingbeat as wb
     >>> wing = wb.Wing(semi_span=0.3, chord=(0.12, 0.10, 0.04), mass=0.02, mass_exponent=2.0)
@@ -80,6 +89,9 @@ class Wing:
     mass_exponent: float = 0.0
     shoulder: tuple[float, float, float] = (0.0, 0.0, 0.0)
     stroke_plane_angle: float = math.pi / 2
+    pitch_axis: float = 0.25
+    mass_axis: float = 0.5
+    mass_gyration: float = 0.5 / math.sqrt(3.0)
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -102,6 +114,11 @@ class Wing:
             for axis, value in zip("xyz", self.shoulder, strict=True):
                 faults.number(f"wing.shoulder.{axis}", value, unit="m")
         faults.angle("wing.stroke_plane_angle", self.stroke_plane_angle)
+        behind = "chords behind the leading edge"
+        faults.number("wing.pitch_axis", self.pitch_axis, at_least=0, at_most=1, fix=behind)
+        faults.number("wing.mass_axis", self.mass_axis, at_least=0, at_most=1, fix=behind)
+        fix = "a uniform strip has 0.2887 chords"
+        faults.number("wing.mass_gyration", self.mass_gyration, at_least=0, at_most=0.5, fix=fix)
         faults.raise_if_any()
 
     @property

@@ -98,7 +98,10 @@ class ModelOptions:
     ] = None
     force_point: Annotated[
         str | None,
-        option(f"Where the force acts: {' or '.join(FORCE_POINTS)}; default {BladeElement.force_point}."),
+        option(
+            f"Where the force acts: {' or '.join(FORCE_POINTS)}; default {BladeElement.force_point}; of a wing "
+            "whose pitch gives way, centre-of-pressure."
+        ),
     ] = None
     airspeed: Annotated[
         str | None,
@@ -197,6 +200,8 @@ class ModelOptions:
         """Return the problem for a species given by name or file; None in `asked` means the model's own choice."""
         species, model = self.flown(name, settings, payload)
         given = {key: value for key, value in asked.items() if value is not None}
+        if self.force_point is not None:
+            given["aero"] = model.aero  # a hinge does not change the choice
         return model.problem(species, speed, bounds="plausible" if within_plausible else {}, **given)
 
     def fit(self) -> Fitted | None:

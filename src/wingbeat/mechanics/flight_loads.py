@@ -13,11 +13,11 @@ from wingbeat.mechanics.flight_model import (
     State,
     air_loads,
     balance,
-    body_rates,
     is_unsteady,
     motion_table,
 )
 from wingbeat.mechanics.hinge_torques import hinge_loads, hinge_motion
+from wingbeat.mechanics.state_rates import body_rates, held_wingbeat, refuse_without_motion
 from wingbeat.mechanics.strip_air import refuse_without_wake
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude
 from wingbeat.mechanics.wing_points import air_forces_on, point_motion
@@ -108,7 +108,12 @@ class Loads(NamedTuple):
 
 @exported
 def flight_loads(
-    model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases, wake: PhasesStrips | None = None
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    state: State,
+    phase: Phases,
+    wake: PhasesStrips | None = None,
+    hinge: PhasesPair | None = None,
 ) -> Loads:
     """Evaluate a flight with prescribed wings: loads, body accelerations, hinge torques and powers.
 
@@ -122,6 +127,7 @@ def flight_loads(
     phase : phases, shape (...).
     wake : with the lag of the wake, the states of each strip's wake [m/s], shape (..., 2 N), as a `Certificate` has
         them.
+    hinge : with a hinge that gives way, angle and rate [rad, rad/s], shape (..., 2), as a `Certificate` has them.
 
     Returns
     -------
@@ -129,7 +135,8 @@ def flight_loads(
 
     Raises
     ------
-    InvalidInputError : a model with the lag of the wake, without the states of the wake.
+    InvalidInputError : a model with the lag of the wake, without the states of the wake; a hinge that gives way,
+        without its motion.
 
     >>> import numpy as np, wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
@@ -139,8 +146,12 @@ def flight_loads(
     """
     phase = jnp.asarray(phase, dtype=float)
     refuse_without_wake(model, wake)
+    refuse_without_motion(wingbeat, hinge)
     fields = State(*(jnp.broadcast_to(jnp.asarray(f, dtype=float), phase.shape).ravel() for f in state))
-    if wake is None:
+    if hinge is not None:
+        angles = jnp.asarray(hinge, dtype=float).reshape(phase.size, -1)
+        found = jax.vmap(lambda at: _loads(model, wingbeat, *at[:2], hinge=at[2]))((fields, phase.ravel(), angles))
+    elif wake is None:
         found = jax.vmap(lambda at: _loads(model, wingbeat, *at))((fields, phase.ravel()))
     else:
         states = jnp.asarray(wake).reshape(phase.size, -1)
@@ -162,6 +173,7 @@ def carried_loads(
 ) -> tuple[Loads, MissingLoads]:
     """Evaluate a flight with prescribed body motion: `flight_loads`, and the loads missing for that motion."""
     refuse_without_wake(model)
+    refuse_without_motion(wingbeat)
 
     def at(here: tuple[State, Phases, PhasesAcceleration]) -> tuple[Loads, MissingLoads]:
         body, when, given = here
@@ -181,8 +193,13 @@ def _loads(
     phase: Phases,
     given: PhasesAcceleration | None = None,
     wake: PerStrip | None = None,
+    hinge: Coordinates | None = None,
 ) -> Loads:
     """Return the loads at one phase, of a body that flies freely or has a given acceleration."""
+    if hinge is not None:
+        whole = jnp.stack([state.body_pitch, state.u, state.w, state.pitch_rate, *hinge])
+        wingbeat, rates = held_wingbeat(model, wingbeat, phase, whole)
+        given = rates[1:4]
     flap, pitch = flap_angle(wingbeat, phase), pitch_angle(wingbeat, phase)
     sweep = sweep_angle(wingbeat, phase)
     pitch_state = jnp.stack([state.body_pitch, state.u, state.w, state.pitch_rate])

@@ -19,7 +19,6 @@ from wingbeat._jax.arrays import (
     at_default,
     elementwise_jvp,
     fusion_barrier,
-    jax,
     jnp,
     register_record,
     unchecked,
@@ -27,20 +26,19 @@ from wingbeat._jax.arrays import (
 from wingbeat.aero.blade_element import BladeElement, blade_element_of
 from wingbeat.aero.closed_forms import body_drag, check_descent, disc_area, induced_flow
 from wingbeat.aero.strip_forces import StripForces
-from wingbeat.aero.wake import WakeLag, wake_rates
-from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.aero.wake import WakeLag
+from wingbeat.animal.kinematics import PitchHinge, Wingbeat
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.strip_air import (
     StripWake,
     body_air,
     loads_of_strips,
-    strip_loads_in_wake,
     strip_moments,
     strips_in_wake,
     wake_states,
 )
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude, wing_motion
-from wingbeat.mechanics.wing_shape import dot, from_world, quarter_turn, sum_over_strips, to_world
+from wingbeat.mechanics.wing_shape import UnturnedShapes, dot, from_world, quarter_turn, sum_over_strips, to_world
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import (
@@ -186,10 +184,20 @@ def flow_at(vehicle: Vehicle, air: Air, factor: Scalar, velocity: Pair, xp: Any 
     return induced_flow(air.density, disc_area(vehicle.wing.semi_span), factor, force, velocity, xp)
 
 
-def motion_table(model: FlightModel, wingbeat: Wingbeat, phase: Phases, vector: int = 1) -> WingMotion:
-    """Tabulate the wing's motion at phases; the number of strips is padded to a multiple of `vector`."""
+def motion_table(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    phase: Phases,
+    vector: int = 1,
+    shapes: UnturnedShapes | None = None,
+) -> WingMotion:
+    """Tabulate the wing's motion at phases; the number of strips is padded to a multiple of `vector`.
+
+    `shapes` are as in `wing_motion`.
+    """
+    assert not isinstance(wingbeat.pitch_hinge, PitchHinge), "the motion of the hinge is not known"
     terms = model.full_airspeed, is_unsteady(model), model.wake is not None
-    return wing_motion(model.vehicle, wingbeat, phase, model.strips, vector, *terms)
+    return wing_motion(model.vehicle, wingbeat, phase, model.strips, vector, *terms, shapes=shapes)
 
 
 def is_unsteady(model: FlightModel) -> bool:
@@ -205,10 +213,9 @@ class BodyLoads(NamedTuple):
 
 
 def wing_loads(
-    model: FlightModel, motion: WingMotion, velocity: Pair, pitch_rate: Phases, wake: StripWake | None = None
+    model: FlightModel, motion: WingMotion, velocity: Pair, pitch_rate: Phases, strips: StripForces
 ) -> BodyLoads:
     """Return the air loads on both wings of a body that does not accelerate. Theory: equation ``wing-loads``."""
-    strips = loads_of_strips(model, motion, velocity, pitch_rate, wake)
     forward, up, moment = (2.0 * sum_over_strips(a) for a in strip_parts(model, motion, strips))
     if motion.unsteady is not None:
         through_air = *velocity, pitch_rate
@@ -238,19 +245,21 @@ def _air_loads(
 
     The velocity is relative to the air at the wings; `body` is that relative to the undisturbed air, if it differs.
     """
-    return _loads_at(*model_and_motion, (forward, up), pitch_rate, body)
+    strips = loads_of_strips(*model_and_motion, (forward, up), pitch_rate, None)
+    return loads_at(*model_and_motion, (forward, up), pitch_rate, body, strips)
 
 
-def _loads_at(
+def loads_at(
     model: FlightModel,
     motion: WingMotion,
     velocity: Pair,
     pitch_rate: Phases,
     body: Pair | tuple[()],
-    wake: StripWake | None = None,
+    strips: StripForces,
 ) -> BodyLoads:
+    """Return the air loads in stroke axes from those of the strips; `body` is as in `_air_loads`."""
     forward, up = velocity
-    wings = wing_loads(model, motion, (forward, up), pitch_rate, wake)
+    wings = wing_loads(model, motion, (forward, up), pitch_rate, strips)
     turned = model.vehicle.tail is not None or not at_default(model.vehicle.body, "crossflow_area")
     axes = stroke_attitude(model.vehicle.wing, motion, 0.0) if turned else 0.0
     around = body or (forward, up)
@@ -283,7 +292,8 @@ def air_loads(
     if wake is None:
         loads = _air_loads((model, motion), *velocity, pitch_rate, *body)
     else:
-        loads = _loads_at(model, motion, velocity, pitch_rate, body, wake)
+        strips = loads_of_strips(model, motion, velocity, pitch_rate, wake)
+        loads = loads_at(model, motion, velocity, pitch_rate, body, strips)
     if motion.unsteady is None or acceleration is None:
         return loads
     rates = (*from_world(attitude, acceleration[0], acceleration[1]), acceleration[2])
@@ -335,6 +345,20 @@ def accelerations(
     mass, force_forward, force_up, turn, arm, inertia = balance(
         vehicle, gravity, motion, loads, attitude, pitch_rate
     )
+    right = force_forward, force_up, turn
+    forward, up, pitch_acceleration = of_body_balance(mass, arm, inertia, motion, unsteady_density, right)
+    ax, az = to_world(attitude, forward, up)
+    return ax, az, pitch_acceleration
+
+
+def of_body_balance(
+    mass: Scalar, arm: Pair, inertia: Phases, motion: WingMotion, unsteady_density: Scalar, right: Triple
+) -> Triple:
+    """Return the body's accelerations in stroke axes from the right sides of its three equations of motion.
+
+    Theory: equation ``body-accelerations``.
+    """
+    force_forward, force_up, turn = right
     if motion.unsteady is None:
         pitch_acceleration = (turn - dot(arm, (force_forward, force_up)) / mass) / (inertia - dot(arm, arm) / mass)
         forward = (force_forward - pitch_acceleration * arm[0]) / mass
@@ -348,8 +372,7 @@ def accelerations(
             (inertia + air[2][2],),
         )
         forward, up, pitch_acceleration = _solve_symmetric(rows, (force_forward, force_up, turn))
-    ax, az = to_world(attitude, forward, up)
-    return ax, az, pitch_acceleration
+    return forward, up, pitch_acceleration
 
 
 def _solve_symmetric(rows: tuple[tuple[Phases, ...], ...], right: Triple) -> Triple:
@@ -381,54 +404,3 @@ def wake_of(model: FlightModel, motion: WingMotion, state: FlightState) -> Strip
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
     velocity = velocity_at_wings(model, attitude, u, w)
     return strips_in_wake(model, motion, velocity, pitch_rate, wake_states(model, state))
-
-
-def body_rates(model: FlightModel, motion: WingMotion, state: FlightState) -> FlightState:
-    """Return d/dt of (body_pitch, u, w, pitch_rate) and of the wake. Theory: equation ``state-rates``."""
-    body_pitch, u, w, pitch_rate = _pitch_state(model, state)
-    attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
-    wake = wake_of(model, motion, state)
-    # Without inflow, the air loads depend on the pitch state through three numbers only: the velocity in stroke
-    # axes and the pitch rate. So three derivatives of the loads give those by all four parts of the state.
-    loads = air_loads(model, motion, attitude, u, w, pitch_rate, wake=wake)
-    ax, az, pitch_acceleration = accelerations(
-        model.vehicle, model.air.gravity, motion, loads, attitude, pitch_rate, unsteady_density(model)
-    )
-    rates = jnp.stack([pitch_rate, ax, az, pitch_acceleration])
-    if wake is None:
-        return rates
-    lag = wake_rates(model.wake.rates, wake.pace, wake.shed, wake_states(model, state))
-    return jnp.concatenate([rates, *lag])
-
-
-def rates_by_wake(model: FlightModel, motion: WingMotion, state: FlightState) -> tuple[Any, PerStrip]:
-    """Return the derivatives of (u', w', pitch_rate') by the downwash of each strip's wake, and all paces."""
-    wake = wake_of(model, motion, state)
-    assert wake is not None
-    attitude = stroke_attitude(model.vehicle.wing, motion, state[0])
-
-    # The strips do not act on one another, so one derivative in all their directions has those by each.
-    def parts(more: Any) -> tuple[Any, Any]:
-        met = wake._replace(normal_speed=wake.normal_speed + more, downwash=wake.downwash + more)
-        strips = strip_loads_in_wake(model, motion, met)
-        return jnp.stack(strip_parts(model, motion, strips)), strips.speed
-
-    nothing = jnp.zeros_like(wake.shed)
-    loads, speed = jax.jvp(parts, (nothing,), (jnp.ones_like(nothing),))[1]
-    loads = 2.0 * loads
-    if motion.unsteady is not None:
-        dampings = [(one.damping, one.damping_by_spin) for one in motion.unsteady]
-        damped = [0.0 * speed if own is None else speed * (own + state[3] * spin) for own, spin in dampings]
-        loads = loads - unsteady_density(model) * jnp.stack(damped)
-
-    def accelerated(forward: Any, up: Any, moment: Any) -> Any:
-        pushed = BodyLoads((forward, up), moment)
-        found = accelerations(
-            model.vehicle, model.air.gravity, motion, pushed, attitude, state[3], unsteady_density(model)
-        )
-        return jnp.stack(found)
-
-    zero, one = jnp.zeros_like(attitude), jnp.ones_like(attitude)
-    seeds = [tuple(one if i == j else zero for j in range(3)) for i in range(3)]
-    by_load = fusion_barrier([jax.jvp(accelerated, (zero, zero, zero), seed)[1] for seed in seeds])
-    return sum(by[:, None] * load for by, load in zip(by_load, loads, strict=True)), wake.pace

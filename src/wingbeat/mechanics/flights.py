@@ -16,7 +16,8 @@ from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat
-from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
+from wingbeat.mechanics.flight_model import FlightModel, State
+from wingbeat.mechanics.state_rates import body_rates, rate_table, refuse_without_motion
 from wingbeat.mechanics.strip_air import refuse_without_wake
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ _VECTOR = 8
 def state_rates(model: FlightModel, wingbeat: Wingbeat, phase: Scalar, state: StateVector) -> StateVector:
     """Return d/dt of (x, z, body_pitch, u, w, pitch_rate) at a phase. Theory: equation ``state-rates``."""
     # Padded strips would have states of their wake, too.
-    motion = motion_table(model, wingbeat, phase, _VECTOR if model.wake is None else 1)
+    motion = rate_table(model, wingbeat, phase, _VECTOR if model.wake is None else 1)
     return jnp.concatenate([state[3:5], body_rates(model, motion, state[2:])])
 
 
@@ -92,7 +93,7 @@ class Steps(NamedTuple):
     """Where an integrator stepped."""
 
     phase: np.ndarray  # shape (M,)
-    states: np.ndarray  # shape (M, 6), in the order and units of `State`; then those of the wake
+    states: np.ndarray  # shape (M, 6), in the order and units of `State`; then those of hinge and wake
 
 
 @exported
@@ -210,7 +211,7 @@ def fly_beat_in_steps(
     several, size = start.shape[1:], (last - first) / (pitch.shape[0] - 1)
 
     def motion_at(phase: Scalar) -> Any:
-        return motion_table(model, wingbeat, jnp.broadcast_to(phase, several))
+        return rate_table(model, wingbeat, jnp.broadcast_to(phase, several))
 
     def rates(motion: Any, phase: Scalar, state: FlightStates) -> FlightStates:
         place = (begun + phase / wingbeat.frequency) / spacing
@@ -279,6 +280,7 @@ def fly_beats(
 ) -> FlownBeats:
     """Fly several beats with prescribed wings, ``beats * samples + 1`` samples in all; None is still air."""
     refuse_without_wake(model)
+    refuse_without_motion(wingbeat)
     one_beat, current, begun = np.linspace(0.0, 1.0, samples + 1), state, 0.0
     pieces, wingbeats, airs = [np.array([state], dtype=float)], [], []
     for beat in range(beats):

@@ -11,16 +11,23 @@ couple against the turning of the chord needs the airspeed of each strip.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.arrays import at_default, computed_once, jax, jnp
 from wingbeat.aero.closed_forms import added_inertia, added_mass, damping_couple, rotation_lift
 from wingbeat.animal.kinematics import Wingbeat, span_ratio
+from wingbeat.animal.pitch_hinge import HeldHinge
 from wingbeat.animal.vehicle import Vehicle, Wing
 from wingbeat.mechanics.wing_shape import (
+    Strips,
+    UnturnedShapes,
     WingShape,
     air_chord,
     dot,
+    giving_share,
+    mass_behind,
+    mass_gyration,
     mass_moments,
     padded,
     quarter_turn,
@@ -30,6 +37,7 @@ from wingbeat.mechanics.wing_shape import (
     sum_over_strips,
     tail_tilt,
     time_rates,
+    turned_in_time,
     with_time_axes,
 )
 
@@ -102,33 +110,43 @@ def wing_motion(
     along_span: bool = False,
     unsteady: bool = False,
     wake: bool = False,
+    shapes: UnturnedShapes | None = None,
 ) -> WingMotion:
     """Tabulate the wing's motion at given phases in one pass; the strips are padded to a multiple of `vector`.
+
+    With a hinge that is held at the phases, `shapes` saves computing what does not depend on its motion.
 
     Theory: equations ``wing-moments`` and ``rod-moment``.
     """
     phase = jnp.asarray(phase, dtype=float)
     strips = with_time_axes(padded(strips_of(vehicle.wing, count), vector), phase)
 
-    def strip_places(at: Phases) -> tuple[WingShape, Pair, Pair]:
-        # The shape, and in-plane components of mid-chords and of vectors from there to the leading edge.
-        shape = shape_at(vehicle, wingbeat, strips, at)
+    def places_of(shape: WingShape) -> tuple[WingShape, Pair, Pair]:
+        # The shape, and in-plane components of the centres of mass and of vectors from there to the leading edge.
         fore = shape.chordwise[0], shape.chordwise[2]
-        quarter = 0.25 * strips.chord
-        return shape, (shape.ahead - quarter * fore[0], shape.above - quarter * fore[1]), fore
+        behind = mass_behind(vehicle.wing, strips.chord)
+        return shape, (shape.ahead - behind * fore[0], shape.above - behind * fore[1]), fore
 
-    (shape, place, fore), rates, accelerations = time_rates(strip_places, phase, wingbeat.frequency)
+    def strip_places(at: Phases) -> tuple[WingShape, Pair, Pair]:
+        return places_of(shape_at(vehicle, wingbeat, strips, at))
+
+    if shapes is None:
+        in_time = time_rates(strip_places, phase, wingbeat.frequency)
+    else:
+        in_time = turned_by_hinge(places_of, vehicle.wing, wingbeat, strips, shapes)
+    (shape, place, fore), rates, accelerations = in_time
     (shape_rate, speed, fore_rate), (shape_second, acceleration, fore_acceleration) = rates, accelerations
 
-    # The mass of a strip is spread along its chord: its second moment about mid-chord is that of a uniform rod.
-    mass, gyration = 2.0 * strips.mass, strips.chord * strips.chord / 12.0
+    # The mass of a strip is spread along its chord about its centre.
+    mass, gyration = 2.0 * strips.mass, mass_gyration(vehicle.wing, strips.chord)
     second = dot(place, place) + gyration * dot(fore, fore)
     half_rate = dot(place, speed) + gyration * dot(fore, fore_rate)
     turning = dot(quarter_turn(place), acceleration) + gyration * dot(quarter_turn(fore), fore_acceleration)
     sums = mass_moments(mass, (*place, *speed, *acceleration, second, half_rate, turning))
     width = vehicle.wing.semi_span / count * span_ratio(wingbeat, phase)
     chord = air_chord(wingbeat, strips.chord, phase)
-    swept = shape.sweep_sine is not None
+    # Whether the quarter chords move along the unpitched chord.
+    swept = shape.sweep_sine is not None or not at_default(vehicle.wing, "pitch_axis")
     steady, tilt = at_default(wingbeat, "stroke_plane_tilt"), tail_tilt(vehicle, wingbeat)
     span = loads = chords = moved = None
     if along_span:
@@ -154,7 +172,7 @@ def wing_motion(
         inertia=sums[6],
         inertia_rate=2.0 * sums[7],
         acceleration_moment=sums[8],
-        unpitched=(jnp.broadcast_to(shape.unpitched[0], shape.pitch.shape), shape.unpitched[2]) if swept else None,
+        unpitched=_in_plane(shape) if swept else None,
         sweeping_speed=dot(shape_rate.quarter_chord, shape.unpitched) if swept else None,
         tilt=None if steady else jnp.broadcast_to(wingbeat.stroke_plane_tilt, phase.shape),
         span=None if span is None else (span[0], span[2]),
@@ -163,6 +181,21 @@ def wing_motion(
         tail_tilt=None if tilt is None else jnp.broadcast_to(tilt, phase.shape),
         chords=chords,
     )
+
+
+def turned_by_hinge(
+    made: Callable[[WingShape], Any], wing: Wing, wingbeat: Wingbeat, strips: Strips, shapes: UnturnedShapes
+) -> tuple[Any, Any, Any]:
+    """Return what is made of the shape of a wing with a held hinge, with its first two time derivatives."""
+    held = wingbeat.pitch_hinge
+    assert isinstance(held, HeldHinge)
+    share = giving_share(wingbeat, strips.span_fraction)
+    return turned_in_time(made, wing, strips, shapes, share * held.angle, share * held.rate)
+
+
+def _in_plane(shape: WingShape) -> Pair:
+    x, _, z = shape.unpitched
+    return jnp.broadcast_to(x, shape.pitch.shape), jnp.broadcast_to(z, shape.pitch.shape)
 
 
 class StripSpeeds(NamedTuple):
@@ -365,6 +398,12 @@ def unsteady_load(
         *(_products(_rotation(spin, moved, speeds)) for moved in motion.speeds),
     )
     return _load(row, motion, chord, width, sums[:3], sums[3:6], sums[6], sums[7:10], sums[10])
+
+
+def inertia_of_air(speeds: StripSpeeds, chord: PerStripBroadcast, width: Phases) -> Phases:
+    """Return the air's inertia that a motion of both wings meets, over the density. Theory: ``air-inertia``."""
+    row = _row(speeds, chord, width)
+    return 2.0 * sum_over_strips(_products((row.mass, speeds.mid), (row.inertia, speeds.turn)))
 
 
 def unsteady_loads_on_body(

@@ -15,7 +15,7 @@ from wingbeat._jax.exported import exported
 from wingbeat.aero.closed_forms import added_inertia, added_mass
 from wingbeat.aero.family import depends_on_reynolds
 from wingbeat.aero.strip_forces import StripForces, strip_forces, with_turning
-from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle, span_ratio
+from wingbeat.animal.kinematics import Wingbeat, flap_angle, held_at, pitch_angle, span_ratio
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.mechanics.flight_model import FlightModel, State, is_unsteady, unsteady_density
 from wingbeat.mechanics.strip_air import body_air, pressure_offset, wake_at
@@ -78,7 +78,7 @@ def wing_points(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Sc
     place = jnp.stack([q[0], jnp.zeros_like(q[0]), q[1]])
     attitude = q[2] + stroke_pitch(stroke_plane(wing, wingbeat))
     return WingPoints(
-        place + _in_world(attitude, mass_points(shape, strips)),
+        place + _in_world(attitude, mass_points(wing, shape, strips)),
         place + _in_world(attitude, shape.quarter_chord),
         _in_world(attitude, shape.chordwise),
         _in_world(attitude, shape.normal),
@@ -99,18 +99,32 @@ def corners_of(points: WingPoints, chord: PerStrip, width: Scalar) -> Corners:
 
 
 @exported
-def strip_corners(model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases) -> Corners:
-    """Return the strips' corners along a flight [m], shape (K, N, 4, 3), as `corners_of` does for one instant."""
+def strip_corners(
+    model: FlightModel, wingbeat: Wingbeat, state: State, phase: Phases, hinge: Phases | None = None
+) -> Corners:
+    """Return the strips' corners along a flight [m], shape (K, N, 4, 3), as `corners_of` does for one instant.
+
+    `hinge` is the angle of a hinge that gives way [rad].
+    """
     wing = model.vehicle.wing
     chord = strips_of(wing, model.strips).chord
 
-    def at(body: State, when: Scalar) -> Corners:
-        q = jnp.stack([body.x, body.z, body.body_pitch, flap_angle(wingbeat, when), pitch_angle(wingbeat, when)])
-        points = wing_points(model, wingbeat, q, when / wingbeat.frequency)
+    def at(body: State, when: Scalar, *angle: Scalar) -> Corners:
+        beat = _turned(wingbeat, when, *angle)
+        q = jnp.stack([body.x, body.z, body.body_pitch, flap_angle(beat, when), pitch_angle(beat, when)])
+        points = wing_points(model, beat, q, when / wingbeat.frequency)
         width = wing.semi_span * span_ratio(wingbeat, when) / model.strips
         return corners_of(points, air_chord(wingbeat, chord, when), width)
 
-    return jax.vmap(at)(state, phase)
+    return jax.vmap(at)(state, phase, *(() if hinge is None else (hinge,)))
+
+
+def _turned(wingbeat: Wingbeat, phase: Scalar, *angle: Scalar) -> Wingbeat:
+    """Return the wingbeat with its hinge at an angle, which is at rest; without an angle, as it is."""
+    if not angle:
+        return wingbeat
+    still = jnp.zeros_like(phase)
+    return held_at(wingbeat, phase, angle[0], still, still)
 
 
 @exported
@@ -121,22 +135,27 @@ def surface_points(
     phase: Phases,
     span_fraction: Stations,
     chord_fraction: ChordFractions,
+    hinge: Phases | None = None,
 ) -> SurfacePoints:
-    """Return points of the left wing's surface in the world along a flight [m], shape (K, C, S, 3)."""
+    """Return points of the left wing's surface in the world along a flight [m], shape (K, C, S, 3).
+
+    `hinge` is the angle of a hinge that gives way [rad].
+    """
     wing = vehicle.wing
     chord = chord_at(wing, span_fraction)
     stations = Strips(span_fraction, chord, jnp.zeros_like(chord))
     behind = 0.25 - chord_fraction[:, None]
 
-    def at(body: State, when: Scalar) -> Any:
-        flap, pitch = flap_angle(wingbeat, when), pitch_angle(wingbeat, when)
-        shape = wing_shape(vehicle, wingbeat, stations, when, flap, pitch)
+    def at(body: State, when: Scalar, *angle: Scalar) -> Any:
+        beat = _turned(wingbeat, when, *angle)
+        flap, pitch = flap_angle(beat, when), pitch_angle(beat, when)
+        shape = wing_shape(vehicle, beat, stations, when, flap, pitch)
         attitude = body.body_pitch + stroke_pitch(stroke_plane(wing, wingbeat))
         quarter, fore = _in_world(attitude, shape.quarter_chord), _in_world(attitude, shape.chordwise)
         place = jnp.stack([body.x, jnp.zeros_like(body.x), body.z])
         return place + quarter + (behind * air_chord(wingbeat, chord, when))[..., None] * fore
 
-    return jax.vmap(at)(state, phase)
+    return jax.vmap(at)(state, phase, *(() if hinge is None else (hinge,)))
 
 
 def partial_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:

@@ -15,7 +15,7 @@ import operator
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from wingbeat._jax.arrays import at_default, cos, jax, jnp, sin
+from wingbeat._jax.arrays import at_default, cos, jax, jnp, sin, unchecked
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import (
     Wingbeat,
@@ -27,6 +27,7 @@ from wingbeat.animal.kinematics import (
     sweep_angle,
     tip_twist,
 )
+from wingbeat.animal.pitch_hinge import HeldHinge
 from wingbeat.animal.vehicle import Vehicle, Wing
 
 if TYPE_CHECKING:
@@ -242,7 +243,7 @@ def wing_shape(
     if sweep is not None:
         ahead = ahead + strips.span_fraction * (length * sweep_sine)
         length = length * sweep_cosine
-    return WingShape(
+    shape = WingShape(
         ahead,
         left + arm * (length * arm_cosine) + hand * (length * hand_cosine),
         above + arm * (length * arm_sine) + hand * (length * hand_sine),
@@ -254,6 +255,28 @@ def wing_shape(
         sweep_sine,
         sweep_cosine,
     )
+    return _about_axis(wing, strips, shape)
+
+
+def _about_axis(wing: Wing, strips: Strips, shape: WingShape) -> WingShape:
+    """Return a shape with its quarter chords, given one with the pitch axis in their place."""
+    if at_default(wing, "pitch_axis"):
+        return shape
+    away = (wing.pitch_axis - 0.25) * strips.chord
+    x, y, z = (place + away * fore for place, fore in zip(shape.quarter_chord, shape.chordwise, strict=True))
+    return shape._replace(ahead=x, left=y, above=z)
+
+
+def mass_behind(wing: Wing, chord: PerStripBroadcast) -> PerStripBroadcast:
+    """Return how far the strips' centres of mass are behind the quarter chords [m]. Theory: ``mass-points``."""
+    return 0.25 * chord if at_default(wing, "mass_axis") else (wing.mass_axis - 0.25) * chord
+
+
+def mass_gyration(wing: Wing, chord: PerStripBroadcast) -> PerStripBroadcast:
+    """Return the strips' radius of gyration squared [m2]. Theory: equation ``mass-points``."""
+    if at_default(wing, "mass_gyration"):
+        return chord * chord / 12.0
+    return wing.mass_gyration * wing.mass_gyration * (chord * chord)
 
 
 def shape_at(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases) -> WingShape:
@@ -262,10 +285,16 @@ def shape_at(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases
     return wing_shape(vehicle, wingbeat, strips, phase, flap, pitch)
 
 
-def mass_points(shape: WingShape, strips: Strips) -> Triple:
+def mass_points(wing: Wing, shape: WingShape, strips: Strips) -> Triple:
     """Return the mass points in stroke axes [m], shape (2, N, ...). Theory: equation ``mass-points``."""
-    # Two points of half a strip's mass at mid-chord +- c/(2 sqrt 3) have the second moment of a uniform strip.
-    offsets = jnp.stack([strips.chord * (-0.25 + half / math.sqrt(3)) for half in (0.5, -0.5)])
+    # Two points of half a strip's mass, a radius of gyration from its centre, have its second moment; for a uniform
+    # strip, the radius is c/(2 sqrt 3).
+    if at_default(wing, "mass_axis") and at_default(wing, "mass_gyration"):
+        offsets = jnp.stack([strips.chord * (-0.25 + half / math.sqrt(3)) for half in (0.5, -0.5)])
+    else:
+        offsets = jnp.stack(
+            [strips.chord * (0.25 - wing.mass_axis + side * wing.mass_gyration) for side in (1.0, -1.0)]
+        )
     x, y, z = (place + offsets * fore for place, fore in zip(shape.quarter_chord, shape.chordwise, strict=True))
     return x, y, z
 
@@ -286,6 +315,68 @@ def time_rates(function: Callable[[Any], Any], phase: Phases, frequency: Scalar)
     first = jax.tree_util.tree_map(lambda a: a * frequency, first)
     squared = frequency * frequency
     return value, first, jax.tree_util.tree_map(lambda a: a * squared, second)
+
+
+# --- a wing whose pitch is a state: what depends on time alone is tabulated once, and turned in every step ---
+
+
+class UnturnedShapes(NamedTuple):
+    """Shapes with the hinge at 0 and the pitch axis in place of the quarter chords, and their rates in time."""
+
+    shape: WingShape
+    rate: WingShape
+    second: WingShape
+
+
+def unturned_shapes(vehicle: Vehicle, wingbeat: Wingbeat, strips: Strips, phase: Phases) -> UnturnedShapes:
+    """Tabulate them at phases; the wingbeat's hinge is held at 0."""
+    # A wing about the default axis has the axis in place of the quarter chord.
+    about = unchecked(Wing, {n: v for n, v in vars(vehicle.wing).items() if n != "pitch_axis"} | _AXIS)
+    plain = unchecked(Vehicle, vars(vehicle) | {"wing": about})
+
+    def at(when: Phases) -> WingShape:
+        return shape_at(plain, wingbeat, strips, when)._replace(pitch_sine=None, pitch_cosine=None)
+
+    return UnturnedShapes(*time_rates(at, phase, wingbeat.frequency))
+
+
+_AXIS = {"pitch_axis": Wing.pitch_axis}
+
+
+def giving_share(wingbeat: Wingbeat, span_fraction: PerStripBroadcast) -> PerStripBroadcast:
+    """Return each strip's pitch per angle of a hinge that gives way. Theory: equation ``hinge-torque``."""
+    held = wingbeat.pitch_hinge
+    assert isinstance(held, HeldHinge)
+    twisted = held.hinge.twist_share
+    return (1.0 - twisted) * twist_factors(wingbeat, span_fraction) + twisted * span_fraction
+
+
+def turned(wing: Wing, strips: Strips, shape: WingShape, turn: PerStrip) -> WingShape:
+    """Return an unturned shape with its strips pitched further. Theory: equation ``strip-place``."""
+    pitch = shape.pitch + turn
+    pitched = shape._replace(pitch=pitch, pitch_sine=sin(pitch), pitch_cosine=cos(pitch))
+    return _about_axis(wing, strips, pitched)
+
+
+def turned_in_time(
+    made: Callable[[WingShape], Any],
+    wing: Wing,
+    strips: Strips,
+    shapes: UnturnedShapes,
+    turn: PerStrip,
+    turn_rate: PerStrip,
+) -> tuple[Any, Any, Any]:
+    """Return what is made of the turned shape, with its first and second time derivatives at a steady turn rate."""
+
+    def now(shape: WingShape, angle: PerStrip) -> Any:
+        return made(turned(wing, strips, shape, angle))
+
+    def both(shape: WingShape, angle: PerStrip, rate: WingShape, angle_rate: PerStrip) -> tuple[Any, Any]:
+        return jax.jvp(now, (shape, angle), (rate, angle_rate))
+
+    at, along = (shapes.shape, turn, shapes.rate, turn_rate), (shapes.rate, turn_rate, shapes.second)
+    (value, first), (_, second) = jax.jvp(both, at, (*along, jnp.zeros_like(turn_rate)))
+    return value, first, second
 
 
 # --- how far the wing is to the side of the plane of symmetry: the body pitches about the lateral axis, so this

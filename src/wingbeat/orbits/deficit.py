@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from wingbeat.animal.kinematics import at_rest
 from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.orbits.changes import holds_frequency
 from wingbeat.orbits.flight.period import BALANCES, CLOSURE, CLOSURE_SCALE, LIFT, MOMENT, THRUST
@@ -83,7 +84,7 @@ class Balance:
         vehicle, gravity = problem.vehicle, max(problem.air.gravity, self._options.least_gravity)
         weight = vehicle.mass * gravity
         self.units = {THRUST: weight, LIFT: weight, MOMENT: weight * vehicle.wing.mean_chord}
-        motion = motion_table(problem.model, problem.species.wingbeat, np.zeros(1))
+        motion = motion_table(problem.model, at_rest(problem.species.wingbeat, np.zeros(1)), np.zeros(1))
         offset = sum(float(part[0]) ** 2 for part in motion.first_moment) / vehicle.mass
         # About the vehicle's own centre of mass at the top of the stroke [kg m2].
         pitch_inertia = float(vehicle.body.pitch_inertia + motion.inertia[0] - offset)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._base import KIND, NOMENCLATURE, OVER, __version__, attributes_of, cf, harmonic_place, label_of
-from wingbeat.animal.kinematics import NAMED_IF_ON, PARAMETER_NAMES, in_use
+from wingbeat.animal.kinematics import HINGE_NAMES, NAMED_IF_ON, PARAMETER_NAMES, PITCH_LAW, in_use
 from wingbeat.mechanics.flight_model import State
 from wingbeat.orbits.branches import Branches, certified, families, marks_of
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -144,7 +144,9 @@ def _numbers(
     for name in PARAMETER_NAMES:
         if name == over:  # the axis
             continue
-        always = name not in NAMED_IF_ON and harmonic_place(name) is None
+        always = name not in (*NAMED_IF_ON, *HINGE_NAMES) and harmonic_place(name) is None
+        if name in PITCH_LAW and problem.species.wingbeat.pitch_hinge is not None:
+            always = False
         if always or in_use(problem.species.wingbeat, name) or name in problem.free:
             yield name, NOMENCLATURE[name].unit, label_of(name), functools.partial(_parameter, name)
     for name in State._fields:

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._base import KIND, NOMENCLATURE, SERIES, SERIES_WHERE_ON, __version__, attributes_of
-from wingbeat.animal.kinematics import Wingbeat, chord_ratio, tip_twist
+from wingbeat.animal.kinematics import Wingbeat, chord_ratio, held_at, tip_twist
 from wingbeat.animal.species.species import Species
 from wingbeat.mechanics.flight_loads import Loads, MissingLoads, carried_loads, flight_loads
 from wingbeat.mechanics.flight_model import FlightModel, State
+from wingbeat.mechanics.state_rates import HINGE_STATE
 from wingbeat.mechanics.wing_points import CORNERS, strip_corners
 from wingbeat.records.forms import SERIES_DIMS
 from wingbeat.records.inputs import shape_attribute, vehicle_record, wingbeat_record
@@ -29,8 +30,15 @@ def evaluate(
     phase: np.ndarray,
     states: np.ndarray,
     wake: np.ndarray | None = None,
+    hinge: np.ndarray | None = None,
 ) -> Loads:
-    """Return the loads along sampled states, shape (K, 6), and those of the wake, as NumPy arrays."""
+    """Return the loads along sampled states, shape (K, 6), and those of wake or hinge, as NumPy arrays."""
+    if hinge is not None:
+
+        def with_hinge(*given: Any) -> Any:
+            return flight_loads(*given[:4], None, given[4])
+
+        return Loads(*_along(with_hinge, model, wingbeat, phase, states, hinge))
     more = () if wake is None else (wake,)
     return Loads(*_along(flight_loads, model, wingbeat, phase, states, *more))
 
@@ -88,17 +96,23 @@ def flight_dataset(
     found: Loads,
     attributes: dict[str, Any],
     missing: MissingLoads | None = None,
+    hinge: np.ndarray | None = None,
 ) -> xr.Dataset:
     """Assemble states and loads into a Dataset with dimensions phase, station, corner and axis."""
     import xarray as xr
 
     by_name = dict(zip(State._fields, np.asarray(states).T, strict=True))
-    laws = {"chord_ratio": chord_ratio(wingbeat, phase), "tip_twist": tip_twist(wingbeat, phase)}
+    beat, more = wingbeat, ()
+    if hinge is not None:
+        beat, more = held_at(wingbeat, phase, hinge[:, 0], hinge[:, 1], np.zeros(len(phase))), (hinge[:, 0],)
+        by_name |= dict(zip(HINGE_STATE, hinge.T, strict=True))
+        by_name["hinge_torque"] = np.asarray(wingbeat.pitch_hinge.torque(*hinge.T))
+    laws = {"chord_ratio": chord_ratio(wingbeat, phase), "tip_twist": tip_twist(beat, phase)}
     by_name |= {name: np.asarray(law) for name, law in laws.items() if law is not None}
     by_name |= {f"missing_{name}": value for name, value in (missing._asdict() if missing else {}).items()}
     by_name["time"] = phase / wingbeat.frequency
     by_name |= {name: value for name, value in found._asdict().items() if value is not None}
-    corners = _along(lambda *given: [strip_corners(*given)], model, wingbeat, phase, states)
+    corners = _along(lambda *given: [strip_corners(*given)], model, wingbeat, phase, states, *more)
     by_name["strip_corner"] = corners[0]
     by_name |= _columns(found.acceleration, "u_rate", "w_rate", "pitch_acceleration")
     by_name |= _columns(found.air_force, "force_x", "force_z", "pitching_moment")

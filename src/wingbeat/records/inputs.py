@@ -30,11 +30,12 @@ from wingbeat.aero import (
 from wingbeat.aero.blade_element import OF_ELEMENTS
 from wingbeat.aero.family import AtOneReynolds
 from wingbeat.animal.drive import Battery, Motor, Muscle, Springs
-from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat
+from wingbeat.animal.kinematics import NAMED_IF_ON, PITCH_LAW, Wingbeat
+from wingbeat.animal.pitch_hinge import PitchHinge
 from wingbeat.animal.species.numbers import OwnFrequency, Range, number_from
 from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.species.species import Species
-from wingbeat.animal.vehicle import Air, Body, Tail, Vehicle, Wing
+from wingbeat.animal.vehicle import CHORDWISE, Air, Body, Tail, Vehicle, Wing
 from wingbeat.orbits.options import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.origin import origin_from
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -170,7 +171,12 @@ _PARTS = {"tail": Tail, "muscle": Muscle, "motor": Motor, "springs": Springs, "b
 def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
     """Return the vehicle's numbers."""
     parts = {name: getattr(vehicle, name) for name in ("body", "wing", *_PARTS)}
-    return {name: _listed(part) for name, part in parts.items() if part is not None}
+    return {name: _told(part) for name, part in parts.items() if part is not None}
+
+
+def _told(part: Any) -> dict[str, Any]:
+    off = [name for name in CHORDWISE if isinstance(part, Wing) and at_default(part, name)]
+    return {name: value for name, value in _listed(part).items() if name not in off}
 
 
 def _listed(part: Any) -> dict[str, Any]:
@@ -183,10 +189,28 @@ def vehicle_from(record: dict[str, Any]) -> Vehicle:
     return Vehicle(Body(**record["body"]), Wing(**record["wing"]), **parts)
 
 
+_HINGE = "hinge_"  # before the names of a hinge's numbers
+
+
 def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
     """Return the wingbeat's numbers; the laws in `NAMED_IF_ON` are left out if they are off."""
     left_out = [name for name in NAMED_IF_ON if at_default(wingbeat, name) or getattr(wingbeat, name) == ()]
-    return {name: value for name, value in _listed(wingbeat).items() if name not in left_out}
+    hinge = wingbeat.pitch_hinge
+    if hinge is None:
+        return {name: value for name, value in _listed(wingbeat).items() if name not in (*left_out, "pitch_hinge")}
+    left_out += PITCH_LAW if hinge.moves_root else ()
+    listed = {name: value for name, value in _listed(wingbeat).items() if name not in left_out}
+    del listed["pitch_hinge"]
+    return listed | {f"{_HINGE}{name}": value for name, value in vars(hinge).items()}
+
+
+def wingbeat_from(record: dict[str, Any]) -> Wingbeat:
+    """Return the wingbeat that `wingbeat_record` described; a pitch law that a hinge replaces is 0."""
+    given = {name: value for name, value in record.items() if not name.startswith(_HINGE)}
+    own = {name.removeprefix(_HINGE): value for name, value in record.items() if name not in given}
+    if not own:
+        return Wingbeat(**given)
+    return Wingbeat(**({"pitch_mean": 0.0, "pitch_amplitude": 0.0} | given), pitch_hinge=PitchHinge(**own))
 
 
 def shape_attribute(species: Species | None) -> dict[str, str]:
@@ -299,7 +323,7 @@ def species_from(inputs: dict[str, Any]) -> Species:
         scientific_name=known["scientific_name"],
         kind=known.get("kind", ""),  # a file of a version without kinds has none
         vehicle=vehicle_from(inputs["vehicle"]),
-        wingbeat=Wingbeat(**inputs["stock_wingbeat"]),
+        wingbeat=wingbeat_from(inputs["stock_wingbeat"]),
         air=Air(**inputs["air"]),
         free=tuple(known["free"]),
         bounds=_pairs(known["bounds"]),

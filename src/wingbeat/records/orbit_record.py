@@ -15,6 +15,7 @@ from wingbeat.animal.kinematics import ANGLES, Wingbeat
 from wingbeat.animal.species.scaling import BIRD_FREQUENCY
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import State
+from wingbeat.mechanics.state_rates import HINGE_STATE
 from wingbeat.mechanics.wing_shape import flap_angles, has_room, lateral_corners
 from wingbeat.orbits.flight.beat import Beat
 from wingbeat.orbits.options import Status
@@ -56,6 +57,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "active_bounds": list(solution.active_bounds),
         "closure": dict(solution.closure),
         **({} if certificate.wake is None else {"wake_closure": certificate.wake_miss}),
+        **({} if certificate.hinge is None else _hinge_start(certificate.hinge, certificate.hinge_miss)),
         "failed_balance": [{**vars(s), "unit": s.unit} for s in solution.deficits],
         "relaxations": [dict(vars(r)) for r in solution.relaxations],
         "optimality": solution.optimality,
@@ -78,6 +80,10 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         rows = ((i, step._replace(objective=step.objective * unit)) for i, step in solution.steps)
         record["trace"] = [{"search": i, **step._asdict()} for i, step in rows]
     return finite_or_none(record)
+
+
+def _hinge_start(motion: np.ndarray, miss: float | None) -> dict[str, Any]:
+    return {"hinge_start": dict(zip(HINGE_STATE, motion[0].tolist(), strict=True)), "hinge_closure": miss}
 
 
 # The wake matters at speeds up to about three times the induced velocity of hover. At that speed it changes alpha

@@ -29,7 +29,7 @@ from wingbeat.orbits.uncertainty import OptimumSlopes
 from wingbeat.plots.draw_wingbeat import wingbeat_page
 from wingbeat.records.flight_dataset import evaluate, flight_dataset
 from wingbeat.records.forms import orbit_attributes, parse_attributes
-from wingbeat.records.inputs import inputs_of, own_functions, problem_from, shape_attribute
+from wingbeat.records.inputs import inputs_of, own_functions, problem_from, shape_attribute, wingbeat_from
 from wingbeat.records.orbit_record import orbit_record
 from wingbeat.records.result_files import Saveable, load_dataset
 from wingbeat.records.tables import frame_of
@@ -59,7 +59,7 @@ def _summary(record: dict[str, Any]) -> Summary:
     return Summary(
         Status(record["status"]),
         record["message"],
-        Wingbeat(**record["wingbeat"]),
+        wingbeat_from(record["wingbeat"]),
         State(**record["initial_state"]),
         tuple(Relaxation(**r) for r in record.get("relaxations", [])),
     )
@@ -229,7 +229,8 @@ class Orbit(Saveable, Reported):
             certificate = certify(problem.model, wingbeat, np.array(self.initial_state)[2:])
         flight = problem.model, wingbeat, certificate.phase, certificate.states
         attributes = orbit_attributes(self._record, self._inputs) | shape_attribute(problem.species)
-        return flight_dataset(*flight, evaluate(*flight, certificate.wake), attributes)
+        loads = evaluate(*flight, certificate.wake, certificate.hinge)
+        return flight_dataset(*flight, loads, attributes, hinge=certificate.hinge)
 
     @functools.cached_property
     def multipliers(self) -> Multipliers:

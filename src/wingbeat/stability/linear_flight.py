@@ -18,7 +18,8 @@ from wingbeat._base import FaultList, Report, Reported, __version__, install_ext
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, flap_angle
-from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
+from wingbeat.mechanics.flight_model import FlightModel, State, motion_table
+from wingbeat.mechanics.state_rates import body_rates
 from wingbeat.orbits.flight.certificate import StrokeMap, stroke_map
 from wingbeat.orbits.flight.period import PITCH_STATE
 from wingbeat.orbits.options import check_certified

@@ -139,6 +139,7 @@ def test_numbers_stand_at_their_paths_in_the_order_of_the_record(load: Any) -> N
         *("torque_constant", "resistance", "gear_ratio", "rotor_inertia", "no_load_current", "gear_efficiency"),
         *("crank", "stiffness", "rest_angle", "series_compliance"),
         *("cells", "capacity", "internal_resistance", "cutoff_voltage", "max_current", "cell_voltage"),
+        *("damping", "stop_angle", "stop_stiffness", "twist_share", "pitch_axis", "mass_axis", "mass_gyration"),
         *("chord_retraction", "twist_mean", "sweep_harmonics", "chord_harmonics", "twist_harmonics"),
     }
 

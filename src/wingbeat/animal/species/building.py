@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any, get_args, get_type_hints
 
 from wingbeat._base import FaultList, InvalidInputError, plain_unit, suggest
-from wingbeat.animal.kinematics import NAMED_IF_ON, Wingbeat, parameter
+from wingbeat.animal.kinematics import NAMED_IF_ON, PitchHinge, Wingbeat, parameter
 from wingbeat.animal.species.numbers import (
     DEFAULT,
     KEYS,
@@ -21,21 +21,27 @@ from wingbeat.animal.species.numbers import (
     Numbers,
     SpeciesText,
     display,
+    path_of,
     shown,
     spoken,
     words,
 )
-from wingbeat.animal.vehicle import Air, Vehicle
+from wingbeat.animal.vehicle import CHORDWISE, Air, Vehicle
 
 WHOLE, BODY, WING = "vehicle.mass", "vehicle.body.mass", "vehicle.wing.mass"
+HINGE = "vehicle.pitch_hinge"  # a part in files; the record of the wingbeat holds it, in place of the pitch law
 # The class of each record, by the path of its numbers; the parts of a vehicle in the order of its fields.
 _RECORDS: dict[str, Any] = {
     **{f"vehicle.{n}": (get_args(hint) or (hint,))[0] for n, hint in get_type_hints(Vehicle).items()},
-    **{"wingbeat": Wingbeat, "air": Air},
+    **{HINGE: PitchHinge, "wingbeat": Wingbeat, "air": Air},
 }
 _OF_PARTS = {key.path: key for keys in PARTS.values() for key in keys}
 # If a species is not given these numbers, it has none of them, not even as a default.
-UNNAMED_PATHS = (*_OF_PARTS, *(f"wingbeat.{name}" for name in NAMED_IF_ON))
+UNNAMED_PATHS = (
+    *_OF_PARTS,
+    *(f"wingbeat.{name}" for name in NAMED_IF_ON),
+    *(f"vehicle.wing.{name}" for name in CHORDWISE),
+)
 _DEFAULTS: dict[str, Any] = {
     f"{section}.{field.name}": field.default
     for section, record in _RECORDS.items()
@@ -62,13 +68,16 @@ def build_records(numbers: Mapping[str, Number], given: Numbers, faults: FaultLi
             continue
         paths = {field.name: f"{section}.{field.name}" for field in dataclasses.fields(record)}
         values = {n: numbers[p].value if p in numbers else default_of(p) for n, p in paths.items()}
+        if record is Wingbeat:
+            values["pitch_hinge"] = made.get(HINGE)
         try:
             made[section] = record(**values)
         except InvalidInputError as error:
             faults.faults += [given.quote(fault) for fault in error.faults]
     if len(faults.faults) > before:
         return {}
-    vehicle = Vehicle(**{p.removeprefix("vehicle."): made.get(p) for p in _RECORDS if p.startswith("vehicle.")})
+    parts = [p for p in _RECORDS if p.startswith("vehicle.") and p != HINGE]
+    vehicle = Vehicle(**{p.removeprefix("vehicle."): made.get(p) for p in parts})
     if not math.isfinite(vehicle.mass):
         faults.add("vehicle.mass", vehicle.mass, "must be finite", "make the body or the wings lighter")
     return {"vehicle": vehicle, "wingbeat": made["wingbeat"], "air": made["air"]}
@@ -128,8 +137,8 @@ def check_bounds(content: SpeciesText, faults: FaultList) -> None:
     for name, bound in content.free.items():
         for end in bound.bounds:
             number = Numbers()
-            number[f"wingbeat.{name}"] = Number(end, "")
-            number.written[f"wingbeat.{name}"] = content.written[name]
+            number[path_of(name)] = Number(end, "")
+            number.written[path_of(name)] = content.written[name]
             before = len(faults.faults)
             build_records(number, number, faults)
             if len(faults.faults) > before:
@@ -207,7 +216,7 @@ def find_warnings(
     for name, (low, high) in bounds.items():
         value = parameter(wingbeat, name)
         if not low <= value <= high:
-            path = f"wingbeat.{name}"
+            path = path_of(name)
             guess = words(path, Number(value, plain_unit(name)))
             found.append(f"{path} = {guess} is outside its bounds; the solver starts from the nearer bound")
     laws = {path.removeprefix("vehicle."): n.source for path, n in numbers.items() if n.source.startswith(DERIVED)}

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from wingbeat._base import FIRST_ORDER, HARMONIC_NAMES, IN_RADIANS, Fault, find, plain, plain_unit
+from wingbeat.animal.kinematics import HINGE_NAMES
 
 DEFAULT = "not given: the default"
 FREQUENCY = "wingbeat.frequency"
@@ -60,7 +61,8 @@ KEYS = (
     *_keys("vehicle.wing", "chord", shape="stations"),
     *_keys("vehicle.wing", "mass", "mass_exponent"),
     *_keys("vehicle.wing", optional="shoulder", shape="vector"),
-    *_keys("vehicle.wing", optional="stroke_plane_angle"),
+    *_keys("vehicle.wing", optional="stroke_plane_angle pitch_axis mass_axis mass_gyration"),
+    *_keys("vehicle.pitch_hinge", "stiffness", "damping rest_angle stop_angle stop_stiffness twist_share"),
     *_keys("vehicle.tail", "area arm lift_slope", "drag_coefficient height incidence"),
     *_keys("vehicle.muscle", "mass elevator_share strain_per_angle max_strain_rate isometric_stress curvature"),
     *_keys("vehicle.muscle", optional="tendon_compliance activation_energy recovery_factor resting_rate"),
@@ -94,9 +96,17 @@ FREE = _keys(
         (
             *(key.name for key in KEYS if key.part == "wingbeat" and key.name != "wrist" and key.shape == "number"),
             *HARMONIC_NAMES,
+            *HINGE_NAMES,
         )
     ),
 )
+
+
+def path_of(name: str) -> str:
+    """Return the path of a free parameter's number: those of a hinge belong to the vehicle."""
+    return f"vehicle.pitch_hinge.{HINGE_NAMES[name]}" if name in HINGE_NAMES else f"wingbeat.{name}"
+
+
 # How the animal looks. No model reads it.
 TRUNK = ("body_length", "body_width", "body_depth")
 EXTREMITIES = ("head_length", "bill_length", "ear_length", "tail_length", "tail_width")  # 0 without one

@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from wingbeat.animal.kinematics import PITCH_LAW
 from wingbeat.animal.species.numbers import Bound
 from wingbeat.animal.species.scaling import CRUISE_BY_MASS
 from wingbeat.animal.species.species import Species
@@ -95,4 +96,30 @@ def with_posture(species: Species, speed: float) -> Species:
         species,
         path_bounds=species.path_bounds | {"body_pitch": bounds},
         reasons=species.reasons | {"body_pitch": " ".join(reason.split())},
+    )
+
+
+def with_pitch_given_way(species: Species) -> Species:
+    """Return a species without the free parameters of a pitch law that a hinge replaces.
+
+    If the mean pitch was free, the hinge's rest angle is so in its place, within the same bounds.
+
+    >>> import wingbeat as wb
+    >>> robot = wb.load_species("robofalcon2").with_values({"pitch_hinge.stiffness": 1.4})
+    >>> with_pitch_given_way(robot).free
+    ('frequency', 'flap_mean', 'flap_amplitude', 'hinge_rest_angle')
+    """
+    hinge = species.wingbeat.pitch_hinge
+    if hinge is None or not hinge.moves_root:
+        return species
+    free, bounds, reasons = dict.fromkeys(species.free), dict(species.bounds), dict(species.reasons)
+    guessed, rest, mean = set(species.guessed_bounds), "hinge_rest_angle", "pitch_mean"
+    if mean in free and rest not in free:
+        free[rest] = None
+        bounds.setdefault(rest, bounds[mean])
+        reasons.setdefault(rest, "as for the mean pitch that it replaces")
+        guessed |= {rest} if mean in guessed else set()
+    kept = tuple(name for name in free if name not in PITCH_LAW)
+    return dataclasses.replace(
+        species, free=kept, bounds=bounds, reasons=reasons, guessed_bounds=frozenset(guessed)
     )

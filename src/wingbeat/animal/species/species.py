@@ -17,10 +17,12 @@ from wingbeat._base import (
     plain_unit,
     suggest,
 )
+from wingbeat._jax.arrays import at_default
 from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat
 from wingbeat.animal.species.building import (
     BODY,
     BY_HAND,
+    HINGE,
     WHOLE,
     WING,
     build_records,
@@ -49,6 +51,7 @@ from wingbeat.animal.species.numbers import (
     frequency_of,
     in_order,
     jsonable,
+    path_of,
     range_of,
     range_of_tilt,
     to_si,
@@ -56,7 +59,7 @@ from wingbeat.animal.species.numbers import (
 from wingbeat.animal.species.report import species_report
 from wingbeat.animal.species.scaling import frequencies_by_law, muscle_numbers, tail_numbers
 from wingbeat.animal.species.shape import Shape
-from wingbeat.animal.vehicle import Air, Vehicle
+from wingbeat.animal.vehicle import CHORDWISE, Air, Vehicle
 
 MUSCLE = "muscle"  # the alternative with measured masses of the flight muscle
 
@@ -171,8 +174,8 @@ class Species(Reported):
         """
         if name == "tail_tilt":
             return range_of_tilt(self.numbers)
-        if f"wingbeat.{name}" in self.numbers:
-            return range_of(self.numbers[f"wingbeat.{name}"])
+        if path_of(name) in self.numbers:
+            return range_of(self.numbers[path_of(name)])
         known = self.plausible.get(name, ACTIVATION if name == "peak_activation" else None)
         return Range(None, None, plain_unit(name), UNKNOWN) if known is None else known.at(speed)
 
@@ -220,7 +223,7 @@ class Species(Reported):
         ----------
         record : a vehicle or a wingbeat.
         """
-        section, parts = "wingbeat", {"wingbeat": record}
+        section, parts = "wingbeat", {"wingbeat": record, HINGE: getattr(record, "pitch_hinge", None)}
         if isinstance(record, Vehicle):
             section, parts = "vehicle", {"vehicle": record, **{f"vehicle.{n}": r for n, r in vars(record).items()}}
         numbers = dict(self.numbers)
@@ -433,6 +436,9 @@ class Species(Reported):
         for record in ("vehicle", "wingbeat", "air"):
             plain[record] = dataclasses.asdict(plain[record])
         plain["vehicle"] = {part: record for part, record in plain["vehicle"].items() if record is not None}
+        for name in CHORDWISE:
+            if at_default(self.vehicle.wing, name):
+                del plain["vehicle"]["wing"][name]
         plain["guessed_bounds"] = sorted(self.guessed_bounds)
         plain["shape"] = self.shape and self.shape.drawn() | {"numbers": self.shape.numbers}
         return jsonable(plain)

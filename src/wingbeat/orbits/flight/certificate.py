@@ -15,11 +15,12 @@ import numpy as np
 from wingbeat._jax.arrays import fusion_barrier, jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, parameter
-from wingbeat.mechanics.flight_model import FlightModel, State, body_rates, motion_table
+from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.flights import RTOL, Steps, fly_through
-from wingbeat.orbits.flight.lagged import WakeStart
+from wingbeat.mechanics.state_rates import body_rates, hinge_states, rate_table
+from wingbeat.orbits.flight.lagged import InnerStart
 from wingbeat.orbits.flight.march import ALONG, PLACES, WEIGHTS
-from wingbeat.orbits.flight.period import Flown, flier
+from wingbeat.orbits.flight.period import Flown, flier, inner_start
 from wingbeat.orbits.search_options import WAKE, WakeOptions
 
 if TYPE_CHECKING:
@@ -40,6 +41,7 @@ class Certificate:
     states : (x, z, body_pitch, u, w, pitch_rate) there, shape (K, 6) [m, m, rad, m/s, m/s, rad/s].
     steps : the integrator's steps.
     wake : with the lag of the wake, the states of each strip's wake there, shape (K, 2 strips) [m/s]; else None.
+    hinge : angle and rate of a hinge that gives way there, shape (K, 2) [rad, rad/s]; None without one.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -52,6 +54,7 @@ class Certificate:
     states: np.ndarray
     steps: Steps
     wake: np.ndarray | None = None
+    hinge: np.ndarray | None = None
 
     @property
     def end(self) -> np.ndarray:
@@ -65,14 +68,24 @@ class Certificate:
 
     @property
     def path(self) -> np.ndarray:
-        """All states but the position, shape (K, 4), or with those of the wake (K, 4 + 2 strips)."""
-        states = self.states[:, 2:]
-        return states if self.wake is None else np.hstack([states, self.wake])
+        """All states but the position: shape (K, 4), more with those of hinge and wake."""
+        inner = [one for one in (self.hinge, self.wake) if one is not None]
+        return np.hstack([self.states[:, 2:], *inner])
 
     @property
     def wake_miss(self) -> float | None:
         """Largest change of a state of the wake over the period [m/s]; None without the lag."""
         return None if self.wake is None else float(np.abs(self.wake[-1] - self.wake[0]).max())
+
+    @property
+    def inner_miss(self) -> float:
+        """Largest change of a state of wake or hinge over the period; 0 without any."""
+        return max(self.wake_miss or 0.0, self.hinge_miss or 0.0)
+
+    @property
+    def hinge_miss(self) -> float | None:
+        """Largest change of the hinge's angle or rate over the period [rad, rad/s]; None without a hinge."""
+        return None if self.hinge is None else float(np.abs(self.hinge[-1] - self.hinge[0]).max())
 
 
 def certify(
@@ -82,13 +95,13 @@ def certify(
     rtol: float = RTOL,
     *,
     rough: bool = False,
-    near: WakeStart | None = None,
+    near: InnerStart | None = None,
     lag: WakeOptions = WAKE,
 ) -> Certificate:
     """Fly one period from x = z = 0 and the given (body_pitch, u, w, pitch_rate).
 
-    With the lag of the wake, the period is flown again until the states of the wake repeat, too, or the flights of
-    `lag` are spent; `Certificate.wake_miss` says how nearly they repeat.
+    With the lag of the wake or a hinge that gives way, the period is flown again until their states repeat, too, or
+    the flights of `lag` are spent; `Certificate.wake_miss` and `hinge_miss` say how nearly they repeat.
 
     Theory: equation ``certificate``.
 
@@ -98,8 +111,8 @@ def certify(
     pitch_state : initial pitch state, shape (4,) [rad, m/s, m/s, rad/s].
     rtol : relative tolerance of the flight.
     rough : whether to sample the path at only a few phases, which takes half the time.
-    near : where to look for the states of the wake; the search knows it, and it saves flights.
-    lag : how exactly the states of the wake must repeat.
+    near : where to look for these states; the search knows it, and it saves flights.
+    lag : how exactly they must repeat.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -110,37 +123,40 @@ def certify(
     # A rough flight has the same number of phases, the last ones all at the end. One compiled program thus serves
     # both kinds of flight.
     phase = np.minimum(np.linspace(0.0, SAMPLES / _ROUGH_SAMPLES if rough else 1.0, SAMPLES + 1), 1.0)
-    start = State(0.0, 0.0, *pitch_state)
-    if model.wake is None:
+    start, first = State(0.0, 0.0, *pitch_state), inner_start(model, wingbeat)
+    if not first.size:
         return Certificate(phase, *fly_through(model, wingbeat, start, phase, rtol))
 
-    def from_wake(wake: np.ndarray) -> tuple[np.ndarray, Steps]:
-        return fly_through(model, wingbeat, start, phase, rtol, wake=(wake,))
+    def from_inner(inner: np.ndarray) -> tuple[np.ndarray, Steps]:
+        return fly_through(model, wingbeat, start, phase, rtol, wake=(inner,))
 
-    states, steps = _repeating(from_wake, near, 2 * model.strips, lag.rough_repeats if rough else lag.repeats, lag)
-    return Certificate(phase, states[:, :6], steps, states[:, 6:])
+    states, steps = _repeating(from_inner, near, first, lag.rough_repeats if rough else lag.repeats, lag)
+    hinge, wake = np.split(states[:, 6:], [hinge_states(wingbeat)], axis=1)
+    parts = (None if part.size == 0 else part for part in (wake, hinge))
+    return Certificate(phase, states[:, :6], steps, *parts)
 
 
 def _repeating(
     fly: Callable[[np.ndarray], tuple[np.ndarray, Steps]],
-    near: WakeStart | None,
-    size: int,
+    near: InnerStart | None,
+    inner: np.ndarray,
     tolerance: float,
     lag: WakeOptions,
 ) -> tuple[np.ndarray, Steps]:
-    """Fly until the states of the wake repeat, by Broyden's method for the inverse; return the last flight."""
-    wake, inverse = np.zeros(size), np.eye(size)
+    """Fly until the inner states repeat, by Broyden's method for the inverse; return the last flight."""
+    unit = np.eye(inner.size)
+    inverse = unit
     if near is not None:
-        wake, inverse = near.states, np.linalg.inv(np.eye(size) - near.slopes)
-    states, steps = fly(wake)
+        inner, inverse = near.states, np.linalg.inv(unit - near.slopes)
+    states, steps = fly(inner)
     for _ in range(lag.certifying_flights - 1):
-        miss = states[-1, 6:] - wake
+        miss = states[-1, 6:] - inner
         if not np.abs(miss).max() > tolerance:  # or not a number
             break
         step = inverse @ miss
-        wake = wake + step
-        states, steps = fly(wake)
-        change = miss - (states[-1, 6:] - wake)
+        inner = inner + step
+        states, steps = fly(inner)
+        change = miss - (states[-1, 6:] - inner)
         back = inverse @ change
         if np.isfinite(back).all() and step @ back:
             inverse = inverse + np.outer(step - back, step @ inverse) / (step @ back)
@@ -175,7 +191,7 @@ def _state_maps(
 
     def step(state: Any, index: Any) -> tuple[Any, None]:
         phases = begin + length * (index + jnp.array([0.0, 0.5, 1.0])[:, None])
-        motion = motion_table(model, wingbeat, phases.ravel())
+        motion = rate_table(model, wingbeat, phases.ravel())
         rows = jax.tree_util.tree_map(
             lambda leaf: jnp.moveaxis(leaf.reshape(*leaf.shape[:-1], 3, -1), -2, 0)[PLACES], motion
         )
@@ -222,8 +238,9 @@ def multipliers_of(matrix: np.ndarray) -> np.ndarray:
 def monodromy(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarray:
     """Return the derivative of the pitch state at the end of a period by that at its start, shape (4, 4).
 
-    With the lag of the wake, the states of the wake follow, shape (4 + 2 strips, 4 + 2 strips). It is not-a-number
-    if the flight diverges. Theory: equation ``monodromy``.
+    The states of a hinge that gives way, or of the wake, follow. It is not-a-number if the flight diverges.
+
+    Theory: equation ``monodromy``.
     """
     phase, path = steps.phase, steps.states[:, 2:]
     if phase[-1] < 1.0:

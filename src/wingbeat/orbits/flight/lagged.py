@@ -1,11 +1,12 @@
-"""The derivative of a period flown with the lag of the wake, and the states of the wake that repeat.
+"""The derivative of a period flown with inner states, and those inner states that repeat.
 
-The lag adds two states to each strip. The step loop integrates them with the body. They must return after a beat as
-the body does, but they are no unknowns of the search: at given unknowns their start z follows from ``z(T; z) = z``,
-which Newton's method solves. Its matrix, the derivative of z(T) by z, comes with each flight, because tangents of
-body and wake are propagated together. Eliminating the start condenses the derivatives: the search sees a flight of
-the body alone (the lifted Newton method, Albersmeyer and Diehl 2010, doi 10.1137/080724885). The search moves in
-small steps, so the start predicted from the flight before is nearly right, and most points take one flight.
+Inner states are the angle and rate of a hinge that gives way, and with the lag of the wake two of each strip. The
+step loop integrates them with the body. They must return after a beat as the body does, but they are no unknowns of
+the search: at given unknowns their start z follows from ``z(T; z) = z``, which Newton's method solves. Its matrix,
+the derivative of z(T) by z, comes with each flight, because tangents of body and inner states are propagated
+together. Eliminating the start condenses the derivatives: the search sees a flight of the body alone (the lifted
+Newton method, Albersmeyer and Diehl 2010, doi 10.1137/080724885). The search moves in small steps, so the start
+predicted from the flight before is nearly right, and most points take one flight.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from wingbeat._jax.arrays import jax, jnp
-from wingbeat.orbits.flight.march import ALONG, STEPS, WEIGHTS, March, along_stages, in_lanes
+from wingbeat.orbits.flight.march import ALONG, STEPS, WEIGHTS, March, along_stages, from_rows, in_lanes
 from wingbeat.orbits.search_options import WakeOptions
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
 
 def chained(
-    rates: tuple[Callable[..., Any], Callable[..., Any]],
+    rates: tuple[Callable[..., Any], Callable[..., Any], Callable[..., Any]],
     model: Any,
     table: TableRows,
     tangents: TableTangents,
@@ -35,16 +36,19 @@ def chained(
 ) -> tuple[Any, Any, Any]:
     """Return places, states and their tangents: the end (2 + S,), its Jacobian, and that of the path.
 
-    There are S states; `rates` are `body_rates` and `rates_by_wake`. Directions, the states and then the free
-    parameters, are the last axis. Theory: equation ``step-chain``.
+    There are S states; `rates` are `body_rates`, `rates_by_wake`, `slopes_with_hinge`. Directions, the states and
+    then the free parameters, are the last axis. Theory: equation ``step-chain``.
     """
-    (body_rates, rates_by_wake), size, free = rates, flight.last.size, step_tangent.size
+    (body_rates, rates_by_wake, slopes_with_hinge), size, free = rates, flight.last.size, step_tangent.size
     lanes, state, by_state, by_free = along_stages(body_rates, model, table, like, flight.states)
-    by_wake, pace = rates_by_wake(model, lanes, state)
-    body = jax.vmap(by_state)(jnp.eye(size)[:4])  # (4, S, lanes)
-    own = jax.vmap(by_free)(in_lanes(tangents))  # (free, S, lanes)
-
-    columns = body.transpose(1, 0, 2), _wake_columns(model, by_wake, pace), own.transpose(1, 0, 2)
+    if model.wake is None:
+        changes = jax.vmap(lambda rows: from_rows(rows, like))(in_lanes(tangents))
+        columns = [slopes_with_hinge(model, lanes, state, changes)]
+    else:
+        own = jax.vmap(by_free)(in_lanes(tangents))  # (free, S, lanes)
+        by_wake, pace = rates_by_wake(model, lanes, state)
+        body = jax.vmap(by_state)(jnp.eye(size)[:4])  # (4, S, lanes)
+        columns = [body.transpose(1, 0, 2), _wake_columns(model, by_wake, pace), own.transpose(1, 0, 2)]
     # (steps, 4 stages, S, directions)
     slopes = jnp.concatenate(columns, axis=1).reshape(size, size + free, 4, STEPS).transpose(3, 2, 0, 1)
     # The step grows with the free parameters, whose tangents are rows of the unit matrix below those of the states.
@@ -84,10 +88,10 @@ def _wake_columns(model: Any, by_wake: ByStripWake, pace: PerStrip) -> Any:
     return jnp.concatenate([jnp.zeros((1, *of_body.shape[1:])), of_body, of_wake])
 
 
-class WakeStart(NamedTuple):
-    """The states of the wake at phase 0 of a flight [m/s], whether they repeat, and the flight's stroke map.
+class InnerStart(NamedTuple):
+    """The inner states at phase 0 of a flight, whether they repeat, and the flight's stroke map.
 
-    The map is the derivative of (body_pitch, u, w, pitch_rate) and the wake after a beat by those before it.
+    The map is the derivative of (body_pitch, u, w, pitch_rate) and inner states after a beat by those before it.
     """
 
     states: np.ndarray
@@ -96,19 +100,21 @@ class WakeStart(NamedTuple):
 
     @property
     def slopes(self) -> np.ndarray:
-        """Derivative of the wake after a beat by that before it."""
+        """Derivative of the inner states after a beat by those before it."""
         return self.stroke_map[4:, 4:]
 
 
-class RepeatingWake:
-    """A flier of the body alone: it finds the states of the wake that repeat, and condenses the derivatives.
+class RepeatingStates:
+    """A flier of the body alone: it finds the inner states that repeat, and condenses the derivatives.
 
-    `fly` flies all states of one period, in blocks; `whole` says whether the path has all states, or body pitch.
-    A flier predicts the wake from its last flight, so a search has a copy of its own.
+    `fly` flies all states of one period, in blocks; `first` are inner states to begin with; `whole` says whether
+    the path has all states, or body pitch. A flier predicts the states from its last flight, so a search has a copy
+    of its own.
     """
 
-    def __init__(self, fly: Callable[..., Any], strips: int, whole: bool, options: WakeOptions) -> None:
-        self._fly, self._size, self._whole, self._options = fly, 2 * strips, whole, options
+    def __init__(self, fly: Callable[..., Any], first: np.ndarray, whole: bool, options: WakeOptions) -> None:
+        self._fly, self._first, self._whole, self._options = fly, first, whole, options
+        self._size = first.size
         self._last: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
 
     def __call__(self, values: np.ndarray, start: np.ndarray, blocks: int = 1) -> Any:
@@ -131,14 +137,16 @@ class RepeatingWake:
             repeats = bool(np.abs(step).max() <= options.near)
             if repeats:
                 break
-            states = states + step[:, 0]
+            # Far from the states that repeat, to fly on is safer than Newton's step: disturbances die out.
+            far = np.abs(step).max() > options.far * (1.0 + np.abs(states).max())
+            states = states + (miss if far else step[:, 0])
         self._last = place, states + step[:, 0], along
-        start_of = WakeStart(self._last[1], repeats, jacobian[2:, : 4 + self._size])
-        return self._condensed(flown, step[:, 0], along)._replace(wake=start_of)
+        start_of = InnerStart(self._last[1], repeats, jacobian[2:, : 4 + self._size])
+        return self._condensed(flown, step[:, 0], along)._replace(inner=start_of)
 
     def _predicted(self, place: np.ndarray) -> np.ndarray:
         if self._last is None:
-            return np.zeros(self._size)
+            return self._first
         before, states, along = self._last
         predicted = states + along @ (place - before)
         return predicted if np.abs(predicted - states).max() < np.abs(states).max() + 1.0 else states

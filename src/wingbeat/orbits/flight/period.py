@@ -2,7 +2,7 @@
 
 First, the states are computed, step after step. Then the tangents of all steps are computed at once, as lanes; the
 tangents of each step start from the state at its start. Last, the step maps are multiplied. The position (x, z)
-does not affect the flight: it is a sum over the steps. With the lag of the wake, `lagged` does the last two.
+does not affect the flight: it is a sum over the steps. With inner states, `lagged` does the last two.
 """
 
 from __future__ import annotations
@@ -17,7 +17,8 @@ from wingbeat._jax.arrays import fusion_barrier, jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, unpack
 from wingbeat.animal.vehicle import Vehicle
-from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table, rates_by_wake
+from wingbeat.mechanics.flight_model import FlightModel
+from wingbeat.mechanics.state_rates import GivingStroke, body_rates, rate_table, rates_by_wake, slopes_with_hinge
 from wingbeat.mechanics.wing_motion import WingMotion, strips_of
 from wingbeat.mechanics.wing_shape import (
     LEADING,
@@ -28,7 +29,7 @@ from wingbeat.mechanics.wing_shape import (
     lateral_corner,
     lateral_corners,
 )
-from wingbeat.orbits.flight.lagged import RepeatingWake, WakeStart, chained
+from wingbeat.orbits.flight.lagged import InnerStart, RepeatingStates, chained
 from wingbeat.orbits.flight.march import (
     ALONG,
     AT_STAGES,
@@ -162,22 +163,22 @@ class Flown(NamedTuple):
     path_jacobian: PathJacobian
     stroke: StrokeRows = None
     stroke_jacobian: StrokeJacobian = None
-    wake: WakeStart | None = None  # at the start, with the lag of the wake, unless the flight diverges
+    inner: InnerStart | None = None  # at the start, with inner states, unless the flight diverges
 
     @property
     def stroke_map(self) -> np.ndarray:
-        """Derivative of the pitch state, with the lag also of the wake, after the period by that before it."""
-        # With the lag, `end_jacobian` holds for wakes that repeat; a disturbance changes the wake, too.
-        return np.asarray(self.end_jacobian)[2:, :4] if self.wake is None else self.wake.stroke_map
+        """Derivative of the pitch state and of inner states after the period by those before it."""
+        # `end_jacobian` holds for inner states that repeat; a disturbance changes them, too.
+        return np.asarray(self.end_jacobian)[2:, :4] if self.inner is None else self.inner.stroke_map
 
 
 def tabulated(
     model: FlightModel, wingbeat: Wingbeat, first: Scalar, last: Scalar
-) -> tuple[tuple[TableRows, Scalar], WingMotion]:
+) -> tuple[tuple[TableRows, Scalar], WingMotion | GivingStroke]:
     """Tabulate the wing at the ends of the steps, then at their middles; return rows, a step [s], the table."""
     whole = jnp.arange(STEPS + 1) / STEPS
     phase = first + (last - first) * jnp.concatenate([whole, whole[:-1] + 0.5 / STEPS])
-    table = motion_table(model, wingbeat, phase)
+    table = rate_table(model, wingbeat, phase)
     # One array is faster to slice than many.
     rows = jnp.concatenate([leaf.reshape(-1, leaf.shape[-1]) for leaf in jax.tree_util.tree_leaves(table)])
     return (rows, (last - first) / (wingbeat.frequency * STEPS)), table
@@ -284,9 +285,9 @@ def fly_part(
     tangents, step_tangent = jax.vmap(along)(jnp.eye(len(free)))
     table, tangents = fusion_barrier((table, tangents))
     flight = march(model, table, like, step, start)
-    if model.wake is not None:
+    if start.size > len(PITCH_STATE):
         end, end_jacobian, path_jacobian = chained(
-            (body_rates, rates_by_wake), model, table, tangents, like, flight, step, step_tangent
+            (body_rates, rates_by_wake, slopes_with_hinge), model, table, tangents, like, flight, step, step_tangent
         )
         path = jnp.concatenate([flight.states[:, 0].T, flight.last[None]])
         flown = Flown(end, path, end_jacobian, path_jacobian)
@@ -333,7 +334,15 @@ def flier(
             flown = _then(flown, part(values, flown.end[2:], i / blocks, (i + 1) / blocks))
         return flown
 
-    return fly if model.wake is None else RepeatingWake(fly, model.strips, whole_path, lag)
+    first = inner_start(model, wingbeat)
+    return RepeatingStates(fly, first, whole_path, lag) if first.size else fly
+
+
+def inner_start(model: FlightModel, wingbeat: Wingbeat) -> np.ndarray:
+    """Return inner states to begin with: air at rest in the wake, and a hinge at rest."""
+    hinge = wingbeat.pitch_hinge
+    at_rest = [] if hinge is None else [hinge.rest_angle, 0.0]
+    return np.array([*at_rest, *[0.0] * (0 if model.wake is None else 2 * model.strips)], dtype=float)
 
 
 def _then(before: Flown, part: Flown) -> Flown:

@@ -9,16 +9,16 @@ import numpy as np
 
 from wingbeat._jax.arrays import fusion_barrier, jax, jnp
 from wingbeat._jax.exported import exported
-from wingbeat.animal.kinematics import Wingbeat, chord_ratio, flap_angle, pitch_angle, unpack
+from wingbeat.animal.kinematics import Wingbeat, chord_ratio, flap_angle, held_at, pitch_angle, unpack
 from wingbeat.mechanics.flight_model import (
     FlightModel,
     air_loads,
-    body_rates,
     motion_table,
     velocity_at_wings,
     wake_of,
 )
 from wingbeat.mechanics.hinge_torques import HingeMotion, hinge_loads, hinge_motion
+from wingbeat.mechanics.state_rates import body_rates, held_wingbeat, rate_table
 from wingbeat.mechanics.strip_air import loads_of_strips
 from wingbeat.mechanics.wing_motion import WingMotion, strips_of, stroke_attitude
 from wingbeat.mechanics.wing_shape import to_world
@@ -70,9 +70,11 @@ def _tabulate(model: FlightModel, wingbeat: Wingbeat, phase: Samples) -> _Tables
     )
 
 
-def _series(model: FlightModel, tables: _Tables, path: PitchState, mean_velocity: Pair) -> Beat:
+def _series(model: FlightModel, tables: _Tables, path: PitchState, mean_velocity: Pair, body: Any = None) -> Beat:
+    """Return the series; `body` has the accelerations of a body whose wing's pitch gives way."""
     motion = tables.motion
-    body = fusion_barrier(body_rates(model, motion, path)[1:4])
+    if body is None:
+        body = fusion_barrier(body_rates(model, motion, path)[1:4])
     wake = wake_of(model, motion, path)
     body_pitch, u, w, pitch_rate = path if wake is None else path[:4]
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
@@ -131,6 +133,8 @@ def _part(
     """Return fields of the beat between two phases, and their derivatives, whose first axis is the unknowns."""
     phase = ends[0] + (ends[1] - ends[0]) * jnp.arange(STEPS + 1) / STEPS
 
+    if wingbeat.pitch_hinge is not None:
+        return _giving_part(model, wingbeat, values, path, tangents, phase, mean_velocity, free, fields)
     tables, along = jax.linearize(lambda at: _tabulate(model, unpack(free, wingbeat, at), phase), values)
     # The barrier keeps each direction from computing the tables again.
     tables, table_tangents = fusion_barrier((tables, jax.vmap(along)(jnp.eye(len(free)))))
@@ -150,6 +154,41 @@ def _part(
     own = jax.vmap(by_table)(table_tangents)
     by_state = jax.vmap(by_path)(jnp.broadcast_to(jnp.eye(4)[..., None], (4, 4, len(phase))))
     return found, jax.tree_util.tree_map(lambda own, state: _along_path(own, state, tangents), own, by_state)
+
+
+def _giving_part(
+    model: FlightModel,
+    wingbeat: Wingbeat,
+    values: Free,
+    path: PitchState,
+    tangents: PitchTangents,
+    phase: Samples,
+    mean_velocity: Pair,
+    free: tuple[str, ...],
+    fields: tuple[str, ...],
+) -> tuple[Beat, Beat]:
+    """Do what `_part` does for a wing whose pitch gives way: its tables depend on the path, too."""
+    # Tangents of all unknowns, in three steps with a barrier after each: rates, tables, series.
+    own = jnp.concatenate([jnp.zeros((4, len(free))), jnp.eye(len(free))])
+
+    def rates_of(at: Any, state: Any) -> Any:
+        return body_rates(model, rate_table(model, unpack(free, wingbeat, at), phase), state)
+
+    def tables_of(at: Any, angle: Any, rate: Any, acceleration: Any) -> _Tables:
+        held = held_at(unpack(free, wingbeat, at), phase, angle, rate, acceleration)
+        return _tabulate(model, held, phase)
+
+    def series_of(tables: _Tables, state: Any, body: Any) -> Beat:
+        return _series(model, tables, state, mean_velocity, body).only(fields)
+
+    rates, along = jax.linearize(rates_of, values, path)
+    rates, rate_tangents = fusion_barrier((rates, jax.vmap(along)(own, tangents)))
+    hinge = path[4], path[5], rates[5]
+    tables, along = jax.linearize(tables_of, values, *hinge)
+    turned = jax.vmap(along)(own, tangents[:, 4], tangents[:, 5], rate_tangents[:, 5])
+    tables, table_tangents = fusion_barrier((tables, turned))
+    found, along = jax.linearize(series_of, tables, path[:4], rates[1:4])
+    return found, jax.vmap(along)(table_tangents, tangents[:, :4], rate_tangents[:, 1:4])
 
 
 def _along_path(own: FieldByFree, by_state: FieldByState, tangents: PitchTangents) -> FieldTangents:
@@ -213,4 +252,8 @@ def _joined(pieces: tuple[Beat, ...], axis: int) -> Beat:
 @exported
 def flown_beat(model: FlightModel, wingbeat: Wingbeat, phase: Samples, path: Path, mean_velocity: Pair) -> Beat:
     """Return the time series of a path of pitch states, flown at equal phases from 0 to 1, both ends included."""
-    return _series(model, _tabulate(model, wingbeat, phase), path.T, mean_velocity)
+    states, body = path.T, None
+    if wingbeat.pitch_hinge is not None:
+        wingbeat, rates = held_wingbeat(model, wingbeat, phase, states)
+        states, body = states[:4], rates[1:4]
+    return _series(model, _tabulate(model, wingbeat, phase), states, mean_velocity, body)

@@ -199,7 +199,7 @@ class Corrected:
         closed = options.certificate.closure_tolerance if closure_tolerance is None else closure_tolerance
         limits = self.programme.certified_inequalities(self.scaled, self.certificate)
         return bool(
-            size(np.append(self.residual, self.certificate.wake_miss or 0.0)) <= closed
+            size(np.append(self.residual, self.certificate.inner_miss)) <= closed
             and limits.min() >= -options.certificate.limit_tolerance
             and self.optimality <= options.search.optimality_tolerance
         )

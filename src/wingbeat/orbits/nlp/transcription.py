@@ -13,8 +13,8 @@ import numpy as np
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.orbits.flight.beat import Beat, highest_sample, peak_weights
 from wingbeat.orbits.flight.certificate import Certificate, certify, map_and_changes, monodromy
-from wingbeat.orbits.flight.lagged import WakeStart
-from wingbeat.orbits.flight.period import CLOSURE_SCALE, Flown, StrokeLimits, flier, fly_part
+from wingbeat.orbits.flight.lagged import InnerStart
+from wingbeat.orbits.flight.period import CLOSURE_SCALE, Flown, StrokeLimits, flier, fly_part, inner_start
 from wingbeat.orbits.flight.time_series import beat_reader, flown_beat
 from wingbeat.orbits.nlp.levenberg_marquardt import least_squares, multiplier_residual
 from wingbeat.orbits.nlp.programme import Programme
@@ -76,6 +76,7 @@ class Transcription(Programme):
         self._stroke = StrokeLimits(problem.vehicle, low, high, clearance, len(free), limited=limited)
         stroke = bool(self._stroke.names)
         self.fly = flier(self.model, stock, free, whole_path=problem.has_outputs, stroke=stroke, lag=options.wake)
+        self._has_inner = inner_start(self.model, stock).size > 0
         self.outputs = None
         if problem.has_outputs:
             objective = [] if problem.minimise.parameter else [problem.minimise]
@@ -109,7 +110,7 @@ class Transcription(Programme):
         """Return a copy without the correction, for a parallel local search; the copy keeps the cached flights."""
         other = self._corrected(*self._no_correction)
         other._flights, other.certifying = dict(self._flights), []
-        other.fly = copy.copy(self.fly)  # with the lag of the wake it remembers its last flight
+        other.fly = copy.copy(self.fly)  # with inner states it remembers its last flight
         other.steps = None if self.steps is None else []
         return other
 
@@ -159,19 +160,19 @@ class Transcription(Programme):
             flight = self._flights[key] = flight._replace(point=point, read=True)
         return flight
 
-    def wake_start(self, scaled: np.ndarray) -> WakeStart | None:
-        """Return the wake at the start of a flight from one point; None without the lag, or if it diverges."""
-        return None if self.model.wake is None else self.flown(scaled).wake
+    def inner_start(self, scaled: np.ndarray) -> InnerStart | None:
+        """Return the inner states at the start of a flight from one point; None without any, or if it diverges."""
+        return self.flown(scaled).inner if self._has_inner else None
 
     def is_closed(self, scaled: np.ndarray, tolerance: float) -> bool:
-        """Return whether the wake repeats, and closure and inequalities hold, to a tolerance in SI units."""
-        wake = self.wake_start(scaled)
-        repeats = self.model.wake is None or (wake is not None and wake.repeats)
+        """Return whether inner states repeat, and closure and inequalities hold, to a tolerance in SI units."""
+        inner = self.inner_start(scaled)
+        repeats = not self._has_inner or (inner is not None and inner.repeats)
         return repeats and super().is_closed(scaled, tolerance)
 
     def certificate(self, scaled: np.ndarray, wingbeat: Wingbeat, *, rough: bool = False) -> Certificate:
         """Return the certifier's flight of a wingbeat from one point."""
-        options, start, near = self.options.certificate, self.physical(scaled)[:4], self.wake_start(scaled)
+        options, start, near = self.options.certificate, self.physical(scaled)[:4], self.inner_start(scaled)
         rtol, lag = options.rough_rtol if rough else options.rtol, self.options.wake
         return certify(self.model, wingbeat, start, rtol, rough=rough, near=near, lag=lag)
 

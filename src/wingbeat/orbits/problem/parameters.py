@@ -7,9 +7,12 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._base import harmonic_place, plain_unit
+from wingbeat._jax.arrays import at_default
 from wingbeat.aero import CoefficientModel
-from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat, in_use, parameter, with_parameters
+from wingbeat.animal.kinematics import FREE_NAMES, HINGE_NAMES, Wingbeat, in_use, parameter, with_parameters
+from wingbeat.animal.species.numbers import path_of
 from wingbeat.animal.species.species import Species
+from wingbeat.animal.vehicle import CHORDWISE
 
 if TYPE_CHECKING:
     from wingbeat.orbits.problem.problem import OrbitProblem
@@ -17,6 +20,8 @@ if TYPE_CHECKING:
 CURVES = {"lift": "lift_terms", "drag": "drag_terms", "centre": "centre_terms", "wing": "terms"}
 SIDES = ("lower", "upper")
 _NO_PARAMETERS = ("crank", "cells")  # a switch and a count
+# Numbers whose default leaves a term out.
+_OFF = ("crossflow_area", *CHORDWISE)
 
 # Path from a problem to one of its numbers: names of fields, indices of tuples.
 Place = tuple[str | int, ...]
@@ -84,6 +89,8 @@ def _plausible(problem: OrbitProblem, parameter: Parameter) -> tuple[float, floa
     if last in problem.species.free:  # fixed by the user, it counts as measured
         return None
     keys = [str(key) for key in parameter.place if not isinstance(key, int) and key != "species"]
+    if last in HINGE_NAMES:
+        keys = [path_of(last)]
     harmonic = harmonic_place(last)
     if harmonic is not None:
         keys[-1] = harmonic[0]
@@ -111,7 +118,7 @@ def _every(problem: OrbitProblem) -> Iterator[Parameter]:
                 for i, item in enumerate(value):
                     here = f"{path}.{'xyz'[i]}" if name == "shoulder" else f"{path}[{i}]"
                     yield _made(here, item, (*place, i), size=wing.mean_chord)
-            elif name not in _NO_PARAMETERS and (value or name != "crossflow_area"):  # a term that is off
+            elif name not in _NO_PARAMETERS and not (name in _OFF and at_default(record, name)):
                 yield _made(path, value, place, size=sizes.get(name, 1.0))
     wingbeat = problem.species.wingbeat
     for name in FREE_NAMES:

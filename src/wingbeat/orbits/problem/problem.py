@@ -22,9 +22,17 @@ from wingbeat._base import (
 )
 from wingbeat.aero import SuFan
 from wingbeat.aero.blade_element import blade_element_of
-from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, Wingbeat, parameter, with_parameters
+from wingbeat.animal.kinematics import (
+    ANGLES,
+    FREE_NAMES,
+    HINGE_NAMES,
+    PITCH_LAW,
+    Wingbeat,
+    parameter,
+    with_parameters,
+)
 from wingbeat.animal.species.numbers import bound_cells
-from wingbeat.animal.species.posture import with_posture
+from wingbeat.animal.species.posture import with_pitch_given_way, with_posture
 from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import FlightModel
@@ -140,7 +148,8 @@ class OrbitProblem(Reported):
             object.__setattr__(self, "bounds", {})
         faults.raise_if_any()
         species = self.species.at_own_frequency(self.speed) if self.own_frequency else self.species
-        object.__setattr__(self, "species", with_posture(species, self.speed) if self.own_posture else species)
+        species = with_posture(species, self.speed) if self.own_posture else species
+        object.__setattr__(self, "species", with_pitch_given_way(species))
         self._check_asked(faults)
         if named and not faults.faults:
             own: Any = self.bounds  # tightened by `subject_to`
@@ -148,7 +157,11 @@ class OrbitProblem(Reported):
             object.__setattr__(self, "bounds", {**own, **drawn})
             self._limit_plausibly(self.subject_to, faults)
         faults.raise_if_any()
-        aero = blade_element_of(self.aero)
+        hinge = self.species.wingbeat.pitch_hinge
+        aero = blade_element_of(self.aero, "quarter-chord" if hinge is None else "centre-of-pressure")
+        if hinge is not None and aero.wake != "none":
+            fix = "leave the lag of the wake out, or prescribe the pitch"
+            faults.add("aero.wake", aero.wake, "is not built for a wing whose pitch gives way", fix)
         faults.faults.extend(check_quantities(self._quantities(), aero, self.vehicle.drive, self.minimise))
         faults.raise_if_any()
         object.__setattr__(self, "aero", aero)
@@ -296,8 +309,15 @@ class OrbitProblem(Reported):
         return [grouped({"orbit problem": rows, "free parameters, and limits along the path": bounded})]
 
     def _check_free(self, faults: FaultList, free: tuple[str, ...], bounds: Bounds) -> None:
+        hinge = self.species.wingbeat.pitch_hinge
         for name in free:
-            if name not in FREE_NAMES:
+            if name in HINGE_NAMES and hinge is None:
+                fix = "set pitch_hinge.stiffness, or leave the pitch prescribed"
+                faults.add("free", name, "is a number of a pitch hinge, and there is none", fix)
+            elif name in PITCH_LAW and hinge is not None and hinge.moves_root:
+                rule = "changes nothing, because the wing's pitch gives way"
+                faults.add("free", name, rule, f"free {', '.join(HINGE_NAMES)}")
+            elif name not in FREE_NAMES:
                 named = [known for known in FREE_NAMES if harmonic_place(known) is None]
                 fix = f"free can be {', '.join(named)}, or a harmonic such as flap_cos_2"
                 fix = suggest(str(name), FREE_NAMES, most=1, otherwise=fix)

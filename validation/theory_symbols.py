@@ -67,6 +67,12 @@ LOCAL = (
     Local(r"\mathbf{S}, I, K", "first moment, inertia and acceleration moment of the wings", "SI", "dynamics"),
     Local(r"\mathbf{q}, J", "five coordinates, and partial velocities", "SI", "dynamics"),
     Local(r"D, C, \mathbf{h}, \mathbf{g}, \mathbf{f}", "terms of the equations of motion", "SI", "dynamics"),
+    Local(
+        r"k, c, \theta_0, \theta_s, k_s, t",
+        "a pitch hinge's stiffness, damping, rest angle, stops, and share of twist",
+        "SI",
+        "dynamics",
+    ),
     Local(r"\mathbf{y}, \mathbf{c}, \mathbf{c}_A", "unknowns, closure, active conditions", "SI", "orbit"),
     Local(r"\boldsymbol{\lambda}, \boldsymbol{\nu}", "multipliers of the optimality conditions", "1", "orbit"),
     Local(r"\Phi, \mu_k", "monodromy matrix, and Floquet multipliers", "1", "orbit"),

@@ -191,8 +191,8 @@ def test_a_wake_that_does_not_repeat_is_known():
     few, enough = (
         Transcription(problem, wb.SolverOptions(wake=wb.WakeOptions(most_flights=most))) for most in (1, 20)
     )
-    assert not few.wake_start(few.scaled(point)).repeats
-    assert enough.wake_start(enough.scaled(point)).repeats
+    assert not few.inner_start(few.scaled(point)).repeats
+    assert enough.inner_start(enough.scaled(point)).repeats
     assert not few.is_closed(few.scaled(point), np.inf)
     assert enough.is_closed(enough.scaled(point), np.inf)
     once = certify(problem.model, problem.wingbeat(point), point[:4], lag=wb.WakeOptions(certifying_flights=1))

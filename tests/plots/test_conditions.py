@@ -11,12 +11,12 @@ PIGEON = wb.load_species("pigeon")
 
 
 def test_a_species_knows_what_was_added_to_its_own_mass():
-    assert PIGEON.added_mass == 0.0
+    assert PIGEON.carried_mass == 0.0
     loaded = PIGEON.with_payload(0.03)
-    assert loaded.added_mass == pytest.approx(0.03)
-    assert loaded.with_payload(0.01).added_mass == pytest.approx(0.04)
-    assert PIGEON.with_values({"body.mass": 0.256}).added_mass == pytest.approx(-0.02)
-    assert PIGEON.with_values({"wing.mass": 0.022}).added_mass == pytest.approx(0.004)
+    assert loaded.carried_mass == pytest.approx(0.03)
+    assert loaded.with_payload(0.01).carried_mass == pytest.approx(0.04)
+    assert PIGEON.with_values({"body.mass": 0.256}).carried_mass == pytest.approx(-0.02)
+    assert PIGEON.with_values({"wing.mass": 0.022}).carried_mass == pytest.approx(0.004)
     assert PIGEON.with_values({"wing.semi_span": 0.28}).own_mass is None
     again = problem_from(inputs_of(wb.OrbitProblem(loaded, speed=12.0), 1, 0)).species
     assert again.own_mass == loaded.own_mass == PIGEON.vehicle.mass
@@ -27,10 +27,10 @@ def test_a_species_knows_what_was_added_to_its_own_mass():
     ("about", "words"),
     [
         ({}, ""),
-        ({"air": vars(wb.Air()), "added_mass": 0.0}, ""),
+        ({"air": vars(wb.Air()), "carried_mass": 0.0}, ""),
         ({"air": vars(wb.Air.at_altitude(3000.0))}, ", in air of 0.9093 kg/m3"),
-        ({"air": '{"density": 1.1}', "added_mass": 0.0305}, ", with 30.5 g added, in air of 1.1 kg/m3"),
-        ({"added_mass": -0.02}, ", with 20 g taken off"),
+        ({"air": '{"density": 1.1}', "carried_mass": 0.0305}, ", with 30.5 g added, in air of 1.1 kg/m3"),
+        ({"carried_mass": -0.02}, ", with 20 g taken off"),
     ],
 )
 def test_conditions_are_read_off_records_and_attributes(about, words):
@@ -42,7 +42,7 @@ def test_titles_name_the_conditions():
     about = {"aero": '{"coefficients": "su-fan", "extension": "mirrored"}', "constraints": "[]"}
     about |= {"species": "pigeon", "climb": 0.0, "objective": "frequency"}
     assert "Pigeon: wingbeats of minimum frequency" in curve_title(about).replace("\n", " ")
-    title = curve_title(about | {"air": '{"density": 0.9093}', "added_mass": high.added_mass})
+    title = curve_title(about | {"air": '{"density": 0.9093}', "carried_mass": high.carried_mass})
     assert title.startswith("Pigeon, with 30 g added, in air of 0.9093 kg/m3: wingbeats of")
     title = wb.plots.glide_page(wb.glide_polar(high).dataset).get_suptitle()
     assert title.startswith("Pigeon gliding, with 30 g added, in air of 0.9093 kg/m3, wings held still")

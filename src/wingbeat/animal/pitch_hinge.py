@@ -32,8 +32,8 @@ class PitchHinge:
     stop_angle : at which the stops begin, on both sides of 0 [rad].
     stop_stiffness : of the stops of both wings together [N m/rad]; 0 is a hinge without stops. The torque grows
         smoothly from none to this slope, over some 3 degrees.
-    twist_share : 0 for a wing that turns as a whole about its axis, 1 for one whose root follows the pitch law and
-        that twists linearly from root to tip, by theta at the tip; between them, root and twist give way together.
+    twist_share : a ratio: 0 for a wing that turns as a whole about its axis, 1 for one whose root follows the pitch
+        law and that twists linearly from root to tip, by theta at the tip; between them, both give way together.
 
     Raises
     ------

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import re
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 from xml.etree import ElementTree as Xml
 
 import numpy as np
@@ -231,7 +231,7 @@ _ABOUT = (
 )
 
 
-def _about(gait: Gait) -> Xml.Element:
+def _about(gait: Gait) -> Any:  # a comment is an element of its own type
     return Xml.Comment(f" {re.sub('-+', '-', gait.about)}, {_ABOUT}")  # two dashes would end a comment
 
 

@@ -19,9 +19,9 @@ from wingbeat._base import FaultList
 from wingbeat._jax.arrays import in_own_settings, jax, jnp
 from wingbeat._jax.exported import jit_soon
 from wingbeat.animal.kinematics import Wingbeat
-from wingbeat.mechanics.flight_model import FlightModel, is_unsteady
+from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.mechanics.flights import integrate
-from wingbeat.mechanics.strip_air import refuse_without_wake
+from wingbeat.mechanics.strip_air import is_unsteady, refuse_without_wake
 from wingbeat.mechanics.wing_points import (
     AirForces,
     WingPoints,

@@ -7,18 +7,10 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, fold_angle, pitch_angle, span_ratio, sweep_angle
-from wingbeat.mechanics.flight_model import (
-    BodyLoads,
-    FlightModel,
-    State,
-    air_loads,
-    balance,
-    is_unsteady,
-    motion_table,
-)
+from wingbeat.mechanics.flight_model import BodyLoads, FlightModel, State, air_loads, balance, motion_table
 from wingbeat.mechanics.hinge_torques import hinge_loads, hinge_motion
 from wingbeat.mechanics.state_rates import body_rates, held_wingbeat, refuse_without_motion
-from wingbeat.mechanics.strip_air import refuse_without_wake
+from wingbeat.mechanics.strip_air import is_unsteady, refuse_without_wake
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude
 from wingbeat.mechanics.wing_points import air_forces_on, point_motion
 from wingbeat.mechanics.wing_shape import air_chord, dot, from_world, strips_of, time_rates, to_world

@@ -32,10 +32,11 @@ from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.strip_air import (
     StripWake,
     body_air,
+    is_unsteady,
     loads_of_strips,
     strip_moments,
-    strips_in_wake,
-    wake_states,
+    unsteady_density,
+    velocity_at_wings,
 )
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude, wing_motion
 from wingbeat.mechanics.wing_shape import UnturnedShapes, dot, from_world, quarter_turn, sum_over_strips, to_world
@@ -44,7 +45,6 @@ if TYPE_CHECKING:
     from wingbeat._jax.arrays import (
         BodyAcceleration,
         Component,
-        FlightState,
         Pair,
         PerStrip,
         Phases,
@@ -200,11 +200,6 @@ def motion_table(
     return wing_motion(model.vehicle, wingbeat, phase, model.strips, vector, *terms, shapes=shapes)
 
 
-def is_unsteady(model: FlightModel) -> bool:
-    """Return whether a model has unsteady terms."""
-    return not at_default(model, "unsteady")
-
-
 class BodyLoads(NamedTuple):
     """Air loads on the whole vehicle, wings and body, in stroke axes."""
 
@@ -268,14 +263,6 @@ def loads_at(
     return BodyLoads((wings.force[0] + force[0], wings.force[1] + force[1]), moment)
 
 
-def velocity_at_wings(model: FlightModel, attitude: Phases, u: Phases, w: Phases) -> Pair:
-    """Return the velocity of the body relative to the air at the wings, in stroke axes [m/s]."""
-    if model.induced_flow is None:
-        return from_world(attitude, u, w)
-    forward, up = model.induced_flow
-    return from_world(attitude, u - forward, w - up)
-
-
 def air_loads(
     model: FlightModel,
     motion: WingMotion,
@@ -299,11 +286,6 @@ def air_loads(
     rates = (*from_world(attitude, acceleration[0], acceleration[1]), acceleration[2])
     more = [unsteady_density(model) * dot(tuple(one.by_acceleration), rates) for one in motion.unsteady]
     return BodyLoads((loads.force[0] - more[0], loads.force[1] - more[1]), loads.moment - more[2])
-
-
-def unsteady_density(model: FlightModel) -> Scalar:
-    """Return the density of the air times the share of unsteady loads [kg/m3]."""
-    return model.unsteady * model.air.density
 
 
 def balance(
@@ -390,17 +372,3 @@ def _solve_symmetric(rows: tuple[tuple[Phases, ...], ...], right: Triple) -> Tri
         (second * x + middle * y + mixed * z) * scale,
         (third * x + mixed * y + last * z) * scale,
     )
-
-
-def _pitch_state(model: FlightModel, state: FlightState) -> FlightState:
-    return state if model.wake is None else state[:4]
-
-
-def wake_of(model: FlightModel, motion: WingMotion, state: FlightState) -> StripWake | None:
-    """Return the air that the wake of the strips moves, from the state of a flight; None without the lag."""
-    if model.wake is None:
-        return None
-    body_pitch, u, w, pitch_rate = _pitch_state(model, state)
-    attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
-    velocity = velocity_at_wings(model, attitude, u, w)
-    return strips_in_wake(model, motion, velocity, pitch_rate, wake_states(model, state))

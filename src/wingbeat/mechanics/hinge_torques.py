@@ -10,14 +10,20 @@ alone, as in `body_dynamics`.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from wingbeat._jax.arrays import at_default, jax, jnp, unchecked
 from wingbeat.aero.strip_forces import StripForces
 from wingbeat.animal.kinematics import HeldHinge, Wingbeat, flap_angle, pitch_angle, span_ratio
 from wingbeat.animal.vehicle import Wing
-from wingbeat.mechanics.flight_model import FlightModel, is_unsteady, unsteady_density, velocity_at_wings, wake_of
-from wingbeat.mechanics.strip_air import loads_of_strips, strip_moments
+from wingbeat.mechanics.strip_air import (
+    is_unsteady,
+    loads_of_strips,
+    strip_moments,
+    unsteady_density,
+    velocity_at_wings,
+    wake_of,
+)
 from wingbeat.mechanics.wing_motion import (
     StripSpeeds,
     UnsteadyLoad,
@@ -120,7 +126,7 @@ def _chords(wing: Wing, strips: Strips, shape: WingShape) -> _Chords:
 
 
 def hinge_alone(
-    model: FlightModel, wingbeat: Wingbeat, phase: Phases, shapes: UnturnedShapes | None = None
+    model: Any, wingbeat: Wingbeat, phase: Phases, shapes: UnturnedShapes | None = None
 ) -> tuple[PartialMotion, Phases]:
     """Return the motion that a unit rate of a held hinge causes, and its inertia, both wings in air [kg m2].
 
@@ -168,7 +174,7 @@ def _speeds_of(here: _Chords, velocity: _Chords, along: PartialMotion, chord: Pe
     return StripSpeeds(*levers, mid_speed(here.shape, *levers, turn, chord), turn)
 
 
-def hinge_motion(model: FlightModel, wingbeat: Wingbeat, phase: Phases) -> HingeMotion:
+def hinge_motion(model: Any, wingbeat: Wingbeat, phase: Phases) -> HingeMotion:
     """Tabulate the motions that the hinges cause, at given phases."""
     vehicle, phase = model.vehicle, jnp.asarray(phase, dtype=float)
     strips = with_time_axes(strips_of(vehicle.wing, model.strips), phase)
@@ -236,7 +242,7 @@ def _along(
 
 
 def required_force(
-    model: FlightModel,
+    model: Any,
     along: PartialMotion,
     strips: StripForces,
     moments: PerStrip | float,
@@ -266,7 +272,7 @@ def required_force(
 
 
 def hinge_loads(
-    model: FlightModel,
+    model: Any,
     motion: WingMotion,
     hinges: HingeMotion,
     pitch_state: PitchState,

@@ -25,12 +25,17 @@ from wingbeat.mechanics.flight_model import (
     motion_table,
     of_body_balance,
     strip_parts,
+)
+from wingbeat.mechanics.hinge_torques import PartialMotion, hinge_alone, required_force
+from wingbeat.mechanics.strip_air import (
+    loads_of_strips,
+    strip_loads_in_wake,
+    strip_moments,
     unsteady_density,
     velocity_at_wings,
     wake_of,
+    wake_states,
 )
-from wingbeat.mechanics.hinge_torques import PartialMotion, hinge_alone, required_force
-from wingbeat.mechanics.strip_air import loads_of_strips, strip_loads_in_wake, strip_moments, wake_states
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude
 from wingbeat.mechanics.wing_shape import (
     UnturnedShapes,
@@ -75,7 +80,7 @@ def rate_table(model: FlightModel, wingbeat: Wingbeat, phase: Phases, vector: in
 def body_rates(model: FlightModel, motion: WingMotion | GivingStroke, state: FlightState) -> FlightState:
     """Return d/dt of (body_pitch, u, w, pitch_rate), of the hinge and of the wake.
 
-    Theory: equation ``state-rates``.
+    Theory: equations ``state-rates`` and ``hinge-balance``.
     """
     if isinstance(motion, GivingStroke):
         tables = computed_once(_tables(model, motion, state[4], state[5]))

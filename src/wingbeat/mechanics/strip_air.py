@@ -11,7 +11,7 @@ from wingbeat.aero.family import at_reynolds, depends_on_reynolds
 from wingbeat.aero.strip_forces import StripForces, strip_forces
 from wingbeat.aero.wake import WakeLag, shed_downwash, wake_downwash
 from wingbeat.animal.vehicle import Vehicle
-from wingbeat.mechanics.wing_motion import WingMotion
+from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude
 from wingbeat.mechanics.wing_shape import dot, from_world
 
 if TYPE_CHECKING:
@@ -157,6 +157,34 @@ def pressure_offset(model: Any, strips: StripForces, chord: PerStrip) -> PerStri
     if depends_on_reynolds(kernel):
         kernel = at_reynolds(kernel, model.air.reynolds(strips.speed, chord))
     return chord * (0.25 - kernel.centre_of_pressure(strips.alpha))
+
+
+def is_unsteady(model: Any) -> bool:
+    """Return whether a model has unsteady terms."""
+    return not at_default(model, "unsteady")
+
+
+def unsteady_density(model: Any) -> Scalar:
+    """Return the density of the air times the share of unsteady loads [kg/m3]."""
+    return model.unsteady * model.air.density
+
+
+def velocity_at_wings(model: Any, attitude: Phases, u: Phases, w: Phases) -> Pair:
+    """Return the velocity of the body relative to the air at the wings, in stroke axes [m/s]."""
+    if model.induced_flow is None:
+        return from_world(attitude, u, w)
+    forward, up = model.induced_flow
+    return from_world(attitude, u - forward, w - up)
+
+
+def wake_of(model: Any, motion: WingMotion, state: FlightState) -> StripWake | None:
+    """Return the air that the wake of the strips moves, from the state of a flight; None without the lag."""
+    if model.wake is None:
+        return None
+    body_pitch, u, w, pitch_rate = state[:4]
+    attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)
+    velocity = velocity_at_wings(model, attitude, u, w)
+    return strips_in_wake(model, motion, velocity, pitch_rate, wake_states(model, state))
 
 
 def refuse_without_wake(model: Any, states: PhasesStrips | None = None) -> None:

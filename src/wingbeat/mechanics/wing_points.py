@@ -17,8 +17,8 @@ from wingbeat.aero.family import depends_on_reynolds
 from wingbeat.aero.strip_forces import StripForces, strip_forces, with_turning
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, held_at, pitch_angle, span_ratio
 from wingbeat.animal.vehicle import Vehicle
-from wingbeat.mechanics.flight_model import FlightModel, State, is_unsteady, unsteady_density
-from wingbeat.mechanics.strip_air import body_air, pressure_offset, wake_at
+from wingbeat.mechanics.flight_model import FlightModel, State
+from wingbeat.mechanics.strip_air import body_air, is_unsteady, pressure_offset, unsteady_density, wake_at
 from wingbeat.mechanics.wing_shape import (
     Strips,
     air_chord,

@@ -104,7 +104,6 @@ _QUARTER_TURN = 0.5 * math.pi
 _ANY_ANGLE = (-_QUARTER_TURN, _QUARTER_TURN)
 _ANY_FLAP = (-1.3 * _QUARTER_TURN, 1.3 * _QUARTER_TURN)
 _AMPLITUDE = (0.0, _QUARTER_TURN)
-_TAILPLANE = 0.5 * _QUARTER_TURN  # largest incidence of a tail, up or down
 _REACH = {
     "frequency": (0.1, 200.0),
     "flap_amplitude": _AMPLITUDE,
@@ -315,8 +314,9 @@ def possible_changes(
             yield Change(name, "=", old, reach, brisk, tries)
     tail = problem.vehicle.tail
     for way in (1.0, -1.0):
-        if tail is not None and "tail_tilt" not in problem.free and way * tail.incidence < _TAILPLANE:
-            yield Change("incidence", "=", tail.incidence, way * _TAILPLANE, options.large_angle, (0.1, 0.3))
+        tilted = 0.5 * way * _QUARTER_TURN  # of a tail, up or down
+        if tail is not None and "tail_tilt" not in problem.free and way * (tilted - tail.incidence) > 0:
+            yield Change("incidence", "=", tail.incidence, tilted, options.large_angle, (0.1, 0.3))
         reach = ahead + way * options.chords * wing.mean_chord
         yield Change("shoulder", "=", ahead, reach, wing.mean_chord, tries_for(MOMENT, 0.2, 0.6))
 

@@ -242,8 +242,8 @@ class WakeOptions(Options):
     repeats : in a certificate the states repeat within this [m/s], a thousandth of `closure_tolerance`. With 1e-5,
         the end of a bat's beat moves by 6e-6 in SI units, with 1e-7 by 3e-8.
     rough_repeats : the same in flights that only serve the correction, whose `rough_rtol` is as coarse [m/s].
-    far : if Newton's step is longer than this, divided by one plus the largest state, the states at the end of the
-        beat are taken in its place.
+    far : a ratio; if Newton's step is longer than this times one plus the largest state, the states at the end of
+        the beat are taken in its place.
     certifying_flights : largest number of flights of a certificate. From the states that the search knows it needed
         3 to 6, from air at rest 17 and more.
 

@@ -72,7 +72,7 @@ def tornado_page(found: _Ranked) -> Figure:
     with drawing():
         figure = new_figure(PAGE, _HEAD + _ROW * count)
         problem = found.problem
-        there = conditions_in_words(vars(problem.air), problem.species.added_mass)
+        there = conditions_in_words(vars(problem.air), problem.species.carried_mass)
         title = f"{heading(problem.species.name)} at {problem.speed:g} m/s{there}, minimum "
         title += in_words(problem.minimise.name)
         figure.suptitle(f"{title}: which uncertain numbers matter most", fontsize=8, parse_math=False)

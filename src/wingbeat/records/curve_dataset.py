@@ -117,7 +117,7 @@ def curve_dataset(
         "aero": json.dumps(aero_record(problem.aero)),
         "air": json.dumps(dict(vars(problem.air))),
         "climb": float(problem.climb),
-        **({"added_mass": problem.species.added_mass} if problem.species.added_mass else {}),
+        **({"carried_mass": problem.species.carried_mass} if problem.species.carried_mass else {}),
         "objective": problem.minimise.name,
         "constraints": json.dumps([str(c) for c in problem.subject_to]),
         "marks": json.dumps(marks),

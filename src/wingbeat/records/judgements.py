@@ -53,15 +53,14 @@ def judged(species: Species, speed: float, name: str, value: float | None) -> di
     return judgement | {"within": within, "source": known.source}
 
 
-def conditions_in_words(air: Mapping[str, float], added_mass: float = 0.0) -> str:
+def conditions_in_words(air: Mapping[str, float], carried_mass: float = 0.0) -> str:
     """Return what a title says of a load [kg] and of air that is not that at sea level; an empty text for neither.
 
     >>> conditions_in_words({"density": 0.9093}, 0.03)
     ', with 30 g added, in air of 0.9093 kg/m3'
     """
-    load = (
-        f", with {1e3 * abs(added_mass):.3g} g {'added' if added_mass > 0 else 'taken off'}" if added_mass else ""
-    )
+    way = "added" if carried_mass > 0 else "taken off"
+    load = f", with {1e3 * abs(carried_mass):.3g} g {way}" if carried_mass else ""
     usual = math.isclose(air["density"], Air().density, rel_tol=_THIN)
     return load if usual else f"{load}, in air of {air['density']:.4g} kg/m3"
 
@@ -70,7 +69,7 @@ def conditions_of(record: Mapping[str, Any]) -> str:
     """Return what a title says of the load and the air of a record, or of a data set's attributes."""
     air = record.get("air")
     air = json.loads(air) if isinstance(air, str) else air
-    return conditions_in_words(air or vars(Air()), float(record.get("added_mass", 0.0)))
+    return conditions_in_words(air or vars(Air()), float(record.get("carried_mass", 0.0)))
 
 
 def is_judgement(value: Any) -> bool:

@@ -47,7 +47,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "air": dict(vars(problem.air)),
         "speed": float(problem.speed),
         "climb": float(problem.climb),
-        **({"added_mass": problem.species.added_mass} if problem.species.added_mass else {}),
+        **({"carried_mass": problem.species.carried_mass} if problem.species.carried_mass else {}),
         "objective": problem.minimise.name,
         "objective_value": solution.objective,
         "constraints": {str(c): solution.value_of(c.quantity, beat) for c in problem.subject_to},
@@ -212,7 +212,7 @@ def battery_warnings(beat: Beat) -> list[str]:
 
 def _other_frequency(problem: OrbitProblem) -> list[str]:
     """Warn that a bird's own frequency is not that of a load, of another mass or of thin air, and give theirs."""
-    added, air, whole = problem.species.added_mass, problem.air, problem.vehicle.mass
+    added, air, whole = problem.species.carried_mass, problem.air, problem.vehicle.mass
 
     def law(mass: float, density: float) -> float:
         return BIRD_FREQUENCY(mass, 1.0, 1.0, density, 1.0)

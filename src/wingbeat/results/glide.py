@@ -70,7 +70,7 @@ class GlidePolar(Saveable):
             "vehicle": vehicle_record(self.species.vehicle),
             "aero": aero_record(self.aero),
             "air": dict(vars(self.species.air)),
-            **({"added_mass": self.species.added_mass} if self.species.added_mass else {}),
+            **({"carried_mass": self.species.carried_mass} if self.species.carried_mass else {}),
             "trim": self.trim,
             **{name: None if glide is None else glide._asdict() for name, glide in best.items()},
             "warnings": glide_warnings(self),

@@ -113,7 +113,7 @@ class ParetoFront(Reported):
         return finite_or_none(
             {
                 **{name: first[name] for name in ("species", "speed", "climb", "objective")},
-                **{name: first[name] for name in ("air", "added_mass") if name in first},
+                **{name: first[name] for name in ("air", "carried_mass") if name in first},
                 "objective_unit": self.orbits[0].problem.minimise.unit,
                 "quantity": self.quantity.name,
                 "quantity_unit": self.quantity.unit,

@@ -70,7 +70,7 @@ class TermTrace:
         record = {
             **{"species": self.problem.species.name, "speed": self.problem.speed, "climb": self.problem.climb},
             "air": dict(vars(self.problem.air)),
-            **({"added_mass": added} if (added := self.problem.species.added_mass) else {}),
+            **({"carried_mass": added} if (added := self.problem.species.carried_mass) else {}),
             "objective": self.problem.minimise.name,
             "aero": aero_record(self.problem.aero),
             "points": points,

@@ -241,7 +241,7 @@ class LinearFlight(Reported):
             "species": asked["species"]["name"],
             "speed": asked["speed"],
             "climb": asked["climb"],
-            **{name: flown[name] for name in ("air", "added_mass") if name in flown},
+            **{name: flown[name] for name in ("air", "carried_mass") if name in flown},
             "frequency": self.orbit.wingbeat.frequency,
             "dt": self.dt,
             "state": list(self.state),

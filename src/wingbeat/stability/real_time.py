@@ -19,8 +19,9 @@ from wingbeat._base import HIGHEST_ORDER, FaultList
 from wingbeat._jax.arrays import at_default, jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, parameter, stroke_phase, unpack
-from wingbeat.mechanics.flight_model import FlightModel, body_rates, motion_table
+from wingbeat.mechanics.flight_model import FlightModel, motion_table
 from wingbeat.mechanics.flights import air_between, fly_through
+from wingbeat.mechanics.state_rates import body_rates
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import (

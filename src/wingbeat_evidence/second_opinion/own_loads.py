@@ -11,7 +11,8 @@ from wingbeat._jax.exported import exported
 from wingbeat.aero.blade_element import BladeElement
 from wingbeat.aero.wake import wake_rates
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle
-from wingbeat.mechanics.flight_model import FlightModel, State, motion_table, wake_of
+from wingbeat.mechanics.flight_model import FlightModel, State, motion_table
+from wingbeat.mechanics.strip_air import wake_of
 from wingbeat.mechanics.wing_points import air_forces_on, point_motion
 from wingbeat.mechanics.wing_shape import time_rates
 from wingbeat.orbits.flight.march import ALONG, PLACES, WEIGHTS

@@ -305,7 +305,7 @@ def test_thin_air_and_a_load_say_that_the_frequency_is_not_theirs(tmp_path):
         assert ("in air of 0.9093 kg/m3" in title.lower()) == (name == "high")
         orbit.save(tmp_path / "orbit.nc")
         assert wb.load_orbit(tmp_path / "orbit.nc").record()["warnings"] == orbit.record()["warnings"]
-        assert wb.load_orbit(tmp_path / "orbit.nc").problem.species.added_mass == bird.added_mass
+        assert wb.load_orbit(tmp_path / "orbit.nc").problem.species.carried_mass == bird.carried_mass
     assert "Pennycuick's law" not in said["own"]
     # Pennycuick 1996: frequency goes with mass to the power 3/8, and with density to the power -3/8.
     own, density = starling.own_frequency(11.0).value, starling.at_altitude(3000.0).air.density

@@ -153,6 +153,8 @@ def test_the_template_is_complete_and_loads_without_a_warning(load: Any) -> None
         name = key.path.rpartition(".")[2]
         assert f"\n{name}" in text or f"\n# {name}" in text, f"{key.path} is not in the template"
     for field in fields(Wingbeat):
+        if field.name == "pitch_hinge":  # a part of the vehicle in files
+            continue
         assert f"\n{field.name}" in text or f"\n# {field.name}" in text
 
 

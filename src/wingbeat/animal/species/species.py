@@ -118,7 +118,7 @@ class Species(Reported):
     own_mass: float | None = None
 
     @property
-    def added_mass(self) -> float:
+    def carried_mass(self) -> float:
         """What a payload, or a mass set by hand, adds to the animal's own mass [kg]."""
         return 0.0 if self.own_mass is None else self.vehicle.mass - self.own_mass
 

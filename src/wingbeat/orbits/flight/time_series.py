@@ -10,16 +10,10 @@ import numpy as np
 from wingbeat._jax.arrays import fusion_barrier, jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, chord_ratio, flap_angle, held_at, pitch_angle, unpack
-from wingbeat.mechanics.flight_model import (
-    FlightModel,
-    air_loads,
-    motion_table,
-    velocity_at_wings,
-    wake_of,
-)
+from wingbeat.mechanics.flight_model import FlightModel, air_loads, motion_table
 from wingbeat.mechanics.hinge_torques import HingeMotion, hinge_loads, hinge_motion
 from wingbeat.mechanics.state_rates import body_rates, held_wingbeat, rate_table
-from wingbeat.mechanics.strip_air import loads_of_strips
+from wingbeat.mechanics.strip_air import loads_of_strips, velocity_at_wings, wake_of
 from wingbeat.mechanics.wing_motion import WingMotion, strips_of, stroke_attitude
 from wingbeat.mechanics.wing_shape import to_world
 from wingbeat.orbits.flight.beat import BY_STRIP, NUMBERS, Beat
@@ -37,6 +31,7 @@ if TYPE_CHECKING:
         PitchTangents,
         Samples,
         Scalar,
+        Triple,
     )
 
 
@@ -70,11 +65,12 @@ def _tabulate(model: FlightModel, wingbeat: Wingbeat, phase: Samples) -> _Tables
     )
 
 
-def _series(model: FlightModel, tables: _Tables, path: PitchState, mean_velocity: Pair, body: Any = None) -> Beat:
-    """Return the series; `body` has the accelerations of a body whose wing's pitch gives way."""
+def _series(
+    model: FlightModel, tables: _Tables, path: PitchState, mean_velocity: Pair, given: Triple | None = None
+) -> Beat:
+    """Return the series; `given` has the accelerations of a body whose wing's pitch gives way."""
     motion = tables.motion
-    if body is None:
-        body = fusion_barrier(body_rates(model, motion, path)[1:4])
+    body = fusion_barrier(body_rates(model, motion, path)[1:4]) if given is None else given
     wake = wake_of(model, motion, path)
     body_pitch, u, w, pitch_rate = path if wake is None else path[:4]
     attitude = stroke_attitude(model.vehicle.wing, motion, body_pitch)

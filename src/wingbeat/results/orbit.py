@@ -197,6 +197,11 @@ class Orbit(Saveable, Reported):
         return self._summary.initial_state
 
     @property
+    def hinge_start(self) -> np.ndarray:
+        """Angle and rate of a pitch hinge that gives way at phase 0, shape (2,) [rad, rad/s]; empty without one."""
+        return np.array(list(self._record.get("hinge_start", {}).values()), dtype=float)
+
+    @property
     def unknowns(self) -> np.ndarray:
         """Pitch state at phase 0 and free parameters, in the form of a solver's initial guess."""
         return self.problem.unknowns_of(np.array(self.initial_state), self.wingbeat)

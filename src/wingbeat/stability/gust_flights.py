@@ -17,7 +17,7 @@ from wingbeat.orbits.flight.period import PITCH_STATE
 from wingbeat.orbits.options import check_certified
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.stability.beat_feedback import Feedback, feedback
-from wingbeat.stability.options import FEEDBACK, MANY, ManyOptions, check_no_wake
+from wingbeat.stability.options import FEEDBACK, MANY, ManyOptions, check_no_hinge, check_no_wake
 from wingbeat.stability.reports import beats_of
 from wingbeat.stability.segment_feedback import SegmentFeedback
 from wingbeat.viewer.scene import Push
@@ -172,6 +172,7 @@ def fly_pushes(
         faults.number("sizes", size, above=0, unit="m/s")
     check_certified(faults, orbit.status, "solve it again with more starts")
     check_no_wake(faults, orbit.problem.aero.wake)
+    check_no_hinge(faults, orbit.wingbeat)
     faults.raise_if_any()
     held: list[Feedback | None] = [None] if delay is None else [None, feedback(orbit, delay=delay)]
     asked = list(itertools.product(directions, sizes, held))

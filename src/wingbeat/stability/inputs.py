@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from wingbeat._base import FIRST_ORDER, HIGHEST_ORDER, FaultList
-from wingbeat._jax.arrays import jax, jnp
+from wingbeat._jax.arrays import jax, jnp, unchecked
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import (
     Wingbeat,
@@ -62,8 +62,12 @@ class Compensation(NamedTuple):
 
 def laws_at(wingbeat: Wingbeat, phase: Phases) -> Phases:
     """Return all laws at phases, in the order of `LAWS`; the twist law is the whole pitch at the tip."""
-    nothing = jnp.zeros_like(phase)
+    nothing, hinge = jnp.zeros_like(phase), wingbeat.pitch_hinge
     pitch, sweep, twist = pitch_angle(wingbeat, phase), sweep_angle(wingbeat, phase), tip_twist(wingbeat, phase)
+    if hinge is not None:  # its angle is a state, which no change of its numbers moves at once
+        prescribed = unchecked(Wingbeat, vars(wingbeat) | {"pitch_hinge": None})
+        pitch, twist = pitch_angle(prescribed, phase), tip_twist(prescribed, phase)
+        pitch = nothing if hinge.moves_root else pitch
     tip = wingbeat.twist_ratio * pitch + (nothing if twist is None else twist)
     laws = (
         flap_angle(wingbeat, phase),

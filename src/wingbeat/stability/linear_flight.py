@@ -18,9 +18,9 @@ from wingbeat._base import FaultList, Report, Reported, __version__, install_ext
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, flap_angle
-from wingbeat.mechanics.flight_model import FlightModel, State, motion_table
-from wingbeat.mechanics.state_rates import body_rates
-from wingbeat.orbits.flight.certificate import StrokeMap, stroke_map
+from wingbeat.mechanics.flight_model import FlightModel, State
+from wingbeat.mechanics.state_rates import HINGE_STATE, body_rates, rate_table
+from wingbeat.orbits.flight.certificate import StrokeMap, multipliers_of, stroke_map
 from wingbeat.orbits.flight.period import PITCH_STATE
 from wingbeat.orbits.options import check_certified
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -143,25 +143,28 @@ def _shares(multiplier: complex, path: np.ndarray, scales: np.ndarray) -> dict[s
     decay = cmath.log(multiplier) if multiplier else 0.0
     steady = path * np.exp(-decay * np.linspace(0.0, 1.0, len(path)))[:, None]
     sizes = np.abs(steady / scales)[:-1].mean(axis=0)
-    return dict(zip(PITCH_STATE, (sizes / sizes.sum()).tolist(), strict=True))
+    names = (*PITCH_STATE, *HINGE_STATE)[: len(scales)]
+    return dict(zip(names, (sizes / sizes.sum()).tolist(), strict=True))
 
 
 @exported
 def _rates_by_state(model: FlightModel, wingbeat: Wingbeat, phase: Samples, path: PitchState) -> RatesByState:
-    """Return the derivatives of the four rates by the four states at each phase, shape (4 states, 4 rates, K)."""
-    motion = motion_table(model, wingbeat, phase)
+    """Return the derivatives of all rates by all states at each phase, shape (states, rates, K)."""
+    motion = rate_table(model, wingbeat, phase)
 
     def by_state(seed: Any) -> Any:
         tangent = jnp.broadcast_to(seed[:, None], path.shape)
         return jax.jvp(lambda state: body_rates(model, motion, state), (path,), (tangent,))[1]
 
-    return jax.vmap(by_state)(jnp.eye(4))
+    return jax.vmap(by_state)(jnp.eye(len(path)))
 
 
 def averaged_jacobian(model: FlightModel, wingbeat: Wingbeat, path: np.ndarray) -> np.ndarray:
-    """Return the mean over the beat of the derivatives of the four rates (rows) by the four states, shape (4, 4).
+    """Return the mean over the beat of the derivatives of all rates (rows) by all states, shape (4, 4).
 
-    `path` holds the states at equal phases from 0 to 1, shape (K, 4). Theory: equation ``averaged-model``.
+    `path` holds the states at equal phases from 0 to 1, shape (K, 4); a hinge adds two.
+
+    Theory: equation ``averaged-model``.
     """
     phase = np.linspace(0.0, 1.0, len(path))[:-1]
     return np.asarray(_rates_by_state.bind(model, wingbeat)(phase, path[:-1].T)).mean(axis=-1).T
@@ -193,6 +196,7 @@ class LinearFlight(Reported):
     ----------
     orbit : the orbit.
     state : names of the state: body_pitch, u, w, pitch_rate [rad, m/s, m/s, rad/s]; with `height`, z [m] is first.
+        A hinge that gives way adds hinge_angle and hinge_rate [rad, rad/s].
     inputs : names of the parameters of the wingbeat that change from beat to beat.
     A : derivative of the state after a beat by the state before it, shape (n, n).
     B : derivative of the state after a beat by the inputs, shape (n, inputs).
@@ -287,7 +291,7 @@ class LinearFlight(Reported):
         faults.number("size", size)
         faults.raise_if_any()
         start, problem = np.array(self.orbit.initial_state), self.orbit.problem
-        start[2:] += size * np.real(self.modes[index].disturbance)
+        start[2:] += size * np.real(self.modes[index].disturbance[:4])
         return simulate(problem.model, self.orbit.wingbeat, State(*start.tolist()), beats, species=problem.species)
 
     def to_control(self) -> control.StateSpace:
@@ -357,7 +361,7 @@ def linearise(
     if smooth and inputs is None:
         names = smooth_ones(beat, names)
     harmonics = compensation(beat, names) if smooth else Compensation((), np.zeros((0, len(names))))
-    start = np.array(orbit.initial_state)[2:]
+    start = np.append(np.array(orbit.initial_state)[2:], orbit.hinge_start)
     flown = _accurate_map(orbit, start, (*names, *harmonics.names) or ("frequency",), options)
     scales = _scales(problem, beat)
     miss = float(np.abs((flown.path[-1] - flown.path[0]) / scales).max())
@@ -369,12 +373,12 @@ def linearise(
     if harmonics.names:
         by_inputs = by_inputs + flown.by_parameters[:, len(names) :] @ harmonics.shares
     # At the start, the velocity of the air is subtracted from that of the body. At the end, it is added again.
-    by_gust = (np.eye(5) - flown.by_state)[:, 2:4]
+    by_gust = (np.eye(len(flown.by_state)) - flown.by_state)[:, 2:4]
     by_gust[0, 1] += 1.0 / beat.frequency  # the air lifts the body
     rows = slice(0 if height else 1, None)
     return LinearFlight(
         orbit,
-        FLIGHT_STATE[rows],
+        (*FLIGHT_STATE, *HINGE_STATE[: orbit.hinge_start.size])[rows],
         names,
         flown.by_state[rows, rows],
         by_inputs[rows],
@@ -398,19 +402,20 @@ def _accurate_map(
     blocks = options.blocks
     while True:
         flown = stroke_map(orbit.problem.model, orbit.wingbeat, start, parameters, blocks)
-        away = np.abs(np.poly(flown.by_state[1:, 1:]) - certified).max() / np.abs(certified).max()
+        away = np.abs(np.poly(multipliers_of(flown.by_state[1:, 1:])) - certified).max() / np.abs(certified).max()
         if not away > options.agreement or blocks >= options.most_blocks:
             return flown
         blocks *= 4
 
 
 def _scales(problem: OrbitProblem, wingbeat: Wingbeat) -> np.ndarray:
-    """Return disturbances of (body_pitch, u, w, pitch_rate) that count as equally large, shape (4,).
+    """Return disturbances of (body_pitch, u, w, pitch_rate), and of a hinge, that count as equally large.
 
-    They are a radian for the pitch, and a radian in a beat for the pitch rate. For both velocities, they are the
+    They are a radian for angles, and a radian in a beat for their rates. For both velocities, they are the
     root sum square of flight speed and mean flapping speed of the wing tips.
     """
     flap = np.asarray(flap_angle(wingbeat, np.linspace(0.0, 1.0, 65)))
     tips = float(np.abs(np.diff(flap)).sum()) * wingbeat.frequency * problem.vehicle.wing.semi_span
     speed = math.hypot(problem.speed, problem.climb, tips) or 1.0  # nothing moves without weight in hover
-    return np.array([1.0, speed, speed, wingbeat.frequency])
+    scales = np.array([1.0, speed, speed, wingbeat.frequency])
+    return scales if wingbeat.pitch_hinge is None else np.append(scales, [1.0, wingbeat.frequency])

@@ -31,7 +31,14 @@ from wingbeat.stability.manoeuvre_search import (
     steady_start,
     transition,
 )
-from wingbeat.stability.options import ALLOWED, MANOEUVRE, ManoeuvreOptions, check_delay, check_no_wake
+from wingbeat.stability.options import (
+    ALLOWED,
+    MANOEUVRE,
+    ManoeuvreOptions,
+    check_delay,
+    check_no_hinge,
+    check_no_wake,
+)
 from wingbeat.stability.reports import manoeuvre_report
 from wingbeat.stability.riccati import gains_along
 
@@ -281,6 +288,7 @@ def manoeuvre(
     check_manoeuvre(faults, speeds, beats, delay)
     check_certified(faults, orbit.status, "solve it again with more starts")
     check_no_wake(faults, orbit.problem.aero.wake)
+    check_no_hinge(faults, orbit.wingbeat)
     faults.raise_if_any()
     beat_map = BeatMap(orbit, inputs, options.blocks)
     here = steady_start(beat_map, options)

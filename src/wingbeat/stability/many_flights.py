@@ -86,7 +86,7 @@ def fly_held(
         state, time, waiting, largest = carry
         gains, first, last, path, pitch, error = asked
         along = jnp.broadcast_to(path[:, None], (5, flights)).at[0].add(start[1] + climb * time)
-        known = jnp.concatenate([state[1:] - along + error, *waiting[late:]])
+        known = jnp.concatenate([state[1:6] - along + error, *waiting[late:]])
         command = jnp.clip(-gains @ known, hold.lower[:, None], hold.upper[:, None])
         command = jnp.where(jnp.isfinite(command), command, 0.0)  # the vehicle has tumbled
         queue = jnp.concatenate([waiting, command[None]])
@@ -112,7 +112,12 @@ def fly_held(
         return (state, time, waiting, largest), (state, time, commands)
 
     zeros = jnp.zeros(flights)
-    begin = jnp.broadcast_to(start[:, None], (6, flights)), zeros, jnp.zeros((delay + late, count, flights)), zeros
+    begin = (
+        jnp.broadcast_to(start[:, None], (start.size, flights)),
+        zeros,
+        jnp.zeros((delay + late, count, flights)),
+        zeros,
+    )
     (*_, largest), (states, times, commands) = jax.lax.scan(beat, begin, noise)
     return states, times, commands, largest
 
@@ -218,7 +223,7 @@ def simulate_many(
         fly = _timed(feedback, options.steps)
     else:
         hold, names = _hold(orbit, feedback, options.steps)
-        place = np.array(orbit.initial_state, dtype=float), np.array(float(orbit.inputs["climb"]))
+        place = np.append(np.array(orbit.initial_state), orbit.hinge_start), np.array(float(orbit.inputs["climb"]))
         fly = fly_held.bind(orbit.problem.model, orbit.wingbeat, hold, *place, **names, late=late)
         slower = 0.0 if isinstance(feedback, SegmentFeedback) else min([0.0, *hold.lower.tolist()])
     random, found = np.random.default_rng(seed), []
@@ -229,6 +234,7 @@ def simulate_many(
         np.concatenate([np.moveaxis(part[i], -1, 0) for part in found])[: len(winds)] for i in range(4)
     )
     changes = changes.reshape(len(winds), beats * segments, changes.shape[-1])
+    states = states[..., :6]  # without those of a hinge
     states = np.concatenate([np.broadcast_to(orbit.initial_state, (len(winds), 1, 6)), states], axis=1)
     time = np.concatenate([np.zeros((len(winds), 1)), time], axis=1)
     height = states[:, :, 1] - float(orbit.initial_state.z) - float(orbit.inputs["climb"]) * time
@@ -265,7 +271,8 @@ def _hold(orbit: Orbit, feedback: Feedback | SegmentFeedback | None, steps: int)
         inputs, harmonics, shares = feedback.inputs, feedback.flight.compensation, np.eye(len(feedback.inputs))
     count = math.ceil(steps * np.diff(ends).max() - 1e-6)  # no step is longer than those of a whole beat
     phases = np.concatenate([np.linspace(*pair, count + 1)[:-1] for pair in itertools.pairwise(ends)] + [ends[-1:]])
-    flown, _ = fly_through(orbit.problem.model, orbit.wingbeat, orbit.initial_state, phases)
+    hinge = () if orbit.hinge_start.size == 0 else (orbit.hinge_start,)
+    flown, _ = fly_through(orbit.problem.model, orbit.wingbeat, orbit.initial_state, phases, wake=hinge)
     pitch = np.stack([flown[j * count : (j + 1) * count + 1, 2] for j in range(len(gains))])
     hold = Hold(gains, *limits, shares, smoother(orbit.wingbeat, inputs, harmonics), ends, path, pitch)
     return hold, {"inputs": inputs, "harmonics": harmonics.names, "delay": delay}

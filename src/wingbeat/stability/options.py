@@ -238,6 +238,13 @@ def check_no_wake(faults: FaultList, wake: str) -> None:
         faults.add("aero.wake", wake, "has states that stability does not know", "solve the orbit without the wake")
 
 
+def check_no_hinge(faults: FaultList, wingbeat: Wingbeat) -> None:
+    """Note a hinge that gives way, where only a prescribed pitch is known."""
+    if wingbeat.pitch_hinge is not None:
+        fix = "use feedback from beat to beat (wb.feedback), or prescribe the pitch"
+        faults.add("pitch_hinge", "the wing's pitch", "gives way, which this feedback does not know", fix)
+
+
 def check_delay(faults: FaultList, delay: int) -> None:
     """Note a delay of feedback that is no whole number from 0 to `MOST_DELAY`."""
     faults.whole("delay", delay, 0, MOST_DELAY, "commands act in the same beat (0), in the next (1) and so on")

@@ -25,7 +25,14 @@ from wingbeat.mechanics.flights import air_at, air_phases, check_wind, fly_throu
 from wingbeat.orbits.flight.period import flier
 from wingbeat.orbits.options import check_certified
 from wingbeat.stability.control_block import ServoDriver, save_block
-from wingbeat.stability.options import FEEDBACK, FLIGHT_STATE, FeedbackOptions, check_no_wake, noise_of
+from wingbeat.stability.options import (
+    FEEDBACK,
+    FLIGHT_STATE,
+    FeedbackOptions,
+    check_no_hinge,
+    check_no_wake,
+    noise_of,
+)
 from wingbeat.stability.real_time import (
     MOST_SAMPLES,
     MOST_WAITING,
@@ -325,6 +332,7 @@ def feedback_in_beat(
     faults = FaultList()
     check_certified(faults, orbit.status, "hold a certified orbit")
     check_no_wake(faults, orbit.problem.aero.wake)
+    check_no_hinge(faults, orbit.wingbeat)
     moved = check_servos(faults, servos)
     held = any(not one.ideal for one in moved.values())
     check_timing(faults, segments, sample_rate, delay_time, held)

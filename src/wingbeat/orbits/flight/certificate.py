@@ -258,25 +258,32 @@ def monodromy(model: FlightModel, wingbeat: Wingbeat, steps: Steps) -> np.ndarra
 
 
 class StrokeMap(NamedTuple):
-    """Derivatives of (z, body_pitch, u, w, pitch_rate) after one beat, and the pitch state at K equal phases."""
+    """Derivatives of (z, body_pitch, u, w, pitch_rate) after one beat, and the pitch state at K equal phases.
 
-    by_state: np.ndarray  # by the same five numbers before the beat, shape (5, 5)
-    by_parameters: np.ndarray  # by parameters of the wingbeat, shape (5, parameters)
-    transition: np.ndarray  # of the pitch state at each phase by that at phase 0, shape (K, 4, 4)
-    path: np.ndarray  # the pitch state there, shape (K, 4) [rad, m/s, m/s, rad/s]
+    A hinge that gives way adds its angle and rate to both.
+    """
+
+    by_state: np.ndarray  # by the same numbers before the beat, shape (5, 5), or (7, 7) with a hinge
+    by_parameters: np.ndarray  # by parameters of the wingbeat, shape (5, parameters), or (7, parameters)
+    transition: np.ndarray  # of the pitch state at each phase by that at phase 0, shape (K, 4, 4), or (K, 6, 6)
+    path: np.ndarray  # the pitch state there, shape (K, 4) [rad, m/s, m/s, rad/s], or (K, 6)
 
 
 def stroke_map(
     model: FlightModel, wingbeat: Wingbeat, pitch_state: np.ndarray, parameters: tuple[str, ...], blocks: int
 ) -> StrokeMap:
-    """Differentiate one beat of `blocks` times 32 steps, by parameters. Theory: equation ``stroke-map``."""
-    fly = flier(model, wingbeat, parameters, whole_path=True)
+    """Differentiate one beat of `blocks` times 32 steps, by parameters. Theory: equation ``stroke-map``.
+
+    A hinge's angle and rate follow the pitch state.
+    """
+    fly = flier(model, wingbeat, parameters, whole_path=True, repeating=False)
     values = np.array([parameter(wingbeat, name) for name in parameters], dtype=float)
-    flown = fly(values, np.asarray(pitch_state, dtype=float), blocks)
+    start = np.asarray(pitch_state, dtype=float)
+    flown, size = fly(values, start, blocks), start.size
     end = np.asarray(flown.end_jacobian)[1:]
-    height = np.eye(5, 1)  # the flight does not depend on the height
-    transition = np.asarray(flown.path_jacobian)[..., :4]
-    return StrokeMap(np.hstack([height, end[:, :4]]), end[:, 4:], transition, np.asarray(flown.path))
+    height = np.eye(1 + size, 1)  # the flight does not depend on the height
+    transition = np.asarray(flown.path_jacobian)[..., :size]
+    return StrokeMap(np.hstack([height, end[:, :size]]), end[:, size:], transition, np.asarray(flown.path))
 
 
 def map_and_changes(

@@ -319,12 +319,14 @@ def flier(
     whole_path: bool = False,
     stroke: bool = False,
     lag: WakeOptions = WAKE,
+    repeating: bool = True,
 ) -> Callable[..., Flown]:
     """Return a function of free parameters and pitch state that flies one period in `blocks` times `STEPS` steps.
 
     `Flown.path` holds the body pitch alone, or with `whole_path` the whole pitch state, whose derivatives take a
     tenth of a batch's time. With `stroke`, the flight has the distances of the stroke from its limits. Options of
-    the lag of the wake are `lag`.
+    the lag of the wake are `lag`. Inner states are those that repeat, unless `repeating` is false: then they follow
+    the pitch state that the function takes.
     """
     part = fly_part.bind(model, wingbeat, free=free, components=4 if whole_path else 1, stroke=stroke)
 
@@ -335,7 +337,7 @@ def flier(
         return flown
 
     first = inner_start(model, wingbeat)
-    return RepeatingStates(fly, first, whole_path, lag) if first.size else fly
+    return RepeatingStates(fly, first, whole_path, lag) if first.size and repeating else fly
 
 
 def inner_start(model: FlightModel, wingbeat: Wingbeat) -> np.ndarray:

@@ -39,6 +39,7 @@ LOCAL = (
     Local(r"\varphi_0, \varphi_1", "mean and amplitude of flap", "rad", "wing"),
     Local(r"\theta_0, \theta_1, \delta", "mean, amplitude and phase lead of wing pitch", "rad", "wing"),
     Local("d", "downstroke fraction", "1", "wing"),
+    Local("x_p, x_m, r_m", "pitch axis, centre and gyration of a strip's mass, in chords", "1", "wing"),
     Local(r"\lambda_L, \lambda_c", "retraction of span and chord at mid-upstroke", "1", "wing"),
     Local(r"\kappa, \kappa_1", "fold of the hand below the arm, and its largest value", "rad", "wing"),
     Local(r"\sigma", "sweep of the span ahead of the stroke plane", "rad", "wing"),

@@ -141,7 +141,9 @@ def orbit(
         asked |= {"wings_may_cross": True} if wings_may_cross else {}
         asked |= {} if minimise is None else {"minimise": minimise}
         if kinematics is None:
-            problem = whole.problem(animal, speed, **asked)
+            # Of a wing that gives way, too, the force acts where it was asked to.
+            own = {"aero": whole.aero} if model.force_point and animal.wingbeat.pitch_hinge else {}
+            problem = whole.problem(animal, speed, **own, **asked)
         else:
             beat = filmed.filmed_beat(kinematics, side)
             if model.model == "animal":

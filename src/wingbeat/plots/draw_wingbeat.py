@@ -165,6 +165,8 @@ def draw_motion(dataset: xr.Dataset, panels: Any) -> None:
     curves = [("flap", "flap φ", FIRST), ("wing_pitch", "pitch θ", SECOND), ("fold", "fold", THIRD)]
     for name, label, style in curves if np.ptp(dataset["fold"].values) > 1e-9 else curves[:2]:
         wing.plot(phase, np.degrees(dataset[name].values), label=label, **style)
+    if "hinge_angle" in dataset:
+        _draw_hinge(wing, dataset)
     lines = wing.get_lines()
     if np.ptp(dataset["span_ratio"].values) > 1e-9:
         span = wing.twinx()
@@ -185,6 +187,24 @@ def draw_motion(dataset: xr.Dataset, panels: Any) -> None:
     legend_above(power, lines + ([] if mean is None else [power.axhline(mean, label="mean", **_MEAN)]))
     for axes in panels:
         _clear_corner(axes)
+
+
+def _draw_hinge(axes: Axes, dataset: xr.Dataset) -> None:
+    """Draw the angle of a hinge that gives way and at rest; in place of the pitch, unless the wing twists."""
+    phase, beat = dataset["phase"].values, json.loads(dataset.attrs["wingbeat"])
+    angle, style, twists = np.degrees(dataset["hinge_angle"].values), SECOND, beat["hinge_twist_share"]
+    if twists:
+        style = THIRD
+    else:
+        axes.get_lines()[1].remove()
+    axes.plot(phase, angle, label="tip twist" if twists == 1 else "hinge θ", **style)
+    rest = math.degrees(beat["hinge_rest_angle"])
+    axes.axhline(rest, label="at rest", **_MEAN)
+    if beat["hinge_stop_stiffness"]:
+        stop = math.degrees(beat["hinge_stop_angle"])
+        low, high = axes.get_ylim()
+        for at in (at for at in (-stop, stop) if low < at < high):
+            axes.axhline(at, color=ALARM, linewidth=0.5)
 
 
 def draw_portraits(dataset: xr.Dataset, panels: Any) -> None:

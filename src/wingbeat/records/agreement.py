@@ -26,6 +26,7 @@ from wingbeat.orbits.options import DEFAULTS, Status
 from wingbeat.orbits.problem.origin import frequency_basis
 from wingbeat.orbits.problem.quantities import judged_names
 from wingbeat.records.forms import from_json
+from wingbeat.records.hinges import hinge_numbers
 from wingbeat.records.inputs import (
     OWN,
     aero_inputs,
@@ -182,8 +183,14 @@ def _check_numbers(record: dict[str, Any], species: Species, series: dict[str, n
         of_wingbeat = wingbeat["frequency"], wingbeat["flap_amplitude"]
         found = beat_numbers(vehicle, species.air, record["speed"], beat, *of_wingbeat)
         values = judged_values(record, beat, vehicle.mass)
+        motion = np.stack([series[name] for name in HINGE_STATE], axis=1) if "hinge_angle" in series else None
+        flown = wingbeat_from(wingbeat)
+        strips = record["aero"]["strips"]
+        of_hinge = hinge_numbers(species.kind, vehicle, flown, strips, beat, motion)
     for name, value in found.items():
         same(name, record[name], value)
+    for name in {*of_hinge} & {*record}:  # earlier versions wrote none
+        same(name, record[name], of_hinge[name])
     for one in record["plausibility"]:
         same(one["name"], one["value"], values[one["name"]])
     if (least := record["objective"]) in {*found, *wingbeat}:

@@ -19,6 +19,7 @@ from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.problem.quantity import OF_BATTERY
 from wingbeat.records.characteristic import with_characteristic
 from wingbeat.records.forms import inputs_hash
+from wingbeat.records.hinges import hinge_names
 from wingbeat.records.inputs import aero_record, vehicle_record
 
 if TYPE_CHECKING:
@@ -138,7 +139,8 @@ def _numbers(
     """Yield name, unit and meaning of each number of an optimum, and the function that reads it from a record."""
     parts = {"muscle": _OF_MUSCLE, "motor": _OF_MOTOR, "battery": tuple(OF_BATTERY)}
     there = (names for part, names in parts.items() if getattr(problem.vehicle, part) is not None)
-    for name in (*_NUMBERS, *itertools.chain(*there)):
+    hinges = hinge_names(problem.species.kind, problem.vehicle, problem.species.wingbeat)
+    for name in (*_NUMBERS, *itertools.chain(*there), *hinges):
         unit = cf(problem.minimise.unit) if name == "objective_value" else NOMENCLATURE[name].unit
         yield name, unit, label_of(name), lambda record, name=name: record[name]
     for name in PARAMETER_NAMES:

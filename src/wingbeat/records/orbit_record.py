@@ -24,6 +24,7 @@ from wingbeat.orbits.problem.quantities import judged_names
 from wingbeat.orbits.problem.quantity import discharged, driven
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.starts import is_at_lower_bound
+from wingbeat.records.hinges import hinge_numbers, hinge_warnings
 from wingbeat.records.inputs import aero_record, vehicle_record, wingbeat_record
 from wingbeat.records.judgements import OTHER_FREQUENCY, conditions_in_words, judged
 from wingbeat.records.numbers import beat_numbers, detached_share, judged_values
@@ -65,6 +66,9 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "distinct_optima": solution.distinct_optima,
         "starts_at_best": solution.starts_at_best,
         **beat_numbers(*flight, beat, wingbeat.frequency, wingbeat.flap_amplitude),
+        **hinge_numbers(
+            problem.species.kind, problem.vehicle, wingbeat, problem.aero.strips, beat, certificate.hinge
+        ),
         "detached_share": detached_share(problem.aero, problem.vehicle.wing, beat),
         "floquet_multipliers": [[float(m.real), float(m.imag)] for m in solution.multipliers],
         "stable": bool(np.abs(solution.multipliers).max() < 1.0) if solution.status is Status.CONVERGED else None,
@@ -145,6 +149,8 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
         where = "" if aero.hand == "none" else f" of the {part.name}"
         of_part = beat.strip_reynolds[:, part.strips], beat.alpha[:, part.strips]
         notes += _outside_fit(part.coefficients, *of_part, where) if of_part[0].size else []
+    if solution.certificate.hinge is not None:
+        notes += hinge_warnings(vehicle, aero, solution.wingbeat, beat, solution.certificate.hinge)
     if aero.upstroke_factor != 1:
         notes.append(f"the upstroke factor of {aero.upstroke_factor:g} is a guess: no source measured it")
     # Bounds that the user set do not count as guesses.

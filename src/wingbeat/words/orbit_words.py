@@ -45,7 +45,7 @@ _OFF: dict[str, Any] = {
         ("pitch_phase", "sweep_mean", "sweep_amplitude", "sweep_phase", "stroke_plane_tilt", "tail_tilt"), 0.0
     ),
     **{name: [] for name in ("flap_harmonics", "pitch_harmonics", "span_harmonics")},
-    "downstroke_fraction": 0.5,
+    **{"downstroke_fraction": 0.5, "hinge_stop_stiffness": 0.0, "hinge_twist_share": 0.0},
 }
 
 
@@ -70,6 +70,8 @@ def orbit_groups(record: dict[str, Any]) -> dict[str, Rows]:
         "plausible ranges": plausible_rows(record.get("plausibility") or [], limited),
         "state at the top of the stroke": state_rows(record.get("initial_state", {})),
         "power, both wings": power_rows(record, limited),
+        "pitch hinges, both wings": hinge_rows(record),
+        "prescribed pitch: no part of this robot drives it": prescribed_rows(record),
         "certificate": certificate_rows(record, limited),
         "stability": stability_rows(record),
     }
@@ -173,6 +175,8 @@ def deficit_rows(deficits: list[dict[str, Any]]) -> Rows:
 def wingbeat_rows(beat: dict[str, Any], limited: Limited = _NONE) -> Rows:
     """Return the numbers of a wingbeat, except those of motions that are off."""
     shown = [name for name in beat if name not in _OFF or beat[name] != _OFF[name]]
+    if beat.get("hinge_stop_stiffness") == 0 and "hinge_stop_angle" in shown:
+        shown.remove("hinge_stop_angle")
     rows = [(name.replace("_", " "), _of(beat, name, limited)) for name in shown]
     return [(f"wing {label}" if label.startswith("pitch") else label, value) for label, value in rows]
 
@@ -207,8 +211,47 @@ def power_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:
     for name, factor, unit in (("endurance", 1 / 60, "min"), ("flight_range", 1e-3, "km")):
         if record.get(name) is not None:
             about[name] = f", {_number(record[name], unit, factor)}"
+    if record.get("pitching_power") is not None:
+        about["electrical_power"] = (
+            f", of which {_of(record, 'pitching_power')} would pitch the wings: no motor does"
+        )
     others = [name for name in ("cost_of_transport", *itertools.chain(*OF_DRIVE.values())) if name in record]
     return [*rows, *((_label(name), _of(record, name, limited) + about.get(name, "")) for name in others)]
+
+
+def hinge_rows(record: dict[str, Any]) -> Rows:
+    """Return how hinges move that give way."""
+    if record.get("hinge_amplitude") is None:
+        return []
+    ends = _range(record["least_hinge_angle"], record["largest_hinge_angle"], "deg", math.degrees(1.0))
+    names = ("hinge_amplitude", "hinge_lead", "hinge_frequency_ratio", "damper_power", "peak_hinge_torque")
+    rows = [
+        ("hinge angle", ends),
+        *((_label(name), _of(record, name)) for name in names),
+    ]
+    if (record.get("wingbeat") or {}).get("hinge_stop_stiffness"):
+        rows.append((_label("share_at_stops"), f"{100 * record['share_at_stops']:.3g} %"))
+    return rows
+
+
+def prescribed_rows(record: dict[str, Any]) -> Rows:
+    """Return what a robot's prescribed pitch needs, and how far hinges could give it, with the command for them."""
+    if record.get("peak_pitch_torque") is None or "fitted_share" not in record:
+        return []
+    rows = [(_label(name), _of(record, name)) for name in ("peak_pitch_torque", "mean_pitch_power")]
+    if record["fitted_share"] is None:
+        return [*rows, ("nearest hinge", "none: the pitch does not move")]
+    shares = [f"{100 * record[name]:.1f} %" for name in ("fitted_share", "fitted_share_undamped")]
+    rows.append(("of its variance, a spring and damper give", f"{shares[0]} (a spring alone {shares[1]})"))
+    own = [_of(record, f"fitted_{name}") for name in ("stiffness", "damping", "rest_angle")]
+    rows.append(("their stiffness, damping, rest angle", ", ".join(own)))
+    if record["fitted_damping"] < 0 or record["fitted_stiffness"] <= 0:
+        lacks = "damping" if record["fitted_stiffness"] > 0 else "stiffness"
+        return [*rows, (f"negative {lacks}", "this pitch is driven: no passive hinge gives it")]
+    rest = math.degrees(record["fitted_rest_angle"])
+    values = (f"{record['fitted_stiffness']:.4g}", f"{record['fitted_damping']:.4g}", f"{rest:.2f}")
+    paths = zip(("stiffness", "damping", "rest_angle_deg"), values, strict=True)
+    return [*rows, ("fly them", "--set " + " ".join(f"pitch_hinge.{path}={value}" for path, value in paths))]
 
 
 def certificate_rows(record: dict[str, Any], limited: Limited = _NONE) -> Rows:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from wingbeat._base import FIRST_ORDER, HARMONIC_NAMES, IN_RADIANS, Fault, find, plain, plain_unit
-from wingbeat.animal.kinematics import HINGE_NAMES
+from wingbeat.animal.kinematics import HINGE_NAMES, PitchHinge
 
 DEFAULT = "not given: the default"
 FREQUENCY = "wingbeat.frequency"
@@ -105,6 +105,30 @@ FREE = _keys(
 def path_of(name: str) -> str:
     """Return the path of a free parameter's number: those of a hinge belong to the vehicle."""
     return f"vehicle.pitch_hinge.{HINGE_NAMES[name]}" if name in HINGE_NAMES else f"wingbeat.{name}"
+
+
+def free_name(path: str) -> str:
+    """Return the name of a free parameter, also for the path of a hinge's number; any other text as it is.
+
+    >>> free_name("pitch_hinge.stiffness"), free_name("frequency")
+    ('hinge_stiffness', 'frequency')
+    """
+    known = {path_of(name): name for name in HINGE_NAMES}
+    return next((name for whole, name in known.items() if path in (whole, whole.removeprefix("vehicle."))), path)
+
+
+def guessed_hinge_range(name: str, hinge: PitchHinge | None) -> tuple[float, float] | None:
+    """Return bounds, a guess, of a hinge's number that has no range; None for another number, or one that is 0.
+
+    >>> guessed_hinge_range("hinge_stiffness", PitchHinge(2.0))
+    (0.2, 20.0)
+    """
+    if hinge is None or name not in HINGE_NAMES:
+        return None
+    if name == "hinge_rest_angle":
+        return -0.25 * math.pi, 0.25 * math.pi
+    value = getattr(hinge, HINGE_NAMES[name])
+    return (0.1 * value, 10.0 * value) if value else None
 
 
 # How the animal looks. No model reads it.

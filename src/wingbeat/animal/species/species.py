@@ -47,8 +47,10 @@ from wingbeat.animal.species.numbers import (
     Numbers,
     OwnFrequency,
     Range,
+    free_name,
     frequency_between,
     frequency_of,
+    guessed_hinge_range,
     in_order,
     jsonable,
     path_of,
@@ -253,20 +255,24 @@ class Species(Reported):
         ------
         InvalidInputError : a name that is no parameter of the wingbeat, or one without a plausible range.
         """
-        faults, bounds = FaultList(), dict(self.bounds)
+        faults, bounds, guessed, names = FaultList(), dict(self.bounds), {}, [free_name(name) for name in names]
         for name in names:
             known = self.plausible_range(name, 0.0) if name in FREE_NAMES else None
             if known is None:
                 faults.add("free", name, "is no parameter that can be free", suggest(name, FREE_NAMES))
-            elif known.low is None or known.high is None:
-                faults.add("free", name, "has no plausible range", "give it one in the species file")
-            else:
+            elif known.low is not None and known.high is not None:
                 bounds.setdefault(name, (known.low, known.high))
+            elif guess := guessed_hinge_range(name, self.wingbeat.pitch_hinge):
+                guessed[name] = bounds.setdefault(name, guess)
+            else:
+                faults.add("free", name, "has no plausible range", "give it and its range in the species file")
         faults.raise_if_any()
         added = tuple(name for name in dict.fromkeys(names) if name not in self.free)
         reason = "the plausible range of the species file"
         reasons = self.reasons | {name: reason for name in added if name not in self.bounds}
-        return dataclasses.replace(self, free=(*self.free, *added), bounds=bounds, reasons=reasons)
+        reasons |= dict.fromkeys(guessed, "a guess about the hinge's own number")
+        own = {"bounds": bounds, "reasons": reasons, "guessed_bounds": self.guessed_bounds | {*guessed}}
+        return dataclasses.replace(self, free=(*self.free, *added), **own)
 
     def is_set_by_hand(self, path: str) -> bool:
         """Return whether a number was set, by `with_values` or ``--set``, after the species was made.

@@ -31,7 +31,7 @@ from wingbeat.animal.kinematics import (
     parameter,
     with_parameters,
 )
-from wingbeat.animal.species.numbers import bound_cells
+from wingbeat.animal.species.numbers import bound_cells, free_name
 from wingbeat.animal.species.posture import with_pitch_given_way, with_posture
 from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Air, Vehicle
@@ -58,6 +58,7 @@ from wingbeat.orbits.problem.quantities import (
     plausible_limits,
     read_limits,
 )
+from wingbeat.orbits.problem.quantity import refuse_with_hinge
 
 
 @dataclass(frozen=True)
@@ -147,6 +148,7 @@ class OrbitProblem(Reported):
             faults.choice("bounds", named, ("plausible",))
             object.__setattr__(self, "bounds", {})
         faults.raise_if_any()
+        object.__setattr__(self, "free", tuple(map(free_name, self.free or ())))
         species = self.species.at_own_frequency(self.speed) if self.own_frequency else self.species
         species = with_posture(species, self.speed) if self.own_posture else species
         object.__setattr__(self, "species", with_pitch_given_way(species))
@@ -159,16 +161,16 @@ class OrbitProblem(Reported):
         faults.raise_if_any()
         hinge = self.species.wingbeat.pitch_hinge
         aero = blade_element_of(self.aero, "quarter-chord" if hinge is None else "centre-of-pressure")
-        if hinge is not None and aero.wake != "none":
-            fix = "leave the lag of the wake out, or prescribe the pitch"
-            faults.add("aero.wake", aero.wake, "is not built for a wing whose pitch gives way", fix)
+        if hinge is not None:
+            refuse_with_hinge(aero.wake, self._quantities(), faults)
         faults.faults.extend(check_quantities(self._quantities(), aero, self.vehicle.drive, self.minimise))
         faults.raise_if_any()
         object.__setattr__(self, "aero", aero)
         object.__setattr__(self, "air", self.air or self.species.air)
         # Refuses a descent into its own wake, and too short a wing.
         _ = aero.inflow == aero.wake == "none" or self.model
-        given: Bounds = dict(self.bounds or {})  # type: ignore[arg-type]
+        asked: Any = self.bounds or {}
+        given: Bounds = {free_name(name): pair for name, pair in dict(asked).items()}
         object.__setattr__(self, "bounds", given)
         free = tuple(self.free or self.species.free)
         bounds = {**self.species.bounds, **self.species.path_bounds, **given}

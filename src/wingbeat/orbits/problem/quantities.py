@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 from wingbeat._base import NOMENCLATURE, Fault, FaultList, InvalidInputError, plain, plain_unit, suggest
 from wingbeat._jax.arrays import jnp
 from wingbeat.animal.kinematics import ANGLES, FREE_NAMES, parameter
-from wingbeat.animal.species.numbers import JUDGED, Range
+from wingbeat.animal.species.numbers import JUDGED, Range, free_name
 from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Air
 from wingbeat.orbits.flight.beat import Beat, spread
@@ -311,7 +311,7 @@ class WingbeatLimit(NamedTuple):
     value: float
 
 
-_LIMIT = re.compile(rf"\s*(\w+)\s*(<=|>=|=)\s*({NUMBER})\s*(deg)?\s*")
+_LIMIT = re.compile(rf"\s*([\w.]+)\s*(<=|>=|=)\s*({NUMBER})\s*(deg)?\s*")
 
 
 def parse_wingbeat_limit(text: Any) -> WingbeatLimit | None:
@@ -321,12 +321,13 @@ def parse_wingbeat_limit(text: Any) -> WingbeatLimit | None:
     6.0
     """
     found = _LIMIT.fullmatch(text) if isinstance(text, str) else None
-    if found is None or found[1] not in FREE_NAMES or (found[4] and found[1] not in ANGLES):
+    name = "" if found is None else free_name(found[1])
+    if found is None or name not in FREE_NAMES or (found[4] and name not in ANGLES):
         return None
-    if found[1] == "frequency" and found[2] != "=":  # a constraint like any other
+    if name == "frequency" and found[2] != "=":  # a constraint like any other
         return None
     value = float(found[3])
-    return WingbeatLimit(found[1], found[2], math.radians(value) if found[4] else value)
+    return WingbeatLimit(name, found[2], math.radians(value) if found[4] else value)
 
 
 def read_limits(given: Sequence[Any], faults: FaultList) -> tuple[list[WingbeatLimit], list[Constraint]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -180,6 +180,17 @@ MAP_QUANTITIES = {
         ("gust_response", _gust_response, 1.0, None),
     )
 }
+
+
+def refuse_with_hinge(wake: str, quantities: Iterable[Quantity], faults: FaultList) -> None:
+    """Refuse what is not built for a wing whose pitch gives way: the lag of the wake, and limits of stability."""
+    rule = "is not built for a wing whose pitch gives way"
+    if wake != "none":
+        faults.add("aero.wake", wake, rule, "leave the lag of the wake out, or prescribe the pitch")
+    for quantity in quantities:
+        if isinstance(quantity, MapQuantity):
+            fix = "leave it out, and read in the record whether the orbit is stable"
+            faults.add("minimise and subject_to", quantity.name, rule, fix)
 
 
 _NO_SPRINGS = Springs()

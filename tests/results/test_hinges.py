@@ -9,6 +9,7 @@ import pytest
 import wingbeat as wb
 from wingbeat.animal.kinematics import held_at
 from wingbeat.animal.pitch_hinge import PitchHinge
+from wingbeat.cli import main
 from wingbeat.cli.problem_options import with_settings
 from wingbeat.mechanics.hinge_torques import hinge_alone
 from wingbeat.orbits.problem.quantities import parse_wingbeat_limit
@@ -159,7 +160,7 @@ def giving():
 
 
 @pytest.mark.slow
-def test_the_record_of_hinges_that_give_way(giving, tmp_path):
+def test_the_record_of_hinges_that_give_way(giving, tmp_path, capsys):
     record, series = giving.record(), giving.dataset
     assert record["status"] == "converged"
     angle, flap = series["hinge_angle"].values, series["flap"].values
@@ -182,7 +183,11 @@ def test_the_record_of_hinges_that_give_way(giving, tmp_path):
     assert "share of the beat at the stops" not in rows
     # The file holds it, and is refused if a number is another.
     giving.save(tmp_path / "own.nc")
-    assert wb.load_orbit(tmp_path / "own.nc").record()["damper_power"] == record["damper_power"]
+    again = wb.load_orbit(tmp_path / "own.nc")
+    assert again.record()["damper_power"] == record["damper_power"]
+    assert again.record()["hinge_start"] == {name: series[name].values[0] for name in ("hinge_angle", "hinge_rate")}
+    assert main(["stability", str(tmp_path / "own.nc")]) == 0
+    assert "hinge rate" in capsys.readouterr().out
 
 
 @pytest.mark.slow

@@ -161,6 +161,8 @@ def _check_inputs(record: dict[str, Any], inputs: dict[str, Any], species: Speci
 def _check_beat(record: dict[str, Any], series: dict[str, np.ndarray]) -> None:
     """Check phases, times, and the states at both ends of the beat."""
     wingbeat, phase = wingbeat_from(record["wingbeat"]), series["phase"]
+    own = {name: float(series[name][0]) for name in HINGE_STATE if name in series}
+    demand(own == record.get("hinge_start", {}), "hinge_start is not that of the series")
     even = np.arange(phase.size) / max(phase.size - 1, 1)
     demand(phase.size > 2 and np.allclose(phase, even, 0.0, _ABSOLUTE), "phase is not one beat in equal steps")
     check_wings(wingbeat, series)
@@ -184,8 +186,7 @@ def _check_numbers(record: dict[str, Any], species: Species, series: dict[str, n
         found = beat_numbers(vehicle, species.air, record["speed"], beat, *of_wingbeat)
         values = judged_values(record, beat, vehicle.mass)
         motion = np.stack([series[name] for name in HINGE_STATE], axis=1) if "hinge_angle" in series else None
-        flown = wingbeat_from(wingbeat)
-        strips = record["aero"]["strips"]
+        flown, strips = wingbeat_from(wingbeat), record["aero"]["strips"]
         of_hinge = hinge_numbers(species.kind, vehicle, flown, strips, beat, motion)
     for name, value in found.items():
         same(name, record[name], value)

@@ -186,6 +186,7 @@ _KINDS: dict[str, tuple[type, ...]] = {
     **dict.fromkeys(
         ("model", "vehicle", "aero", "air", "wingbeat", "initial_state", "closure", "constraints", "start"), (dict,)
     ),
+    "hinge_start": (dict,),
     **dict.fromkeys(
         ("active_bounds", "failed_balance", "relaxations", "plausibility", "warnings", "trace"), (list,)
     ),
@@ -244,6 +245,7 @@ _ITEMS: dict[str, Callable[[Any], bool]] = {
     **dict.fromkeys(("active_bounds", "warnings"), lambda value: all(isinstance(item, str) for item in value)),
     **dict.fromkeys(("alpha_quarter_span", "alpha_three_quarter_span"), _is_range),
     "constraints": _are_known,
+    "hinge_start": lambda value: {*value} == {"hinge_angle", "hinge_rate"} and _are_known(value),
     "floquet_multipliers": lambda value: all(isinstance(pair, list) and _is_range(pair) for pair in value),
     "failed_balance": _are_deficits,
     "plausibility": is_judgement,

@@ -12,6 +12,7 @@ from wingbeat.animal.kinematics import ANGLES
 
 # What moves in a mode, as pages and screens name it.
 MOVING = {"body_pitch": "body pitch", "u": "u", "w": "w", "pitch_rate": "pitch rate"}
+MOVING |= {"hinge_angle": "hinge angle", "hinge_rate": "hinge rate"}
 # How the state is shown: label, and the size of the unit in SI units.
 STATE_UNITS = {
     "z": ("z [m]", 1.0),

@@ -101,6 +101,7 @@ from .stability import Feedback as Feedback
 from .stability import FeedbackController as FeedbackController
 from .stability import FeedbackOptions as FeedbackOptions
 from .stability import GustSurvey as GustSurvey
+from .stability import Imu as Imu
 from .stability import LinearFlight as LinearFlight
 from .stability import LinearOptions as LinearOptions
 from .stability import Manoeuvre as Manoeuvre

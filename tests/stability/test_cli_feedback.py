@@ -142,10 +142,12 @@ def test_feedback_in_real_time_is_that_of_the_library(saved, cruise, capsys, tmp
     assert drawn.read_bytes().startswith(b"\x89PNG")
     written = tmp_path / "controller.json"
     assert main(["feedback", saved, *timing, "--output", str(written)]) == 0
-    assert np.allclose(
-        json.loads(written.read_text())["gains_of_state"], held.gains[:, :, :5], rtol=1e-6, atol=1e-6
-    )
     printed = capsys.readouterr().out
+    block = json.loads(written.read_text())
+    assert np.allclose(block["gains_of_state"], held.gains[:, :, :5], rtol=1e-6, atol=1e-6)
+    sensors = ["--imu", "gyro_deg=0.1", "accelerometer=0.05", "gyro_bias_deg=1", "height=0.1"]
+    assert main(["feedback", saved, *timing, *sensors]) == 0
+    assert "the state by a Kalman filter from an IMU" in capsys.readouterr().out
     assert "10 samples a beat (95.28 Hz), 10 ms from a measurement to its effect" in printed
     assert "pitch: -3 to +12 deg, 600 deg/s, bandwidth 9.55 Hz" in printed
 
@@ -156,6 +158,9 @@ def test_feedback_in_real_time_is_that_of_the_library(saved, cruise, capsys, tmp
         (["--delay", "1", "--delay-time", "0.01"], "--delay = 1: is for feedback from beat to beat"),
         (["--output", "controller.json"], "is for feedback within the beat"),
         (["--output", "controller.txt", "--segments", "4"], "does not end in a suffix for a controller"),
+        (["--imu", "gyro_deg=0.1", "--servo", "speed_deg=600"], "lacks accelerometer"),
+        (["--imu", "gyro_deg=0.1", "accelerometer=0.1"], "is for feedback with servos or a delay"),
+        (["--imu", "gyro_deg=-1", "accelerometer=0.1", "--delay-time", "0.01"], "imu.gyro = -0.01"),
         (["--servo", "speed=600"], "--servo = 'speed'"),
         (["--servo", "speed_deg=0"], "servo.speed = 0.0: must be > 0"),
         (["--largest-gust", "0"], "--largest-gust = 0.0"),

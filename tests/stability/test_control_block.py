@@ -36,12 +36,14 @@ def read(path):
     else:
         lines = path.read_text().splitlines()
         about = [line[2:].partition(" = ") for line in lines if line.startswith("# ") and " = " in line]
-        numbers = {name: value for name, _, value in about if name.isidentifier() and value[0] in "[0123456789-"}
-        found = {name: json.loads(value) for name, value in numbers.items()}
+        known = {name: value for name, _, value in about if name.isidentifier() and value[0] in "[0123456789-"}
+        found = {name: json.loads(value) for name, value in known.items()}
         rows = list(csv.reader(line for line in lines if not line.startswith("#")))
         numbers = np.array(rows[1:], dtype=float)
-        gains = numbers[:, 6:].reshape(len(numbers), 2, -1)
-        found |= {"path": numbers[:, 1:6], "gains_of_state": gains[:, :, :5], "gains_of_memory": gains[:, :, 5:]}
+        found["path"] = np.stack([numbers[:, i] for i, name in enumerate(rows[0]) if name.startswith("path")], 1)
+        for name in ("gains_of_state", "gains_of_memory"):
+            own = [i for i, column in enumerate(rows[0]) if column.startswith(f"{name}[")]
+            found[name] = numbers[:, own].reshape(len(numbers), 2, -1)
     return {name: np.array(value) for name, value in found.items() if name != "use"}
 
 

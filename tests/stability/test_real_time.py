@@ -10,7 +10,7 @@ import wingbeat as wb
 from wingbeat.animal.kinematics import with_parameters
 from wingbeat.mechanics.equations_of_motion import air_forces, equations_of_motion
 from wingbeat.mechanics.flights import fly_through
-from wingbeat.stability.real_time import Servo, follow
+from wingbeat.stability.servos import Servo, follow
 
 SCALES = np.array([0.2, 0.1, 1.0, 1.0, 2.0])
 GUST = wb.winds.CosineGust(u=0.5, w=1.0, start=0.02, duration=0.15)

@@ -27,11 +27,12 @@ from wingbeat.stability.beat_feedback import Feedback
 from wingbeat.stability.beat_feedback import feedback as compute
 from wingbeat.stability.control_block import check_block
 from wingbeat.stability.gust_flights import GustFlight, fly_gust
+from wingbeat.stability.imu import Imu
 from wingbeat.stability.many_flights import MOST_FLIGHTS, GustSurvey, survey_gusts
 from wingbeat.stability.options import MOST_DELAY, check_delay, check_inputs, check_noise
-from wingbeat.stability.real_time import SERVO_LAWS, Servo, check_timing
 from wingbeat.stability.reports import STATE_UNITS, beats_of, feedback_report, segment_report, survey_report
 from wingbeat.stability.segment_feedback import SegmentFeedback, feedback_in_beat
+from wingbeat.stability.servos import SERVO_LAWS, Servo, check_timing
 
 FREE, HELD = "no feedback", "feedback"
 # The gust that is flown if none is given: upward at 2 m/s, for 0.3 s.
@@ -75,6 +76,14 @@ def feedback(
             "[deg/s, Hz, deg]; flap.speed_deg=600 for one of flap and pitch. If only one is named, only it moves."
         ),
     ] = None,
+    imu: Annotated[
+        list[str] | None,
+        several(
+            "The same, from the readings of an IMU, by their standard deviations: gyro_deg=0.1 accelerometer=0.05 "
+            "gyro_bias_deg=1 accelerometer_bias=0.1 height=0.1 gust=1 [deg/s, m/s2, m, m/s]; without height, that "
+            "is not held."
+        ),
+    ] = None,
     gust: Gust = None,
     turbulence: Turbulence = None,
     wind_seed: WindSeed = 0,
@@ -107,8 +116,8 @@ def feedback(
     each of inputs, a column for each of gain_columns) gain_columns cost lower upper multipliers spectral_radius
     open_loop controllability sufficient version; late and beats; within the beat, in place of dt to sufficient:
     segments sample_rate delay_time held state (its names) inputs phases path gains (a matrix for each measurement)
-    lower upper servo_speed servo_bandwidth gait_speed memory (as in --output) multipliers spectral_radius
-    open_loop;
+    lower upper servo_speed servo_bandwidth gait_speed imu estimator memory (as in --output) multipliers
+    spectral_radius open_loop;
     flights by name ("no feedback", "feedback"), each with completed survived largest_pitch lowest highest
     settled_beats; and survey (null without --survey) with flights beats largest_gust survived by_size by_direction.
     Exit code 3: the flight with feedback is lost.
@@ -128,9 +137,16 @@ def feedback(
     check_delay(faults, delay)
     faults.whole("late", late, 0, MOST_DELAY)
     faults.number("--largest-gust", largest_gust, above=0.0, unit="m/s")
-    within = {"segments": segments, "sample_rate": sample_rate, "delay_time": delay_time}
-    within = {name: value for name, value in within.items() if value is not None}
+    given = {"segments": segments, "sample_rate": sample_rate, "delay_time": delay_time}
+    within: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
     servos = _servos(faults, servo)
+    sensors = _imu(faults, imu)
+    within |= {} if sensors is None else {"imu": sensors}
+    if sensors is not None and servos is None and not delay_time:
+        fix = "add --servo speed_deg=600"
+        faults.add("--imu", " ".join(imu or []), "is for feedback with servos or a delay", fix)
+    if sensors is not None and errors:
+        faults.add("--noise", " ".join(noise or []), "is not that of an IMU", "leave it out")
     check_timing(faults, segments, sample_rate, delay_time, held=servos is not None)
     if within or servos is not None:
         for name, value in (("--inputs", inputs), ("--delay", delay), ("--late", late)):
@@ -197,6 +213,28 @@ def _servos(faults: FaultList, words: list[str] | None) -> Servo | dict[str, Ser
             faults.faults += error.faults
             break
     return servos
+
+
+def _imu(faults: FaultList, words: list[str] | None) -> Imu | None:
+    """Return the IMU of words such as ``gyro_deg=0.1``."""
+    if words is None:
+        return None
+    names = ("gyro_deg", "accelerometer", "gyro_bias_deg", "accelerometer_bias", "height", "gust")
+    found = named_numbers(faults, "--imu", words, names, "gyro_deg=0.1 accelerometer=0.05")
+    missing = [name for name in names[:2] if name not in found]
+    if missing:
+        faults.add("--imu", " ".join(words), f"lacks {' and '.join(missing)}", "for example gyro_deg=0.1")
+    if faults.faults:
+        return None
+    numbers = {
+        name.removesuffix("_deg"): math.radians(value) if name.endswith("_deg") else value
+        for name, value in found.items()
+    }
+    try:
+        return Imu(**numbers)
+    except InvalidInputError as error:
+        faults.faults += error.faults
+        return None
 
 
 def _print(

@@ -6,6 +6,7 @@ from .beat_feedback import feedback as feedback
 from .causes import StabilitySensitivities as StabilitySensitivities
 from .causes import stability_sensitivities as stability_sensitivities
 from .gust_flights import fly_pushes as fly_pushes
+from .imu import Imu as Imu
 from .linear_flight import LinearFlight as LinearFlight
 from .linear_flight import Mode as Mode
 from .linear_flight import linearise as linearise
@@ -19,8 +20,8 @@ from .options import FeedbackOptions as FeedbackOptions
 from .options import LinearOptions as LinearOptions
 from .options import ManoeuvreOptions as ManoeuvreOptions
 from .options import ManyOptions as ManyOptions
-from .real_time import Servo as Servo
 from .riccati import Reach as Reach
 from .segment_feedback import SegmentFeedback as SegmentFeedback
 from .segment_feedback import SegmentFlight as SegmentFlight
 from .segment_feedback import feedback_in_beat as feedback_in_beat
+from .servos import Servo as Servo

@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._base import FaultList, write_atomically
-from wingbeat.stability.real_time import WITHOUT_END, follow
+from wingbeat.stability.servos import WITHOUT_END, follow
 
 if TYPE_CHECKING:
     from wingbeat.mechanics.flight_model import State
@@ -32,6 +32,15 @@ _USE = (
     "x = (height above the start and above the climb since then, body_pitch, u, w, pitch_rate) - path[j]",
     "command = clip(-(gains_of_state[j] @ x + gains_of_memory[j] @ m), lower, upper), for flap and pitch [rad]",
     "m = memory @ m + input @ command; each servo in m (the first two if held) changes by at most largest_step",
+    "j counts the samples of a beat from the top of the stroke; m is zero at the start; SI units, radians",
+)
+_READINGS = ("pitch_rate", "mean acceleration felt forward", "mean acceleration felt up", "z")
+_BIASES = ("bias of pitch_rate", "bias forward", "bias up")
+_USE_OF_READINGS = (
+    "y = readings - path[j]; accelerations are means over the sample before, as sensors in the body feel them",
+    "e = m + gains_of_readings[j] @ (y - output @ m)",
+    "command = clip(-gains_of_estimate[j] @ e, lower, upper), for flap and pitch [rad]",
+    "m = memory[j] @ e + input[j] @ command; each servo in m (if held) changes by at most largest_step from e",
     "j counts the samples of a beat from the top of the stroke; m is zero at the start; SI units, radians",
 )
 
@@ -45,7 +54,7 @@ def block_of(record: dict[str, Any]) -> dict[str, Any]:
     limits = [[record[end][name] for name in record["inputs"]] for end in ("lower", "upper")]
     speeds = [record["servo_speed"][name] for name in record["inputs"]] if record["held"] else []
     largest = [None if speed is None else speed / record["sample_rate"] for speed in speeds]
-    return {
+    block = {
         "use": list(_USE),
         "sample_rate": record["sample_rate"],
         "samples": len(gains),
@@ -63,6 +72,27 @@ def block_of(record: dict[str, Any]) -> dict[str, Any]:
         "climb": record["climb"],
         "frequency": record["frequency"],
         "delay_time": record["delay_time"],
+    }
+    return block if record["estimator"] is None else _with_filter(block, record["estimator"])
+
+
+def _with_filter(block: dict[str, Any], found: dict[str, Any]) -> dict[str, Any]:
+    """Return the block of a controller that knows readings alone; its memory is the filter's prediction."""
+    gains = np.concatenate([block["gains_of_state"], block["gains_of_memory"]], axis=2)
+    more = len(found["output"][0]) - gains.shape[2]
+    states = [*block["states"], *block["memories"], "felt forward", "felt up", *_BIASES]
+    for name in ("states", "gains_of_state", "gains_of_memory", "memory", "input"):
+        del block[name]
+    return block | {
+        "use": list(_USE_OF_READINGS),
+        "memories": states,
+        "readings": list(_READINGS[: len(found["output"])]),
+        "path": np.array(found["path"]),
+        "gains_of_estimate": np.pad(gains, ((0, 0), (0, 0), (0, more))),
+        "gains_of_readings": np.array(found["gains"]),
+        "output": np.array(found["output"]),
+        "memory": np.array(found["by_state"]),
+        "input": np.array(found["by_command"]),
     }
 
 
@@ -98,10 +128,11 @@ def _mat(block: dict[str, Any]) -> bytes:
     content = dict(block)
     content["largest_step"] = np.array([np.inf if one is None else one for one in block["largest_step"]])
     content["path"] = block["path"].T
-    for name in ("gains_of_state", "gains_of_memory"):
-        content[name] = np.moveaxis(block[name], 0, -1)
-    for name in ("use", "states", "memories", "commands"):
-        content[name] = np.array(block[name], dtype=object)
+    for name, value in block.items():
+        if isinstance(value, np.ndarray) and value.ndim == 3:
+            content[name] = np.moveaxis(value, 0, -1)
+        elif isinstance(value, list) and name != "largest_step":
+            content[name] = np.array(value, dtype=object)
     held = io.BytesIO()
     savemat(held, {"controller": content}, long_field_names=True, oned_as="column")
     return held.getvalue()
@@ -109,19 +140,19 @@ def _mat(block: dict[str, Any]) -> bytes:
 
 def _csv(block: dict[str, Any]) -> bytes:
     """Return a table: a row for each sample, with the other numbers of the block in comment lines above."""
+    series = {name: value for name, value in block.items() if isinstance(value, np.ndarray) and value.ndim == 3}
     out, plain = io.StringIO(), _plain(block)
     for line in block["use"]:
         out.write(f"# {line}\n")
     for name, value in plain.items():
-        if name not in ("use", "path", "gains_of_state", "gains_of_memory"):
+        if name not in ("use", "path", *series):
             out.write(f"# {name} = {json.dumps(value)}\n")
-    columns = [*block["states"], *block["memories"]]
+    whole = np.concatenate([value.reshape(len(value), -1) for value in (block["path"], *series.values())], axis=1)
+    names = [f"path[{i}]" for i in range(block["path"].shape[1])]
+    names += [f"{name}[{i}][{k}]" for name, value in series.items() for i, k in np.ndindex(value.shape[1:])]
     table = csv.writer(out, lineterminator="\n")
-    gains = [f"{command} by {column}" for command in block["commands"] for column in columns]
-    table.writerow(["sample", *(f"path of {name}" for name in block["states"]), *gains])
-    whole = np.concatenate([block["gains_of_state"], block["gains_of_memory"]], axis=-1)
-    for j, row in enumerate(block["path"]):
-        table.writerow([j, *map(repr, row.tolist()), *map(repr, whole[j].ravel().tolist())])
+    table.writerow(["sample", *names])
+    table.writerows([j, *map(repr, row)] for j, row in enumerate(whole.tolist()))
     return out.getvalue().encode()
 
 
@@ -134,6 +165,10 @@ class ServoDriver:
     """
 
     def __init__(self, record: dict[str, Any]) -> None:
+        if record["estimator"] is not None:
+            faults, fix = FaultList(), "compute the feedback without an IMU"
+            faults.add("imu", record["imu"], "has readings that MuJoCo's states do not give", fix)
+            faults.raise_if_any()
         self._block, self._held = block_of(record), record["held"]
         self._period = 1.0 / record["sample_rate"]
         speeds, bandwidths = (record[name].values() for name in ("servo_speed", "servo_bandwidth"))

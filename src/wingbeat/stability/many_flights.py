@@ -23,8 +23,10 @@ from wingbeat.mechanics.flights import air_at, check_wind, fly_beat_in_steps, fl
 from wingbeat.orbits.options import check_certified
 from wingbeat.plots.draw_stability import survey_page
 from wingbeat.stability.beat_feedback import Feedback, feedback
+from wingbeat.stability.imu import check_noise_of
 from wingbeat.stability.inputs import Compensation, Smoother, parameters_of, smoother
 from wingbeat.stability.options import FLIGHT_STATE, MANY, MOST_DELAY, ManyOptions, check_no_wake, noise_of
+from wingbeat.stability.real_time import by_beats
 from wingbeat.stability.reports import survey_report
 from wingbeat.stability.segment_feedback import SegmentFeedback, bump_parameters
 
@@ -134,15 +136,14 @@ class ManyFlights:
 
     Attributes
     ----------
-    states : (x, z, body_pitch, u, w, pitch_rate) at all tops of the stroke, shape (flights, beats + 1, 6)
-        [m, m, rad, m/s, m/s, rad/s]; may be huge or not a number after a flight is lost.
+    states : (x, z, body_pitch, u, w, pitch_rate) at all tops of the stroke, shape (flights, beats + 1, 6); may be
+        huge or not a number after a flight is lost.
     time : of these tops [s], shape (flights, beats + 1).
-    changes : of the inputs in each beat, shape (flights, beats, inputs) [Hz, rad or shares]; or bumps or commands
-        of flap and pitch in each segment, shape (flights, beats * segments, 2) [rad].
+    changes : of the inputs in each beat, shape (flights, beats, inputs) [Hz, rad or shares]; or of flap and pitch
+        in each segment, shape (flights, beats * segments, 2) [rad].
     largest_pitch : largest deviation of the body pitch from the orbit's at the same phase [rad], shape (flights,).
     lowest : least height above the orbit's path at a top of the stroke [m], shape (flights,).
-    survived : whether all numbers are finite, `largest_pitch` is at most `ManyOptions.tilt`, and `lowest` is not
-        below ``-ManyOptions.loss``, shape (flights,).
+    survived : whether all is finite and within `ManyOptions.tilt` and `loss`, shape (flights,).
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -178,16 +179,15 @@ def simulate_many(
     winds : velocity of the air of each flight, as in `simulate`.
     beats : number of wingbeats.
     feedback : of this orbit, from `feedback` or `feedback_in_beat`; None to fly the orbit's wingbeat throughout.
-    late : beats of delay in addition to the delay for which the feedback was computed; 0 with `feedback_in_beat`.
+    late : beats of delay beyond that for which the feedback was computed; 0 with `feedback_in_beat`.
     noise : standard deviations of what the feedback measures of the state, by name [m, rad, m/s, rad/s].
     seed : of the noise.
     options : steps, and when a flight is lost.
 
     Raises
     ------
-    InvalidInputError : an orbit that is not certified or has the lag of the wake, no winds, winds that are not
-        finite, beats or lateness that are no whole numbers, feedback of another orbit, lateness of feedback within
-        a beat, noise of an unknown state or that is negative.
+    InvalidInputError : an orbit that is not certified or has the lag of the wake, no winds or infinite ones, beats
+        or lateness that are no whole numbers, feedback of another orbit, lateness within a beat, unknown noise.
 
     A pigeon with feedback, flown for 30 beats through a gust of 3 m/s in 64 steps of the classical Runge-Kutta
     method a beat, differs at the tops of the stroke by less than 3e-3 in SI units from the adaptive `simulate`.
@@ -212,15 +212,18 @@ def simulate_many(
         own = feedback.orbit if isinstance(feedback, SegmentFeedback) else feedback.flight.orbit
         if own is not orbit and (own.wingbeat != orbit.wingbeat or own.initial_state != orbit.initial_state):
             faults.add("feedback", own.inputs["speed"], "is that of another orbit", "compute its own")
-    if isinstance(feedback, SegmentFeedback) and late:
-        faults.add("late", late, "is not known to feedback within a beat", "give 0, or feedback from beat to beat")
+    if isinstance(feedback, SegmentFeedback):
+        check_noise_of(faults, feedback.imu, noise)
+        if late:
+            faults.add("late", late, "is not known to feedback within a beat", "give 0, or use `delay_time`")
     faults.raise_if_any()
     deviations = noise_of(noise, FLIGHT_STATE, seed)
     lanes = min(options.lanes, len(winds)) if len(winds) < 8 else options.lanes
-    slower = 0.0
-    segments = len(feedback.gains) if isinstance(feedback, SegmentFeedback) else 1
+    slower, segments, sensors = 0.0, 1, None
+    if isinstance(feedback, SegmentFeedback):
+        segments, sensors = len(feedback.gains), feedback.imu
     if isinstance(feedback, SegmentFeedback) and feedback.timing is not None:
-        fly = _timed(feedback, options.steps)
+        fly = by_beats(feedback.bound(options.steps), orbit.wingbeat.frequency)
     else:
         hold, names = _hold(orbit, feedback, options.steps)
         place = np.append(np.array(orbit.initial_state), orbit.hinge_start), np.array(float(orbit.inputs["climb"]))
@@ -229,6 +232,8 @@ def simulate_many(
     random, found = np.random.default_rng(seed), []
     for air in _tables(orbit, winds, beats, slower, lanes, options.air_samples):
         measured = deviations[:, None] * random.standard_normal((beats, segments, len(FLIGHT_STATE), lanes))
+        if sensors is not None:
+            measured = sensors.errors(random, beats, segments, lanes)
         found.append(fly(air, 1.0 / (options.air_samples * orbit.wingbeat.frequency), measured))
     states, time, changes, pitch = (
         np.concatenate([np.moveaxis(part[i], -1, 0) for part in found])[: len(winds)] for i in range(4)
@@ -241,18 +246,6 @@ def simulate_many(
     lowest = height.min(axis=1)
     survived = np.isfinite(states).all(axis=(1, 2)) & options.keeps(pitch, lowest)
     return ManyFlights(states, time, changes, pitch, lowest, survived)
-
-
-def _timed(feedback: SegmentFeedback, steps: int) -> Any:
-    """Return a function that flies feedback with a timing, and returns what `fly_held` does."""
-    fly = feedback.bound(steps)
-
-    def flown(air: np.ndarray, spacing: float, noise: np.ndarray) -> tuple[np.ndarray, ...]:
-        states, commands, _, largest = (np.asarray(part) for part in fly(air, spacing, noise))
-        ends = np.arange(1, len(states) + 1) / feedback.orbit.wingbeat.frequency
-        return states[:, -1], np.repeat(ends[:, None], len(largest), axis=1), commands, largest
-
-    return flown
 
 
 def _hold(orbit: Orbit, feedback: Feedback | SegmentFeedback | None, steps: int) -> tuple[Hold, dict[str, Any]]:
@@ -409,20 +402,17 @@ def survey_gusts(
     orbit : a certified orbit.
     feedbacks : of this orbit, by names, from `feedback` or `feedback_in_beat`; None flies without feedback.
         Default: without feedback, with that of `feedback`, and with that for one beat of delay.
-    flights : number of gusts.
+    flights, beats : number of gusts, and of the wingbeats of a flight.
     size : of the largest gust [m/s].
-    beats : number of wingbeats of a flight.
     late, noise : of all feedbacks, as in `simulate_many` [m, rad, m/s, rad/s].
-    seed : of the random numbers.
-    options : of `simulate_many`; they say when a flight is lost.
+    seed, options : of the random numbers, and of `simulate_many`, which say when a flight is lost.
 
     Raises
     ------
     InvalidInputError : a number of flights that is not from 1 to 100000, a size that is not positive, and what
         `simulate_many` refuses.
 
-    A gust is a `CosineGust`. Its size is uniform from 0 to `size`, its direction uniform around the circle, its
-    duration uniform from 1 to 8 beats, and it begins uniformly within the first beat.
+    A gust is a `CosineGust`: size, direction and duration (1 to 8 beats) are uniform; it begins in the first beat.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)

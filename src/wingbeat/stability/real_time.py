@@ -9,19 +9,19 @@ the wing's momentum is that of the servo's velocity.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat._base import HIGHEST_ORDER, FaultList
 from wingbeat._jax.arrays import at_default, jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, parameter, stroke_phase, unpack
 from wingbeat.mechanics.flight_model import FlightModel, motion_table
 from wingbeat.mechanics.flights import air_between, fly_through
 from wingbeat.mechanics.state_rates import body_rates
+from wingbeat.stability.imu import Estimator
+from wingbeat.stability.servos import SERVO_LAWS, follow
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import (
@@ -38,70 +38,10 @@ if TYPE_CHECKING:
     )
     from wingbeat.results.orbit import Orbit
 
-SERVO_LAWS = ("flap", "pitch")
-MOST_SAMPLES = 256  # of a beat
 MOST_WAITING = 64  # samples of delay
 SUBSTEPS = 8  # of a step, in each of which a servo follows a constant target
 _STEPS = 256  # of a beat, for the linear maps
-# Stands for an infinite speed [rad/s] or bandwidth [1/s] where both meet in one formula.
-WITHOUT_END = 1e9
-_SLOWING = math.radians(10.0)  # distance from its command at which a servo begins to slow down, if not known
 _ORDER = 2  # of the harmonics that carry a servo's velocity and acceleration
-
-
-@dataclass(frozen=True)
-class Servo:
-    """What moves flap or pitch beyond the gait: limits of its angle, its speed and its bandwidth.
-
-    Parameters
-    ----------
-    speed : largest speed [rad/s]. A data sheet's 0.1 s for 60 degrees is ``math.radians(600)``.
-    bandwidth : of a first-order lag [Hz]; an angle follows a small step of the command with the time constant
-        1/(2 pi bandwidth). If only the speed is given, the servo slows down within 10 degrees of its command, a
-        guess: 9.5 Hz with 600 degrees per second. No servo starts and stops at once, and gains that take it for one
-        that does are useless.
-    lower, upper : smallest and largest command [rad], at most and at least 0; None for `FeedbackOptions.reach`
-        units of an angle.
-
-    Raises
-    ------
-    InvalidInputError : a speed or bandwidth that is not positive, limits without 0 between them.
-
-    Theory: equation ``servo``.
-
-    >>> import math, wingbeat as wb
-    >>> wb.Servo(speed=math.radians(600), upper=0.1).ideal, wb.Servo(lower=-0.1).ideal
-    (False, True)
-    """
-
-    speed: float = math.inf
-    bandwidth: float = math.inf
-    lower: float | None = None
-    upper: float | None = None
-
-    def __post_init__(self) -> None:
-        faults = FaultList()
-        fix = "leave it out if there is no such limit"
-        if self.speed != math.inf:
-            faults.number("servo.speed", self.speed, above=0.0, unit="rad/s", fix=fix)
-        if self.bandwidth != math.inf:
-            faults.number("servo.bandwidth", self.bandwidth, above=0.0, unit="Hz", fix=fix)
-        if self.lower is not None:
-            faults.number("servo.lower", self.lower, at_least=-math.pi, at_most=0.0, unit="rad")
-        if self.upper is not None:
-            faults.number("servo.upper", self.upper, at_least=0.0, at_most=math.pi, unit="rad")
-        faults.raise_if_any()
-
-    @property
-    def ideal(self) -> bool:
-        """Whether neither speed nor bandwidth is limited."""
-        return self.speed == math.inf and self.bandwidth == math.inf
-
-    @property
-    def pace(self) -> float:
-        """Inverse of the time constant [1/s]."""
-        own = self.speed / _SLOWING if self.bandwidth == math.inf else 2.0 * math.pi * self.bandwidth
-        return min(own, WITHOUT_END)
 
 
 class Timing(NamedTuple):
@@ -127,49 +67,7 @@ class TimedHold(NamedTuple):
     ending: np.ndarray
     path: np.ndarray  # (z, body_pitch, u, w, pitch_rate) at the samples, z from that at phase 0, shape (samples, 5)
     pitch: np.ndarray  # body pitch of the orbit at the ends of all steps [rad], shape (samples, steps + 1)
-
-
-# --- servos ---
-
-
-def check_servos(faults: FaultList, servos: Servo | Mapping[str, Servo] | None) -> dict[str, Servo]:
-    """Return the servo of each law that has one, and note what is no servo; None means ideal servos of both."""
-    if servos is None or isinstance(servos, Servo):
-        return dict.fromkeys(SERVO_LAWS, servos or Servo())
-    if not isinstance(servos, Mapping) or not servos:
-        faults.add("servos", servos, "must be a Servo, or servos by name", "for example {'pitch': wb.Servo()}")
-        return {}
-    for name, one in servos.items():
-        faults.choice("servos", name, SERVO_LAWS)
-        if not isinstance(one, Servo):
-            faults.add(f"servos.{name}", one, "must be a Servo", "for example wb.Servo(speed=10.0)")
-    if len({one.ideal for one in servos.values() if isinstance(one, Servo)}) > 1:
-        rule = "mix a servo without limits of speed or bandwidth with one that has them"
-        faults.add("servos", list(servos), rule, "give both a speed or a bandwidth, or leave one out")
-    return dict(servos) if not faults.faults else {}
-
-
-def check_timing(
-    faults: FaultList, segments: int | None, sample_rate: float | None, delay_time: float | None, held: bool
-) -> None:
-    """Note numbers out of range, and two of which only one can be given; None stands for what is not given."""
-    if segments is not None:
-        faults.whole("segments", segments, 2, MOST_SAMPLES if held else HIGHEST_ORDER, "4 for example")
-    if delay_time is not None:
-        faults.number("delay_time", delay_time, at_least=0.0, unit="s")
-    if sample_rate is not None:
-        faults.number("sample_rate", sample_rate, above=0.0, unit="Hz")
-        if segments is not None:
-            faults.add("segments", segments, "is given beside a sample rate", "leave one of them out")
-
-
-def follow(angle: Any, target: Any, speed: Any, pace: Any, time: Any) -> Any:
-    """Return the angle of a servo that follows a constant target for some time. Theory: equation ``servo``."""
-    away = target - angle
-    far = jnp.abs(away)
-    slewing = jnp.clip((far - speed / pace) / speed, 0.0, time)
-    left = (far - speed * slewing) * jnp.exp(-pace * (time - slewing))
-    return target - jnp.sign(away) * left
+    estimator: Estimator | None  # of the state from what an IMU feels; None if the state itself is measured
 
 
 def shares_of_commands(timing: Timing, steps: int) -> tuple[np.ndarray, np.ndarray]:
@@ -241,7 +139,11 @@ def _step(
     servos: tuple[Any, Any, Any],
     wind_at: Any,
 ) -> Any:
-    """Return states of many flights one step of the classical Runge-Kutta method later."""
+    """Return states of many flights one step of the classical Runge-Kutta method later.
+
+    Behind the state of the body come the integrals over time of what accelerometers feel, forward and up in body
+    axes. Theory: equation ``specific-force``.
+    """
     at = jnp.stack([jnp.broadcast_to(phase + part * size, state.shape[1:]) for part in (0.0, 0.5, 1.0)])
     motion = motion_table(model, with_offsets(wingbeat, at, servos), at)
     stages = np.array([0, 1, 1, 2])
@@ -254,8 +156,10 @@ def _step(
         moved, wind, share, weight = within
         place = state + share * size * last
         # The loads depend on the velocity through the air, and both frames have the same accelerations.
-        by_time = body_rates(model, moved, place[2:].at[1:3].add(-wind))
-        rates = jnp.concatenate([place[3:5], by_time]) / wingbeat.frequency
+        by_time = body_rates(model, moved, place[2:6].at[1:3].add(-wind))
+        c, s, lift = jnp.cos(place[2]), jnp.sin(place[2]), by_time[2] + model.air.gravity
+        felt = jnp.stack([by_time[1] * c + lift * s, lift * c - by_time[1] * s])
+        rates = jnp.concatenate([place[3:5], by_time, felt]) / wingbeat.frequency
         return (rates, total + weight * rates), None
 
     shares, weights = np.array([0.0, 0.5, 0.5, 1.0]), np.array([1.0, 2.0, 2.0, 1.0]) / 6.0
@@ -276,11 +180,11 @@ def fly_in_time(
     *,
     held: bool,
     samples: int,
-) -> tuple[FlownSamples, FlownCommands, FlownCommands, Flights]:
+) -> tuple[FlownSamples, FlownCommands, FlownCommands, FlownCommands, Flights]:
     """Fly many flights from the start of an orbit that climbs by `climb` [m/s], each through its own air.
 
-    Return the states at the end of each sample, the commands, the angles of the servos at its end, and the largest
-    deviation of the body pitch from the orbit's.
+    Return the states at the end of each sample, the commands, the angles of the servos at its end, the deviations
+    that the controller knew and those that an IMU measured, and the largest deviation of the body pitch.
     """
     flights, steps, period = air.shape[0], hold.pitch.shape[1] - 1, 1.0 / wingbeat.frequency
     size = 1.0 / (samples * steps)
@@ -289,12 +193,25 @@ def fly_in_time(
     queue = (hold.gains.shape[2] - 5 - 2 * held) // 2  # commands that wait at the start of a sample
 
     def sample(carry: Any, asked: Any) -> tuple[Any, Any]:
-        state, angle, rate, waiting, largest, begun = carry
-        gains, path, pitch, first, error = asked
+        state, angle, rate, waiting, guess, largest, begun = carry
+        gains, path, pitch, first, error, estimator = asked
         along = jnp.broadcast_to(path[:, None], (5, flights)).at[0].add(start[1] + climb * begun[0])
-        known = [state[1:] - along + error, *([angle] if held else []), *waiting]
-        command = jnp.clip(-gains @ jnp.concatenate(known), hold.lower[:, None], hold.upper[:, None])
+        away = state[1:6] - along
+        measured = jnp.zeros((0, flights))
+        if estimator is None:
+            known = jnp.concatenate([away + error, *([angle] if held else []), *waiting])
+        else:
+            sensed = jnp.concatenate([away[4:], state[6:] * (samples / period) - estimator.felt[:, None], away[:1]])
+            measured = sensed[: error.shape[0]] + error
+            known = guess + estimator.gains @ (measured - estimator.output @ guess)
+        estimate = known[:5]
+        command = jnp.clip(-gains @ known[: gains.shape[1]], hold.lower[:, None], hold.upper[:, None])
         command = jnp.where(jnp.isfinite(command), command, 0.0)  # the vehicle has tumbled
+        if estimator is not None:
+            guess = estimator.by_state @ known + estimator.by_command @ command
+            if held:  # the controller knows how fast its servos are
+                reach = most * (period / samples)
+                guess = guess.at[5:7].set(known[5:7] + jnp.clip(guess[5:7] - known[5:7], -reach, reach))
         given = jnp.concatenate([command[None], waiting])
         newer, older = given[queue - 1], given[queue]
 
@@ -325,18 +242,26 @@ def fly_in_time(
         tables = (hold.target, hold.ending) if held else tuple(_pairs(one) for one in (hold.target, hold.ending))
         each = jnp.arange(steps, dtype=float), *tables, pitch[1:]
         largest = jnp.maximum(largest, jnp.abs(state[2] - pitch[0]))
+        state = state.at[6:].set(0.0)
         (state, angle, rate, largest), _ = jax.lax.scan(step, (state, angle, rate, largest), each)
-        return (state, angle, rate, given[:-1], largest, begun), (state, command, angle)
+        told = jnp.concatenate([estimate, measured])
+        return (state, angle, rate, given[:-1], guess, largest, begun), (state[:6], command, angle, told)
 
     def beat(carry: Any, errors: Any) -> tuple[Any, Any]:
         firsts = jnp.arange(samples, dtype=float) / samples
-        inner, found = jax.lax.scan(sample, carry, (hold.gains, hold.path, hold.pitch, firsts, errors))
+        asked = hold.gains, hold.path, hold.pitch, firsts, errors, hold.estimator
+        inner, found = jax.lax.scan(sample, carry, asked)
         return (*inner[:-1], inner[-1] + period), found
 
     zeros, none = jnp.zeros(flights), jnp.zeros((2, flights))
-    begin = jnp.broadcast_to(start[:, None], (6, flights)), none, none, jnp.zeros((queue, 2, flights)), zeros, zeros
-    (*_, largest, _), (states, commands, angles) = jax.lax.scan(beat, begin, noise)
-    return states, commands, angles, largest
+    felt, guess = jnp.zeros(2), jnp.zeros((0, flights))
+    if hold.estimator is not None:  # as if the orbit had been flown before
+        felt = hold.estimator.felt[0] * (period / samples)
+        guess = jnp.zeros((hold.estimator.by_state.shape[-1], flights))
+    state = jnp.broadcast_to(jnp.concatenate([start, felt])[:, None], (8, flights))
+    begin = state, none, none, jnp.zeros((queue, 2, flights)), guess, zeros, zeros
+    (*_, largest, _), found = jax.lax.scan(beat, begin, noise)
+    return *found, largest
 
 
 def _pairs(values: Any) -> Any:
@@ -351,6 +276,7 @@ def timed_hold(
     limits: tuple[np.ndarray, np.ndarray],
     path: np.ndarray,
     steps: int,
+    estimator: Estimator | None = None,
 ) -> TimedHold:
     """Return feedback as arrays, for flights in at least so many steps a beat."""
     count = math.ceil(steps / timing.samples)
@@ -358,7 +284,18 @@ def timed_hold(
     flown, _ = fly_through(orbit.problem.model, orbit.wingbeat, orbit.initial_state, ends)
     pitch = np.stack([flown[j * count : (j + 1) * count + 1, 2] for j in range(timing.samples)])
     shares = shares_of_commands(timing, count)
-    return TimedHold(gains, *limits, timing.speed, timing.pace, *shares, path, pitch)
+    return TimedHold(gains, *limits, timing.speed, timing.pace, *shares, path, pitch, estimator)
+
+
+def by_beats(fly: Callable[..., Any], frequency: float) -> Callable[..., tuple[np.ndarray, ...]]:
+    """Return what gives states and times at the ends of beats, commands, and largest pitch, from `fly_in_time`."""
+
+    def flown(air: np.ndarray, spacing: float, errors: np.ndarray) -> tuple[np.ndarray, ...]:
+        states, commands, *_, largest = (np.asarray(part) for part in fly(air, spacing, errors))
+        ends = np.arange(1, len(states) + 1) / frequency
+        return states[:, -1], np.repeat(ends[:, None], len(largest), axis=1), commands, largest
+
+    return flown
 
 
 # --- linear maps ---
@@ -366,17 +303,19 @@ def timed_hold(
 
 @exported
 def _step_maps(model: FlightModel, wingbeat: Wingbeat, states: ServoStates, phases: Samples) -> ServoMaps:
-    """Return derivatives of steps between phases by (z, body_pitch, u, w, pitch_rate), and by the servos' cubic.
+    """Return ends of steps between phases, with derivatives by (z, body_pitch, u, w, pitch_rate) and servos' cubic.
 
-    The cubic has angles and rates of flap and pitch at the start, then at the end. Shape (5, 13, steps).
+    The cubic has angles and rates of flap and pitch at the start, then at the end. The ends are those of the state
+    without x, then what an accelerometer has felt. Shape (7, 1 + 13, steps).
     """
     size = phases[1] - phases[0]
     several = states.shape[0]
 
     def after(changes: Any) -> Any:
-        whole = jnp.concatenate([jnp.zeros((1, several)), changes[:5]])
+        whole = jnp.concatenate([jnp.zeros((1, several)), changes[:5], jnp.zeros((2, several))])
         servos = _cubic(changes[5:7], changes[7:9], changes[9:11], changes[11:], size / wingbeat.frequency)
-        ended = _step(model, wingbeat, states.T + whole, phases[:-1], size, servos, lambda at: 0.0 * at)
+        begun = jnp.concatenate([states.T, jnp.zeros((2, several))]) + whole
+        ended = _step(model, wingbeat, begun, phases[:-1], size, servos, lambda at: 0.0 * at)
         return ended[1:]
 
     still = jnp.zeros((13, several))
@@ -384,11 +323,14 @@ def _step_maps(model: FlightModel, wingbeat: Wingbeat, states: ServoStates, phas
     def by(direction: Any) -> Any:
         return jax.jvp(after, (still,), (jnp.broadcast_to(direction[:, None], still.shape),))[1]
 
-    return jnp.moveaxis(jax.vmap(by)(jnp.eye(13)), 0, 1)
+    return jnp.concatenate([after(still)[:, None], jnp.moveaxis(jax.vmap(by)(jnp.eye(13)), 0, 1)], axis=1)
 
 
-def sample_maps(orbit: Orbit, timing: Timing) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def sample_maps(orbit: Orbit, timing: Timing) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return the orbit's path at the samples, and the maps A and B of each sample by state and commands.
+
+    At last what an accelerometer feels in the mean of a sample, by state and commands, shape (samples, 2, states +
+    2 + 1) [m/s2]; its last column is that of the orbit.
 
     The state is that of the body, then the angles of the servos if commands are held, then the commands that wait,
     the newest first. Servos have no limits here. Theory: equation ``sampled-map``.
@@ -407,7 +349,7 @@ def sample_maps(orbit: Orbit, timing: Timing) -> tuple[np.ndarray, np.ndarray, n
     own = np.eye(whole, whole + 2)
     commands = [np.eye(whole + 2)[whole:], *(own[5 + held + 2 * i :][:2] for i in range(queue))]
     newer, older = commands[queue - 1], commands[queue]
-    A, B = np.zeros((N, whole, whole)), np.zeros((N, whole, 2))
+    A, B, felt = np.zeros((N, whole, whole)), np.zeros((N, whole, 2)), np.zeros((N, 2, whole + 3))
     for j in range(N):
         body = own[:5]
         if timing.held:
@@ -426,8 +368,11 @@ def sample_maps(orbit: Orbit, timing: Timing) -> tuple[np.ndarray, np.ndarray, n
             else:
                 end = mean[k + 1, 0] * older + mean[k + 1, 1] * newer
                 rate_end = (last[k + 1, 0] * older + last[k + 1, 1] * newer) * N * orbit.wingbeat.frequency
-            body = parts[j * steps + k] @ np.concatenate([body, angle, rate, end, rate_end])
+            part = parts[j * steps + k]
+            changed = part[:, 1:] @ np.concatenate([body, angle, rate, end, rate_end])
+            body, felt[j, :, :-1] = changed[:5], felt[j, :, :-1] + changed[5:]
+            felt[j, :, -1] += part[5:, 0]
             angle, rate = end, rate_end
         rows = np.concatenate([body, *([angle] if timing.held else []), *commands[:queue]])
         A[j], B[j] = rows[:, :whole], rows[:, whole:]
-    return path, A, B
+    return path, A, B, felt / (time * steps)

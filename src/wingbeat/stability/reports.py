@@ -137,6 +137,11 @@ def segment_report(record: dict[str, Any]) -> Report:
         quick = "" if speed is None else f", {math.degrees(speed):.4g} deg/s"
         quick += "" if bandwidth is None else f", bandwidth {bandwidth:.3g} Hz"
         lines.append(f"{name}: {math.degrees(low):+.3g} to {math.degrees(high):+.3g} deg{quick}")
+    if record["imu"] is not None:
+        radius = record["estimator"]["spectral_radius"]
+        lines.append(f"the state by a Kalman filter from an IMU: its errors have the spectral radius {radius:.3f}")
+        if record["imu"]["height"] is None:
+            lines.append("No sensor gives the height: it is not held.")
     for name, speed in record["servo_speed"].items():
         own = record["gait_speed"][name]
         if speed is not None and own > speed and record["lower"][name] < record["upper"][name]:

@@ -125,6 +125,26 @@ def periodic_linear_quadratic(
     return gains
 
 
+def periodic_kalman(A: np.ndarray, C: np.ndarray, unknown: np.ndarray, error: np.ndarray) -> np.ndarray:
+    """Return the gains of a Kalman filter for M maps that follow each other periodically, shape (M, n, readings).
+
+    `unknown` has the covariance of what moves the state beside the map, shape (M, n, n), `error` that of readings
+    ``C x``. The covariance of the prediction is stepped on through the maps until it repeats itself.
+
+    Theory: equation ``periodic-kalman``.
+    """
+    spread, gains = np.mean(unknown, axis=0), np.zeros((len(A), A.shape[1], len(C)))
+    for _ in range(_MOST_PERIODS):
+        before = spread
+        for j in range(len(A)):
+            gains[j] = np.linalg.solve(error + C @ spread @ C.T, C @ spread).T
+            spread = A[j] @ (spread - gains[j] @ C @ spread) @ A[j].T + unknown[j]
+            spread = 0.5 * (spread + spread.T)
+        if np.abs(spread - before).max() <= 1e-10 * np.abs(spread).max():
+            break
+    return gains
+
+
 def gains_along(
     A: Sequence[np.ndarray], B: Sequence[np.ndarray], state_cost: np.ndarray, input_cost: np.ndarray, delay: int = 0
 ) -> np.ndarray:

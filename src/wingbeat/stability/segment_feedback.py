@@ -9,6 +9,7 @@ With a delay or with servos, `real_time` samples the beat at equal times and add
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -25,6 +26,7 @@ from wingbeat.mechanics.flights import air_at, air_phases, check_wind, fly_throu
 from wingbeat.orbits.flight.period import flier
 from wingbeat.orbits.options import check_certified
 from wingbeat.stability.control_block import ServoDriver, save_block
+from wingbeat.stability.imu import Estimator, Imu, check_noise_of, estimator_of
 from wingbeat.stability.options import (
     FEEDBACK,
     FLIGHT_STATE,
@@ -33,21 +35,10 @@ from wingbeat.stability.options import (
     check_no_wake,
     noise_of,
 )
-from wingbeat.stability.real_time import (
-    MOST_SAMPLES,
-    MOST_WAITING,
-    SERVO_LAWS,
-    WITHOUT_END,
-    Servo,
-    Timing,
-    check_servos,
-    check_timing,
-    fly_in_time,
-    sample_maps,
-    timed_hold,
-)
+from wingbeat.stability.real_time import MOST_WAITING, Timing, fly_in_time, sample_maps, timed_hold
 from wingbeat.stability.reports import pairs, segment_report
 from wingbeat.stability.riccati import multipliers_over, periodic_linear_quadratic
+from wingbeat.stability.servos import MOST_SAMPLES, SERVO_LAWS, WITHOUT_END, Servo, check_servos, check_timing
 
 if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit
@@ -66,6 +57,9 @@ class SegmentFlight:
     deviations : of (z, body_pitch, u, w, pitch_rate) from the orbit there, shape (beats * segments + 1, 5).
     bumps : of flap and pitch in each segment [rad], shape (beats * segments, 2); or the commands of servos.
     angles : of the servos at the ends of all segments [rad], likewise; None for bumps without delay.
+    estimates : of the deviations, which the controller used, shape (beats * segments, 5); likewise.
+    readings : of an IMU, less those on the orbit: pitch rate, acceleration forward and up in body axes, height if
+        there is a sensor, shape (beats * segments, readings).
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -78,6 +72,8 @@ class SegmentFlight:
     deviations: np.ndarray
     bumps: np.ndarray
     angles: np.ndarray | None = None
+    estimates: np.ndarray | None = None
+    readings: np.ndarray | None = None
 
 
 @dataclass(frozen=True)
@@ -94,6 +90,7 @@ class SegmentFeedback(Reported):
     gains : of each segment, shape (segments, 2, 5) [rad per unit of the state], or (segments, 2, states).
     lower, upper : smallest and largest bumps or commands of flap and pitch, shape (2,) [rad].
     timing : samples, delay and servos; None for bumps without delay.
+    imu, estimator : what is measured, and the Kalman filter of the state; None if the state itself is measured.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=1)
@@ -111,6 +108,8 @@ class SegmentFeedback(Reported):
     lower: np.ndarray
     upper: np.ndarray
     timing: Timing | None = None
+    imu: Imu | None = None
+    estimator: Estimator | None = None
 
     @property
     def state(self) -> tuple[str, ...]:
@@ -125,7 +124,9 @@ class SegmentFeedback(Reported):
     @property
     def multipliers(self) -> np.ndarray:
         """Multipliers of a beat with feedback, the largest first."""
-        return multipliers_over([A - B @ K for A, B, K in zip(self.A, self.B, self.gains, strict=True)])
+        first = int(self.imu is not None and self.imu.height is None)  # without a sensor, the height is not held
+        closed = (A - B @ K for A, B, K in zip(self.A, self.B, self.gains, strict=True))
+        return multipliers_over([one[first:, first:] for one in closed])
 
     @property
     def spectral_radius(self) -> float:
@@ -168,10 +169,13 @@ class SegmentFeedback(Reported):
         faults = FaultList()
         faults.whole("beats", beats, 1, 10_000)
         check_wind(faults, wind)
+        check_noise_of(faults, self.imu, noise)
         faults.raise_if_any()
         begun = np.array(self.orbit.initial_state if start is None else state_of(start), dtype=float)
         random = np.random.default_rng(seed)
         error = noise_of(noise, FLIGHT_STATE, seed) * random.standard_normal((beats, len(self.gains), 5))
+        if self.imu is not None:
+            error = self.imu.errors(random, beats, len(self.gains), 1)[..., 0]
         if self.timing is not None:
             return self._fly_in_time(wind, beats, error, begun)
         model, period = self.orbit.problem.model, 1.0 / self.orbit.wingbeat.frequency
@@ -231,11 +235,23 @@ class SegmentFeedback(Reported):
             "servo_speed": named(speed),
             "servo_bandwidth": named([one / (2.0 * math.pi) if one < WITHOUT_END else one for one in pace]),
             "gait_speed": dict(zip(SERVO_LAWS, self.gait_speed, strict=True)),
+            "imu": None if self.imu is None else dataclasses.asdict(self.imu),
+            "estimator": None if self.estimator is None else self._filter(self.estimator),
             "memory": {"matrix": self.A[0][5:, 5:].tolist(), "input": self.B[0][5:].tolist()},
             "multipliers": pairs(self.multipliers),
             "spectral_radius": self.spectral_radius,
             "open_loop": {"spectral_radius": float(np.abs(multipliers_over(list(self.A))[0]))},
             "version": __version__,
+        }
+
+    def _filter(self, found: Estimator) -> dict[str, Any]:
+        path = np.concatenate([self.path[:-1, 4:], found.felt, self.path[:-1, :1]], axis=1)
+        arrays = {name: getattr(found, name).tolist() for name in ("gains", "by_state", "by_command")}
+        output = found.output[0].tolist()
+        return arrays | {
+            "output": output,
+            "path": path[:, : len(output)].tolist(),
+            "spectral_radius": found.spectral_radius,
         }
 
     def save(self, path: str | PathLike[str]) -> None:
@@ -268,7 +284,7 @@ class SegmentFeedback(Reported):
         """
         orbit, timing, limits = self.orbit, self.timing, (self.lower, self.upper)
         assert timing is not None
-        hold = timed_hold(orbit, timing, self.gains, limits, self.path[:-1], steps)
+        hold = timed_hold(orbit, timing, self.gains, limits, self.path[:-1], steps, self.estimator)
         begun = np.array(orbit.initial_state, dtype=float) if start is None else start
         place = begun, np.array(float(orbit.inputs["climb"]))
         named = {"held": timing.held, "samples": timing.samples}
@@ -280,12 +296,13 @@ class SegmentFeedback(Reported):
         samples, spacing = len(self.gains), 1.0 / (_TIMED_STEPS * self.orbit.wingbeat.frequency)
         air = air_at(wind, spacing * np.arange(-1, beats * _TIMED_STEPS + 3))
         found = self.bound(_TIMED_STEPS, begun)(air[None], spacing, error[..., None])
-        states, bumps, angles = (np.asarray(part)[..., 0].reshape(beats * samples, -1) for part in found[:3])
+        parts = (np.asarray(part)[..., 0].reshape(beats * samples, -1) for part in found[:4])
+        states, bumps, angles, known = parts
         states = np.concatenate([begun[None], states])
         along = np.concatenate([np.tile(self.path[:-1], (beats, 1)), self.path[:1]])
         climbed = self.path[-1, 0] - self.path[0, 0]  # in a beat
         along[:, 0] += begun[1] + climbed * (np.arange(len(states)) // samples)
-        return SegmentFlight(states, states[:, 1:] - along, bumps, angles)
+        return SegmentFlight(states, states[:, 1:] - along, bumps, angles, known[:, :5], known[:, 5:])
 
 
 def feedback_in_beat(
@@ -295,6 +312,7 @@ def feedback_in_beat(
     sample_rate: float | None = None,
     delay_time: float = 0.0,
     servos: Servo | Mapping[str, Servo] | None = None,
+    imu: Imu | None = None,
     options: FeedbackOptions = FEEDBACK,
 ) -> SegmentFeedback:
     """Compute the linear feedback that holds an orbit by changes of flap and pitch several times a beat.
@@ -308,12 +326,13 @@ def feedback_in_beat(
     delay_time : from a measurement to the start of its effect [s].
     servos : of flap and pitch, or by the names of those that there are. Commands are held from sample to sample,
         and the servos follow them; without a speed or a bandwidth they make bumps without a jump.
+    imu : from which a Kalman filter estimates the state, with servos or a delay; None to measure the state itself.
     options : scales of the state, and unit and reach of angles.
 
     Raises
     ------
     InvalidInputError : an orbit that is not certified or has the lag of the wake, segments that are no whole
-        number from 2 to 8, a sample rate or a delay out of range, what is no servo.
+        number from 2 to 8, a sample rate or a delay out of range, what is no servo or no IMU.
 
     The gains minimise the sum over all segments of squared deviations in scales and squared bumps in units; they
     solve the periodic discrete Riccati equation (Bittanti, Colaneri & De Nicolao 1991, in The Riccati Equation).
@@ -336,6 +355,10 @@ def feedback_in_beat(
     moved = check_servos(faults, servos)
     held = any(not one.ideal for one in moved.values())
     check_timing(faults, segments, sample_rate, delay_time, held)
+    if imu is not None and not isinstance(imu, Imu):
+        faults.add("imu", imu, "must be an Imu", "for example wb.Imu(gyro=0.002, accelerometer=0.05)")
+    elif imu is not None and not held and not delay_time:
+        faults.add("imu", imu, "is for feedback with servos or a delay", "give delay_time=0.001 for example")
     faults.raise_if_any()
     count, most = segments or 4, MOST_SAMPLES if held else HIGHEST_ORDER
     frequency = float(orbit.wingbeat.frequency)
@@ -367,17 +390,20 @@ def feedback_in_beat(
     if held or delay_time > 0.0:
         waiting = math.floor(late + 1e-9)
         timing = Timing(count, waiting, max(late - waiting, 0.0), held, speed, pace)
-        path, by_state, by_bumps = sample_maps(orbit, timing)
+        path, by_state, by_bumps, felt = sample_maps(orbit, timing)
+        estimator = None if imu is None else estimator_of(imu, by_state, by_bumps, felt, 1.0 / frequency)
         phases = np.linspace(0.0, 1.0, count + 1)
     else:
-        timing = None
+        timing = estimator = None
         phases, path, by_state, by_bumps = _segment_maps(orbit, count, options.linear.blocks)
     state_cost = np.zeros(by_state.shape[1:])
     state_cost[: len(scales), : len(scales)] = np.diag(1.0 / scales**2)
+    if imu is not None and imu.height is None:
+        state_cost[0, 0] = 0.0  # nothing tells the height
     input_cost = np.eye(int(used.sum())) / options.angle**2
     gains = np.zeros((count, len(SERVO_LAWS), len(state_cost)))
     gains[:, used] = periodic_linear_quadratic(by_state, by_bumps[:, :, used], state_cost, input_cost)
-    return SegmentFeedback(orbit, phases, path, by_state, by_bumps, gains, lower, upper, timing)
+    return SegmentFeedback(orbit, phases, path, by_state, by_bumps, gains, lower, upper, timing, imu, estimator)
 
 
 def bump_parameters(segments: int) -> tuple[tuple[str, ...], np.ndarray]:

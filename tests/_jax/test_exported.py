@@ -43,6 +43,18 @@ def test_called_and_bound_it_is_the_function():
         agrees(bound(weight), weight, 2)
 
 
+def test_arguments_by_name_are_those_in_their_places():
+    @exported(static=("power",))
+    def scaled(numbers, weight=1.0, shift=0.0, *, power=1):
+        return weight * numbers**power + shift
+
+    assert float(scaled(2.0, shift=1.0, power=3)) == 9.0
+    assert float(scaled(numbers=2.0, weight=4.0)) == 8.0
+    assert float(scaled(2.0)) == 2.0
+    with pytest.raises(TypeError, match="wight"):
+        scaled(2.0, wight=4.0)
+
+
 def test_results_are_numbers_even_where_someone_traces_around_them():
     @jax.jit
     def around(x):

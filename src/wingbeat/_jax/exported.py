@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import functools
 import hashlib
+import inspect
 import math
 import os
 import pickle
@@ -70,7 +71,7 @@ class StoredFunction:
     """A function of pytrees of float64 arrays that is traced at most once on this machine for given shapes.
 
     Inside another JAX transformation, where its arguments are tracers, it acts as the plain function. Arguments
-    named in `static` must be given by keyword, and different values must have different `repr`s.
+    named in `static` must be given by keyword, others may, and different values must have different `repr`s.
     """
 
     def __init__(
@@ -79,6 +80,7 @@ class StoredFunction:
         functools.update_wrapper(self, function)
         self._function, self._hot, self._kept = function, hot, kept
         self._inlined = jax.jit(function, static_argnames=static)
+        self._static = frozenset(static)
         self._lock = threading.Lock()
         self._ready: dict[Any, _Ready] = {}
 
@@ -89,12 +91,23 @@ class StoredFunction:
 
     def __call__(self, *args: Any, **static: Any) -> Any:
         """Evaluate the function."""
+        if not self._static.issuperset(static):
+            args, static = self._in_order(args, static)
         leaves, tree = jax.tree_util.tree_flatten(args)
         if any(isinstance(leaf, Tracer) for leaf in leaves):
             return self._inlined(*args, **static)
         more = [np.asarray(leaf, dtype=float) for leaf in leaves]
         with own_settings():
             return self._run(self._program(tree, (), more, static), _NOTHING, more)
+
+    def _in_order(self, args: tuple[Any, ...], named: dict[str, Any]) -> tuple[tuple[Any, ...], dict[str, Any]]:
+        """Return the arguments with those in their places that are named and not static, and the static ones."""
+        static = {name: value for name, value in named.items() if name in self._static}
+        bound = inspect.signature(self._function).bind(*args, **named)
+        names = [name for name in bound.signature.parameters if name not in self._static]
+        last = max(names.index(name) for name in bound.arguments if name not in self._static)
+        bound.apply_defaults()
+        return tuple(bound.arguments[name] for name in names[: last + 1]), static
 
     def bind(self, *first: Any, **static: Any) -> Callable[..., Any]:
         """Return the function with its first arguments fixed; the others are of the same shapes in every call."""

@@ -123,7 +123,8 @@ def _every(problem: OrbitProblem) -> Iterator[Parameter]:
     wingbeat = problem.species.wingbeat
     for name in FREE_NAMES:
         if name not in problem.free and in_use(wingbeat, name):
-            yield _made(f"wingbeat.{name}", parameter(wingbeat, name), ("species", "wingbeat", name))
+            path = path_of(name).removeprefix("vehicle.")
+            yield _made(path, parameter(wingbeat, name), ("species", "wingbeat", name))
     for name, value in vars(problem.air).items():
         yield _made(f"air.{name}", value, ("air", name))
     coefficients, place = problem.aero.coefficients, ("aero", "coefficients")

@@ -149,7 +149,8 @@ def test_feedback_in_real_time_is_that_of_the_library(saved, cruise, capsys, tmp
     assert main(["feedback", saved, *timing, *sensors]) == 0
     assert "the state by a Kalman filter from an IMU" in capsys.readouterr().out
     assert "10 samples a beat (95.28 Hz), 10 ms from a measurement to its effect" in printed
-    assert "pitch: -3 to +12 deg, 600 deg/s, bandwidth 9.55 Hz" in printed
+    assert "pitch: -3 to +12 deg, 600 deg/s, bandwidth 9.55 Hz (a guess from its speed)" in printed
+    assert "600 deg/s, bandwidth 8 Hz\n" in printed
 
 
 @pytest.mark.parametrize(

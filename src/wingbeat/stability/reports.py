@@ -9,6 +9,7 @@ import numpy as np
 
 from wingbeat._base import Line, Report, Row, Table, grouped
 from wingbeat.animal.kinematics import ANGLES
+from wingbeat.stability.servos import SLOWING
 
 # What moves in a mode, as pages and screens name it.
 MOVING = {"body_pitch": "body pitch", "u": "u", "w": "w", "pitch_rate": "pitch rate"}
@@ -136,6 +137,8 @@ def segment_report(record: dict[str, Any]) -> Report:
             continue
         quick = "" if speed is None else f", {math.degrees(speed):.4g} deg/s"
         quick += "" if bandwidth is None else f", bandwidth {bandwidth:.3g} Hz"
+        if speed is not None and bandwidth is not None and math.isclose(2.0 * math.pi * bandwidth * SLOWING, speed):
+            quick += " (a guess from its speed)"
         lines.append(f"{name}: {math.degrees(low):+.3g} to {math.degrees(high):+.3g} deg{quick}")
     if record["imu"] is not None:
         radius = record["estimator"]["spectral_radius"]

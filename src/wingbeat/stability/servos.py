@@ -14,7 +14,7 @@ SERVO_LAWS = ("flap", "pitch")
 MOST_SAMPLES = 256  # of a beat
 # Stands for an infinite speed [rad/s] or bandwidth [1/s] where both meet in one formula.
 WITHOUT_END = 1e9
-_SLOWING = math.radians(10.0)  # distance from its command at which a servo begins to slow down, if not known
+SLOWING = math.radians(10.0)  # distance from its command at which a servo begins to slow down, if not known
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class Servo:
     @property
     def pace(self) -> float:
         """Inverse of the time constant [1/s]."""
-        own = self.speed / _SLOWING if self.bandwidth == math.inf else 2.0 * math.pi * self.bandwidth
+        own = self.speed / SLOWING if self.bandwidth == math.inf else 2.0 * math.pi * self.bandwidth
         return min(own, WITHOUT_END)
 
 

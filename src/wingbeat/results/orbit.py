@@ -19,6 +19,7 @@ from wingbeat.mechanics.flights import Steps
 from wingbeat.orbits.batch import find_orbits, find_series
 from wingbeat.orbits.changes import Relaxation
 from wingbeat.orbits.flight.certificate import SAMPLES, certify, floquet_multipliers
+from wingbeat.orbits.flight.period import inner_start
 from wingbeat.orbits.flight.time_series import flown_beat
 from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status, check_certified
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -228,10 +229,8 @@ class Orbit(Saveable, Reported):
         if self._given_series is not None:
             return self._given_series
         problem, wingbeat = self._problem or self.problem, self.wingbeat
-        if self._solution is not None:
-            certificate = self._solution.certificate
-        else:
-            certificate = certify(problem.model, wingbeat, np.array(self.initial_state)[2:])
+        own, state = self._solution, np.array(self.initial_state)[2:]
+        certificate = certify(problem.model, wingbeat, state) if own is None else own.certificate
         flight = problem.model, wingbeat, certificate.phase, certificate.states
         attributes = orbit_attributes(self._record, self._inputs) | shape_attribute(problem.species)
         loads = evaluate(*flight, certificate.wake, certificate.hinge)
@@ -349,17 +348,16 @@ def solve_orbit(
 ) -> Orbit:
     """Find and certify the periodic orbit that minimises an objective at a prescribed mean velocity.
 
-    A failure raises no exception: `Orbit.status` says how the solver ended, and `Orbit.message` says what fails and
-    what to do. The orbit then holds the closest wingbeat, and `Orbit.relaxations` lists single changes that lead to
-    an orbit.
+    A failure raises no exception: `Orbit.status` says how the solver ended, `Orbit.message` what fails and what to
+    do. The orbit then holds the closest wingbeat, and `Orbit.relaxations` lists changes that lead to an orbit.
 
     Parameters
     ----------
     problem : the orbit problem.
     starts : number of starts; more may find better optima. The default is 24 if the wingbeat's bounds differ from
-        the species', or if the largest value of a series is minimised. In other cases, the default is 12 if the
-        objective or a limit is a quantity of the flown wingbeat, unless there is no limit and the animal beats at
-        its own frequency. In all remaining cases it is 6. The default is 1 with `start`.
+        the species', or if the largest value of a series is minimised; else 12 if the objective or a limit is a
+        quantity of the flown wingbeat, unless there is no limit and the animal beats at its own frequency; else 6;
+        1 with `start`.
     seed : of the random starts; the same seed gives the same orbit.
     progress : called with (starts done, starts in all).
     options : every tuning number of the solvers, with the measurement behind it.
@@ -374,8 +372,8 @@ def solve_orbit(
     InvalidInputError : starts or seed out of range; a start that is none of these, or is not finite; a call from
         a function that JAX differentiates with respect to numbers of the problem (see `differentiable_optimum`).
 
-    The condition is ``q(T) = q(0) + (U_x, U_z, 0, ...) T`` of Su et al. 2023
-    (doi 10.48550/arXiv.2302.09602), certified by an independent adaptive flight at rtol 1e-10.
+    The condition is ``q(T) = q(0) + (U_x, U_z, 0, ...) T`` of Su et al. 2023 (doi 10.48550/arXiv.2302.09602),
+    certified by an independent adaptive flight at rtol 1e-10.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0), starts=1)
@@ -396,9 +394,9 @@ def solve_orbit(
 
 def _load_record_programs(problem: OrbitProblem) -> None:
     model, wingbeat = problem.model, problem.species.wingbeat
-    path = np.zeros((SAMPLES + 1, 4))
-    flown_beat(model, wingbeat, np.zeros(SAMPLES + 1), path, (0.0, 0.0))
-    floquet_multipliers(model, wingbeat, Steps(np.linspace(0.0, 1.0, 3), np.zeros((3, 6))))
+    size = 4 + inner_start(model, wingbeat).size
+    flown_beat(model, wingbeat, np.zeros(SAMPLES + 1), np.zeros((SAMPLES + 1, size)), (0.0, 0.0))
+    floquet_multipliers(model, wingbeat, Steps(np.linspace(0.0, 1.0, 3), np.zeros((3, 2 + size))))
 
 
 def solve_orbits(
@@ -429,7 +427,6 @@ def solve_orbits(
         problems must then keep its calls under ``if __name__ == "__main__":``.
     progress : called with (problems done, problems in all).
     most_starts : number of starts without an orbit after which the solver gives up; default as in `SearchOptions`.
-        Fewer save time.
     advise : for each problem without an orbit, find the single changes that lead to one, as `solve_orbit` does;
         this takes seconds for each.
     in_order : whether the problems are a series, such as speeds in order, with the same free parameters. Each

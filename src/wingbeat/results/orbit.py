@@ -362,9 +362,8 @@ def solve_orbit(
     progress : called with (starts done, starts in all).
     options : every tuning number of the solvers, with the measurement behind it.
     start : where the first search starts; the usual starts follow, if `starts` is more than 1 or if it leads to no
-        orbit. It is an orbit; a wingbeat, or a wingbeat and the state at phase 0; the fit of a film; or some of the
-        unknowns by name, SI and radians. ``record()["start"]`` says what was added or changed, and whether it
-        led to the result.
+        orbit. It is an orbit; a wingbeat, with or without the state at phase 0; the fit of a film; or some unknowns
+        by name, SI and radians. ``record()["start"]`` says what was changed, and whether it led to the result.
     trace : keep objective, residual and step of each iteration, for `Orbit.trace`.
 
     Raises
@@ -430,8 +429,7 @@ def solve_orbits(
     advise : for each problem without an orbit, find the single changes that lead to one, as `solve_orbit` does;
         this takes seconds for each.
     in_order : whether the problems are a series, such as speeds in order, with the same free parameters. Each
-        problem then also starts from its neighbours' results, up and down the series, until nothing improves. The
-        best family of orbits thus spreads over the series as far as it exists.
+        problem then also starts from its neighbours' results, up and down the series, until nothing improves.
     options : of the solvers.
 
     Raises

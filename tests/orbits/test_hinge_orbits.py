@@ -178,6 +178,13 @@ def test_sensitivities_to_spring_and_damper_are_those_of_orbits_solved_anew():
         assert slopes[path].objective == pytest.approx(wanted, rel=0.02)
 
 
+def test_error_bars_of_first_order_are_those_of_orbits_drawn():
+    slopes, power = wb.sensitivities(orbit_of()), "mean_positive_power"
+    drawn = wb.uncertainty_by_samples(slopes, [power], samples=12, share=0.05)[power]
+    assert drawn.certified == 12
+    assert drawn.deviation == pytest.approx(slopes.error_bar(power, share=0.05).deviation, rel=0.25)
+
+
 def test_the_best_spring_beats_the_one_that_was_given():
     orbit = orbit_of()
     best = wb.solve_orbit(problem(free=OWN), starts=1, start=orbit)
@@ -208,6 +215,18 @@ def test_a_study_varies_the_stiffness(tmp_path):
     assert done["status"].tolist() == ["converged"] * 3
     powers = done["mean_positive_power"].to_numpy()
     assert np.ptp(powers) > 0.1
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "damping", "told"),
+    [(0.02, 0.0, "spring and damper of the hinge are too weak"), (0.1, 0.002, "lift is short by")],
+)
+def test_what_a_soft_hinge_cannot_do_is_told_in_words(stiffness, damping, told):
+    few = wb.SolverOptions(search=wb.SearchOptions(most_starts=4))
+    soft = problem(numbers={"pitch_hinge.stiffness": stiffness, "pitch_hinge.damping": damping})
+    orbit = wb.solve_orbit(soft, starts=1, options=few)
+    assert orbit.status is wb.Status.INFEASIBLE
+    assert told in orbit.message
 
 
 # --- Robots. Wanted numbers are those of a prototype apart from the package, with its own shooting and optimiser

@@ -181,10 +181,16 @@ def is_clear(nearest: Nearest, options: DiagnosisOptions) -> bool:
     return not nearest.closes and max(abs(deficit.share) for deficit in nearest.deficits) >= options.clear_deficit
 
 
-def words_of(programme: Transcription, deficits: Sequence[Deficit]) -> str:
-    """Return the deficits as part of a sentence."""
-    problem, least = programme.problem, programme.options.diagnosis.mentioned * abs(deficits[0].share)
-    words = [str(d) for d in deficits if abs(d.share) >= least]
+def words_of(programme: Transcription, nearest: Nearest) -> str:
+    """Return the deficits of the closest wingbeat as part of a sentence."""
+    problem, deficits = programme.problem, nearest.deficits
+    words = [
+        str(d) for d in deficits if abs(d.share) >= programme.options.diagnosis.mentioned * abs(deficits[0].share)
+    ]
+    inner = programme.inner_start(nearest.scaled)
+    if problem.species.wingbeat.pitch_hinge is not None and (inner is None or not inner.repeats):
+        # Deficits of a beat that no other follows mean nothing.
+        words = ["the pitch of the wings does not repeat after a beat: spring and damper of the hinge are too weak"]
     place = f"at {problem.speed:g} m/s" if problem.speed else "in hover"
     place += f" and {problem.species.wingbeat.frequency:.3g} Hz" if holds_frequency(problem) else ""
     limits = ", ".join(str(c) for c in problem.subject_to)

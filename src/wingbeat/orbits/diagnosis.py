@@ -396,7 +396,7 @@ def without_orbit(
     held = holds_frequency(problem)
     flying = flying if held else certified_changes(plain, changes)
     which = "single changes that give an orbit, each the least" if held else _SMALLEST
-    short = words_of(programme, nearest.deficits)
+    short = words_of(programme, nearest)
     message = f"no orbit within the bounds from {starts_in_words(len(found))}: {short}"
     if flying:
         message += f"; {which}: {', or '.join(r.text for r in flying)}"

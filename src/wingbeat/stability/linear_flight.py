@@ -313,6 +313,10 @@ class LinearFlight(Reported):
         return control.StateSpace(*matrices, self.dt, states=state, inputs=inputs, outputs=state)
 
 
+# A spring or damper is built once: no command changes it.
+_BUILT = ("hinge_stiffness", "hinge_damping")
+
+
 def linearise(
     orbit: Orbit,
     inputs: Sequence[str] | None = None,
@@ -357,7 +361,7 @@ def linearise(
     if inputs is not None:
         check_inputs(faults, inputs, problem.vehicle)
     faults.raise_if_any()
-    names = tuple(problem.free if inputs is None else inputs)
+    names = tuple(n for n in problem.free if n not in _BUILT) if inputs is None else tuple(inputs)
     if smooth and inputs is None:
         names = smooth_ones(beat, names)
     harmonics = compensation(beat, names) if smooth else Compensation((), np.zeros((0, len(names))))

@@ -77,6 +77,17 @@ def bounded_memory() -> Iterator[None]:
 
 
 @pytest.fixture(scope="session")
+def passive_orbit() -> wb.Orbit:
+    """A robot whose pitch hinges give way; no place on the chord is where it is by default."""
+    changes = {"pitch_hinge.stiffness": 1.4, "pitch_hinge.damping": 0.0166}
+    changes |= {"wing.pitch_axis": 0.3, "wing.mass_axis": 0.4, "wing.mass_gyration": 0.24}
+    robot = wb.load_species("robofalcon2").with_values(changes)
+    orbit = wb.solve_orbit(wb.OrbitProblem(robot, speed=8.0), starts=2)
+    assert orbit.status is wb.Status.CONVERGED, orbit.message
+    return orbit
+
+
+@pytest.fixture(scope="session")
 def pigeon_orbit() -> Solved:
     return solve("pigeon")
 

@@ -1,5 +1,7 @@
 """Certified orbits of wings of all kinds: rigid, with a changing span, folding and twisting, with all air loads."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -34,6 +36,15 @@ def swept_orbit(rigid_orbit):
     record = rigid_orbit.record()
     record["wingbeat"] |= {"sweep_mean": 0.05, "sweep_amplitude": 0.1, "twist_mean": 0.05}
     return wb.Orbit.of_record(record, rigid_orbit.problem, starts=2)
+
+
+@pytest.fixture(scope="session")
+def off_axis_orbit(pigeon_orbit):
+    """Strips that slide and turn about another axis; a wing that was not solved for, so the beat does not close."""
+    orbit = pigeon_orbit.orbit
+    changes = {"wing.pitch_axis": 0.35, "wing.mass_axis": 0.45, "wing.mass_gyration": 0.2}
+    problem = dataclasses.replace(orbit.problem, species=orbit.problem.species.with_values(changes))
+    return wb.Orbit.of_record(orbit.record(), problem, starts=2)
 
 
 @pytest.fixture(scope="session")

@@ -92,7 +92,7 @@ def torque_errors(loaded, orbit):
     return [*body, *hinges]
 
 
-@pytest.mark.parametrize("name", ["rigid", "pigeon", "bat", "swept"])
+@pytest.mark.parametrize("name", ["rigid", "pigeon", "bat", "swept", "off_axis"])
 def test_inverse_dynamics_gives_our_torques(name, request, tmp_path):
     """Strip forces are all air loads of these orbits; the animal's tail and couples are tested in flight."""
     orbit = request.getfixturevalue(f"{name}_orbit")
@@ -124,7 +124,7 @@ def test_a_wing_that_is_slightly_wrong_is_seen(where, wrong, rigid_orbit, tmp_pa
     assert max(torque_errors(loaded, rigid_orbit)) > 100 * TOLERANCE
 
 
-@pytest.mark.parametrize("name", ["rigid", "pigeon", "bat", "swept"])
+@pytest.mark.parametrize("name", ["rigid", "pigeon", "bat", "swept", "off_axis"])
 def test_the_sites_are_where_our_strips_are(name, request, tmp_path):
     orbit = request.getfixturevalue(f"{name}_orbit")
     orbit = getattr(orbit, "orbit", orbit)

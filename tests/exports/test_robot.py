@@ -14,6 +14,7 @@ pytestmark = pytest.mark.slow
 parsing = pytest.importorskip("pydrake.multibody.parsing")
 from pydrake.math import RigidTransform, RotationMatrix  # noqa: E402
 from pydrake.multibody.plant import MultibodyPlant  # noqa: E402
+from pydrake.multibody.tree import ForceElementIndex, RevoluteSpring  # noqa: E402
 
 SAMPLES = 32
 SIDES = {"left": 1.0, "right": -1.0}
@@ -37,7 +38,7 @@ def waving_orbit(rigid_orbit):
     return wb.Orbit.of_record(record, rigid_orbit.problem, starts=2)
 
 
-@pytest.fixture(params=["rigid", "pigeon", "bat", "swept", "twisted", "waving"])
+@pytest.fixture(params=["rigid", "pigeon", "bat", "swept", "twisted", "waving", "passive", "off_axis"])
 def orbit(request):
     if request.param == "swept":  # without the twist of its own, which makes strips of it
         record = (rigid := request.getfixturevalue("rigid_orbit")).record()
@@ -61,7 +62,9 @@ class Read:
         self.joints = [self.plant.get_joint(i) for i in self.plant.GetJointIndices(model)]
         self.joints = {j.name(): j for j in self.joints if j.num_velocities() == 1}
         self.context = self.plant.CreateDefaultContext()
-        self.series = wb.simulate(orbit.problem.model, orbit.wingbeat, orbit.initial_state, samples=SAMPLES).dataset
+        start = orbit.initial_state, 1, SAMPLES
+        hinge = orbit.record().get("hinge_start")
+        self.series = wb.simulate(orbit.problem.model, orbit.wingbeat, *start, hinge=hinge).dataset
         self.orbit = orbit
 
     def law(self, name, k):
@@ -122,7 +125,9 @@ def wing_points(orbit, read, k):
         a, p = flap - fold * on_hand, pitch * (1 + (beat.twist_ratio - 1) * s) + twist * s
         ahead = np.array([np.cos(sweep), -np.sin(sweep) * np.cos(a), -np.sin(sweep) * np.sin(a)])
         fore[i] = np.cos(p) * ahead + np.sin(p) * np.array([0, -np.sin(a), np.cos(a)])
-    return wing.mass * mass / mass.sum(), np.array(wing.shoulder) + place @ axes, chord[:, None] * (fore @ axes)
+    fore = chord[:, None] * (fore @ axes)
+    quarter = np.array(wing.shoulder) + place @ axes + (wing.pitch_axis - 0.25) * fore
+    return wing.mass * mass / mass.sum(), quarter, fore
 
 
 def inertia_of(masses, points):
@@ -132,10 +137,10 @@ def inertia_of(masses, points):
     )
 
 
-def rods(mass, quarter, chord):
+def rods(wing, mass, quarter, chord):
     """Return mass points of strips: each a uniform rod along its chord, as three points by Simpson's rule."""
-    middle = quarter - 0.25 * chord
-    points = [middle - 0.5 * chord, middle, middle + 0.5 * chord]
+    middle, half = quarter + (0.25 - wing.mass_axis) * chord, np.sqrt(3) * wing.mass_gyration * chord
+    points = [middle - half, middle, middle + half]
     return np.concatenate([mass / 6, mass * 4 / 6, mass / 6]), np.concatenate(points)
 
 
@@ -148,7 +153,7 @@ def test_the_whole_vehicle_has_our_mass_centre_and_inertia(orbit, suffix, tmp_pa
     assert own[1, 1] == pytest.approx(vehicle.body.pitch_inertia, rel=1e-12)
     for k in (0, 5, 19):
         read.pose(k)
-        mass, points = rods(*wing_points(orbit, read, k))
+        mass, points = rods(vehicle.wing, *wing_points(orbit, read, k))
         masses = np.concatenate([mass, mass, [vehicle.body.mass]])
         places = np.concatenate([points, points * [1, -1, 1], np.zeros((1, 3))])
         whole = masses.sum()
@@ -187,7 +192,9 @@ def test_each_link_has_our_mass_centre_and_inertia(orbit, suffix, tmp_path):
             continue
         held += len(strips)
         points = along[strips, None] * np.array([0.0, 1.0, 0.0])
-        masses, points = rods(mass[strips], points, chord[strips, None] * ahead)
+        along_chord = chord[strips, None] * ahead
+        points = points + (wing.pitch_axis - 0.25) * along_chord
+        masses, points = rods(wing, mass[strips], points, along_chord)
         assert inertia.get_mass() == pytest.approx(masses.sum(), rel=1e-12)
         centre = masses @ points / masses.sum()
         np.testing.assert_allclose(inertia.get_com(), centre, rtol=0, atol=1e-12 * wing.semi_span)
@@ -202,7 +209,8 @@ def test_each_link_has_our_mass_centre_and_inertia(orbit, suffix, tmp_path):
 
 @pytest.mark.parametrize("suffix", [".urdf", ".sdf"])
 def test_joints_carry_the_strips_where_ours_are(orbit, suffix, tmp_path):
-    read = Read(orbit, suffix, tmp_path)
+    read, wing = Read(orbit, suffix, tmp_path), orbit.problem.vehicle.wing
+    away = (wing.pitch_axis - 0.25) * np.linalg.norm(wing_points(orbit, read, 0)[2], axis=1)
     for k in range(0, SAMPLES, 5):
         state = [float(read.series[name].values[k]) for name in ("body_pitch", "x", "z")]
         read.pose(k, state[0], (state[1], 0.0, state[2]))
@@ -212,7 +220,7 @@ def test_joints_carry_the_strips_where_ours_are(orbit, suffix, tmp_path):
                 name = f"{side}_strip_{i + 1}"
                 apart = not read.plant.HasBodyNamed(name)
                 link = read.plant.GetBodyByName(f"{side}_wing" if apart else name)
-                at = [0.0, sign * (i + 0.5) / len(ours) * orbit.problem.vehicle.wing.semi_span * apart, 0.0]
+                at = [away[i], sign * (i + 0.5) / len(ours) * wing.semi_span * apart, 0.0]
                 found = link.EvalPoseInWorld(read.context).multiply(at)
                 np.testing.assert_allclose(found, place * [1, sign, 1], rtol=0, atol=1e-12)
 
@@ -258,10 +266,15 @@ def test_limits_are_those_of_bounds_torques_and_rates(orbit, suffix, tmp_path):
         assert 0.98 * rate <= own["velocity"] <= 1.1 * rate + 1e-12
         assert joint.position_lower_limits()[0] == own["lower"]
         assert joint.velocity_upper_limits()[0] == own["velocity"]
-        assert (own["effort"] == 0) == (name in followers)
+        gives = beat.pitch_hinge is not None and name.endswith("wing_pitch")
+        assert (own["effort"] == 0) == (name in followers or gives)
     flap = limits["left_flap"]
     assert (flap["lower"], flap["upper"]) == pytest.approx(bounds["flap"], abs=1e-15)
     assert flap["effort"] == pytest.approx(0.5 * np.abs(orbit.dataset["flap_torque"]).max().item(), rel=1e-12)
+    if beat.pitch_hinge is not None:
+        pitch = limits["left_wing_pitch"]
+        assert (pitch["lower"], pitch["upper"]) == (-np.pi, np.pi)
+        return
     mean, swing = bounds["pitch_mean"], bounds["pitch_amplitude"][1]
     twists = len(beat.twist_harmonics) > 0
     for name in ("left_wing_pitch", "left_wing_pitch_1", "left_wing_pitch_10"):
@@ -282,13 +295,14 @@ def test_joints_follow_one_that_the_message_commands(orbit, tmp_path):
     }
     wb.export(orbit, tmp_path / "gait.yaml", samples=SAMPLES)
     message = yaml.safe_load((tmp_path / "gait.yaml").read_text())
-    assert set(message["joint_names"]) == read.joints.keys() - followed.keys()
+    gives = {"left_wing_pitch", "right_wing_pitch"} if orbit.wingbeat.pitch_hinge is not None else set()
+    assert set(message["joint_names"]) == read.joints.keys() - followed.keys() - gives
     # Laws that move by themselves: twist is one only where it has waves.
     beat = orbit.wingbeat
     if beat.twist_harmonics:
         assert len(message["joint_names"]) == 2 * 11
     else:
-        laws = 2 + bool(beat.span_retraction) + bool(beat.fold_amplitude) + bool(beat.sweep_amplitude)
+        laws = 2 - bool(gives) + bool(beat.span_retraction) + bool(beat.fold_amplitude) + bool(beat.sweep_amplitude)
         assert len(message["joint_names"]) == 2 * laws
     for k, point in enumerate(message["points"]):
         commanded = dict(zip(message["joint_names"], point["positions"], strict=True))
@@ -297,6 +311,8 @@ def test_joints_follow_one_that_the_message_commands(orbit, tmp_path):
                 line = {key: value for key, value in followed[name].items() if key != "joint"}
                 ratio, offset = float(line["multiplier"]), float(line["offset"])
                 commanded[name] = ratio * commanded[followed[name]["joint"]] + offset
+            if name in gives:
+                continue
             assert commanded[name] == pytest.approx(read.position(name, k), abs=1e-12)
 
 
@@ -386,3 +402,25 @@ def test_only_sdf_gives_drake_actuators(bat_orbit, tmp_path):
     actuators = [found[".sdf"].get_joint_actuator(i) for i in found[".sdf"].GetJointActuatorIndices()]
     own = [f"{side}_{name}" for side in SIDES for name in ("flap", "fold", "wing_pitch_10")]
     assert sorted(actuator.name() for actuator in actuators) == sorted(own)
+
+
+def test_a_hinge_that_gives_way_is_a_spring_where_a_format_has_springs(passive_orbit, tmp_path):
+    """Drake makes a spring of SDF's numbers, and no actuator of effort 0; URDF has a damper, and says the rest."""
+    hinge, read = passive_orbit.wingbeat.pitch_hinge, Read(passive_orbit, ".sdf", tmp_path)
+    (dynamics,) = {tuple((one.tag, float(one.text)) for one in node) for node in read.top.iter("dynamics")}
+    wanted = {"damping": 0.0083, "spring_reference": hinge.rest_angle, "spring_stiffness": 0.7}
+    assert dict(dynamics) == pytest.approx(wanted, rel=1e-15)
+    assert read.plant.num_actuators() == 2
+    count = read.plant.num_force_elements()
+    elements = [read.plant.get_force_element(ForceElementIndex(i)) for i in range(count)]
+    springs = [one for one in elements if isinstance(one, RevoluteSpring)]
+    assert sorted(one.joint().name() for one in springs) == ["left_wing_pitch", "right_wing_pitch"]
+    assert {(one.default_stiffness(), one.default_nominal_angle()) for one in springs} == {(0.7, hinge.rest_angle)}
+
+    urdf = Read(passive_orbit, ".urdf", tmp_path)
+    dampers = [float(node.get("damping")) for node in urdf.top.iter("dynamics")]
+    assert dampers == [0.0083, 0.0083]
+    assert urdf.joints["left_wing_pitch"].default_damping() == 0.0083
+    assert (
+        "URDF has no springs: each wing_pitch needs one with 0.7 N m/rad" in (tmp_path / "robot.urdf").read_text()
+    )

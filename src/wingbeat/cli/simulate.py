@@ -99,12 +99,12 @@ def simulate(
     disturbed = {name: value for name, value in given.items() if value is not None}
     beat = prescribed = flown_by = None
     doubts: list[str] = []
-    start = State(u=10.0)
+    start, hinge = State(u=10.0), None
     if from_ is not None:
         orbit = load_orbit(from_)
         with options.unpacking(from_):
             flown_by, wingbeat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
-            animal = orbit.problem.species
+            animal, hinge = orbit.problem.species, orbit.record().get("hinge_start")
             reach = orbit.problem.bounds["flap"]
         start = start._replace(**disturbed)
     else:
@@ -134,7 +134,7 @@ def simulate(
     else:
         assert flown_by is not None
         wind = options.wind_of(gust, turbulence, wind_seed, math.hypot(start.u, start.w))
-        flight = fly(flown_by, wingbeat, start, beats, samples, wind=wind, species=animal)
+        flight = fly(flown_by, wingbeat, start, beats, samples, wind=wind, species=animal, hinge=hinge)
         rows, completed = beat_rows(flight, samples), flight.completed
         if beat is not None:
             for row, error in zip(rows, _errors(flight, beat, beats, samples, wind), strict=True):

@@ -17,12 +17,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from wingbeat._base import NOMENCLATURE, FaultList, FileError, Term, install_extra, writing
+from wingbeat._base import (
+    NOMENCLATURE,
+    Fault,
+    FaultList,
+    FileError,
+    InvalidInputError,
+    Term,
+    install_extra,
+    writing,
+)
 from wingbeat._jax.arrays import jnp
 from wingbeat._jax.exported import jit_soon
-from wingbeat.animal.kinematics import LAWS, Wingbeat
-from wingbeat.mechanics.flight_model import State
+from wingbeat.animal.kinematics import LAWS, Wingbeat, held_at
+from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.flights import fly_through
+from wingbeat.mechanics.state_rates import HINGE_STATE, body_rates, rate_table
 from wingbeat.mechanics.wing_motion import time_rates
 from wingbeat.mechanics.wing_points import surface_points
 from wingbeat.orbits.flight.certificate import certify
@@ -33,13 +43,13 @@ from wingbeat.results.flight import simulate
 if TYPE_CHECKING:
     import xarray as xr
 
-    from wingbeat._jax.arrays import Phases
+    from wingbeat._jax.arrays import FlightState, Phases
     from wingbeat.results.orbit import Orbit
 
 # Values of a law that is off.
 _OFF = {"span_ratio": 1.0, "chord_ratio": 1.0}
 # For these quantities the record has the sum of both wings.
-_OF_ONE_WING = ("flap_torque", "pitch_torque", "hinge_power", "actuator_power")
+_OF_ONE_WING = ("flap_torque", "pitch_torque", "hinge_torque", "hinge_power", "actuator_power")
 
 
 @jit_soon
@@ -63,6 +73,32 @@ def laws_at(wingbeat: Wingbeat, phase: np.ndarray) -> Laws:
     return np.asarray(value), np.asarray(rate), np.asarray(acceleration)
 
 
+@jit_soon
+def _hinge_accelerations(model: FlightModel, wingbeat: Wingbeat, phase: Phases, states: FlightState) -> Phases:
+    return body_rates(model, rate_table(model, wingbeat, phase), states)[5]
+
+
+def as_flown(orbit: Orbit, phase: np.ndarray) -> Wingbeat:
+    """Return an orbit's wingbeat at phases that start with 0; a hinge that gives way is held as it moved there."""
+    model, wingbeat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
+    if wingbeat.pitch_hinge is None:
+        return wingbeat
+    states = fly_through(model, wingbeat, start, phase, wake=(hinge_start(orbit),))[0]
+    return _held(model, wingbeat, phase, states)
+
+
+def _held(model: FlightModel, wingbeat: Wingbeat, phase: np.ndarray, states: np.ndarray) -> Wingbeat:
+    angle, rate = states[:, 6:].T
+    acceleration = np.asarray(_hinge_accelerations(model, wingbeat, phase, states[:, 2:].T))
+    return held_at(wingbeat, phase, angle, rate, acceleration)
+
+
+def hinge_start(orbit: Orbit) -> np.ndarray:
+    """Return angle and rate at phase 0 of an orbit's hinge that gives way, shape (2,) [rad, rad/s]."""
+    start = orbit.record()["hinge_start"]
+    return np.array([start[name] for name in HINGE_STATE])
+
+
 @dataclass(frozen=True)
 class Gait:
     """One beat of a certified orbit at K equal phases; all series have K + 1 values, the last at the next top."""
@@ -82,6 +118,22 @@ class Gait:
         return np.stack([self.dataset[name].values for name in self.orbit.initial_state._fields], axis=-1)
 
     @property
+    def hinge(self) -> np.ndarray | None:
+        """Angle and rate of a hinge that gives way, shape (K + 1, 2) [rad, rad/s]; None without one."""
+        if self.orbit.wingbeat.pitch_hinge is None:
+            return None
+        return np.stack([self.dataset[name].values for name in HINGE_STATE], axis=-1)
+
+    @functools.cached_property
+    def laws(self) -> Laws:
+        """The laws and their time derivatives at the phases, with the pitch as it was flown."""
+        wingbeat = self.orbit.wingbeat
+        if self.hinge is not None:
+            states = np.hstack([self.states, self.hinge])
+            wingbeat = _held(self.orbit.problem.model, wingbeat, self.phase, states)
+        return laws_at(wingbeat, self.phase)
+
+    @property
     def about(self) -> str:
         """Whose gait it is, and at which speed."""
         what = self.orbit.inputs
@@ -91,7 +143,7 @@ class Gait:
     def columns(self) -> list[tuple[Term, np.ndarray]]:
         """Time, each law that moves with its rate and acceleration, and torques and powers of one wing."""
         found = [(NOMENCLATURE["time"], self.dataset["time"].values)]
-        laws = laws_at(self.orbit.wingbeat, self.phase)
+        laws = self.laws
         for i, name in enumerate(LAWS):
             values, term = laws[0][:, i], NOMENCLATURE[name]
             # A law that does not move may be held away from where it is if it is off.
@@ -100,7 +152,11 @@ class Gait:
                 rate = NOMENCLATURE.get(f"{name}_rate") or Term(f"{name}_rate", f"{base}s-1", f"rate {of}")
                 twice = Term(f"{name}_acceleration", f"{base}s-2", f"second time derivative {of}")
                 found += [(term, values), (rate, laws[1][:, i]), (twice, laws[2][:, i])]
+        if self.hinge is not None:
+            found += [(NOMENCLATURE[name], self.dataset[name].values) for name in HINGE_STATE]
         for name in _OF_ONE_WING:
+            if name not in self.dataset:
+                continue
             term = NOMENCLATURE[name]
             label = term.label.replace("both wings", "one wing").replace("hinges, one wing", "hinge of one wing")
             found.append((Term(f"{name}_per_wing", term.unit, label), 0.5 * self.dataset[name].values))
@@ -124,9 +180,15 @@ class Gait:
 def gait_of(orbit: Orbit, samples: int) -> Gait:
     """Return the gait of a certified orbit at so many equal phases of the beat, flown from its initial state.
 
-    With the lag of the wake, its states at phase 0 are those that repeat.
+    With the lag of the wake, or a hinge that gives way, their states at phase 0 are those that repeat.
     """
     model, wingbeat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
+    if wingbeat.pitch_hinge is not None:
+        flight = simulate(model, wingbeat, start, beats=1, samples=samples, hinge=hinge_start(orbit))
+        if not flight.completed:
+            rule = "breaks off when it is flown again from its start"
+            raise InvalidInputError([Fault("orbit", orbit.status.value, rule, "solve it again")])
+        return Gait(orbit, samples, flight.dataset)
     if model.wake is None:
         return Gait(orbit, samples, simulate(model, wingbeat, start, beats=1, samples=samples).dataset)
     flown, faults = certify(model, wingbeat, np.array(start)[2:]), FaultList()
@@ -205,7 +267,8 @@ def write_c3d(orbit: Orbit, samples: int, path: str | PathLike[str]) -> None:
     stations = np.concatenate([[0.0], (np.arange(strips) + 0.5) / strips, [1.0]])
     states, phase = gait.states[:-1], gait.phase[:-1]
     given = problem.vehicle.passive, orbit.wingbeat, State(*states.T), phase
-    surface = np.asarray(surface_points(*given, stations, np.array([0.0, 0.25, 1.0])))
+    turned = () if gait.hinge is None else (gait.hinge[:-1, 0],)
+    surface = np.asarray(surface_points(*given, stations, np.array([0.0, 0.25, 1.0]), *turned))
     leading, quarter, trailing = (surface[:, row] for row in range(3))
     body = np.stack([states[:, 0], np.zeros(len(states)), states[:, 1]], axis=-1)[:, None]
     left = np.concatenate([quarter[:, [0, -1]], leading[:, 1:-1], trailing[:, 1:-1]], axis=1)

@@ -12,7 +12,7 @@ from xml.etree import ElementTree as Xml
 
 import numpy as np
 
-from wingbeat._base import FaultList, FileError, install_extra
+from wingbeat._base import Fault, FaultList, FileError, InvalidInputError, install_extra
 from wingbeat.animal.kinematics import LAWS, Wingbeat
 from wingbeat.animal.vehicle import Vehicle
 from wingbeat.exports.gait import Gait, Laws, gait_of, laws_at
@@ -54,7 +54,7 @@ def mujoco_xml(gait: Gait) -> str:
     exact = {"boundmass": "0", "boundinertia": "0", "balanceinertia": "false", "inertiafromgeom": "false"}
     Xml.SubElement(top, "compiler", {"angle": "radian", "autolimits": "false"} | exact)
     option = Xml.SubElement(top, "option", gravity=_numbers(0, 0, -what["air"]["gravity"]), integrator="RK4")
-    option.set("timestep", _numbers(1.0 / wingbeat.frequency / STEPS))
+    option.set("timestep", _numbers(1.0 / wingbeat.frequency / max(STEPS, _hinge_steps(root, wingbeat))))
     Xml.SubElement(option, "flag", contact="disable")
     body = _add_body(Xml.SubElement(top, "worldbody"), vehicle, wingbeat.tail_tilt)
     # Axes of a wing at rest: x normal to the stroke plane, y to the left, z up along it.
@@ -65,18 +65,33 @@ def mujoco_xml(gait: Gait) -> str:
         _add_part(body, side, root, wing.semi_span / strips, place)
     joints = WingJoints.of(root)
     motors = Xml.SubElement(top, "actuator")
-    for name in joints.names:
+    for name in (joints.names[i] for i in joints.driven):
         Xml.SubElement(motors, "motor", name=name, joint=name)
     _add_gait(top, gait, joints)
     Xml.indent(top)
     return Xml.tostring(top, encoding="unicode") + "\n"
 
 
+# MuJoCo's RK4 takes springs and dampers explicitly: it diverges where its step times the fastest rate of a hinge is
+# above 2.8 [1].
+_STEP_TIMES_RATE = 2.0
+
+
+def _hinge_steps(root: Part, wingbeat: Wingbeat) -> int:
+    """Return the least number of steps in a beat that a hinge that gives way takes; 0 without one."""
+    if (hinge := wingbeat.pitch_hinge) is None:
+        return 0
+    mass, centre, inertia = root.inertia(1.0)
+    moved = inertia[1, 1] + mass * centre[0] ** 2
+    rate = np.abs(np.roots([moved, 0.5 * hinge.damping, 0.5 * hinge.stiffness])).max()
+    return math.ceil(rate / wingbeat.frequency / _STEP_TIMES_RATE)
+
+
 _ABOUT = (
     " Written by the package wingbeat. Units: SI, radians. World: x forward, y to the left, z up. Positive are: "
     "body nose up, wing up, leading edge up. The body moves in the plane of symmetry: its inertias in roll and yaw "
-    "have no effect and are copies of that in pitch. A motor's control is the torque of one hinge [N m]. The model "
-    "has no air loads. "
+    "have no effect and are copies of that in pitch. A motor's control is the torque of one hinge [N m]. A pitch "
+    "hinge that gives way has no motor: stiffness and damping are those of one wing. The model has no air loads. "
 )
 
 
@@ -113,7 +128,11 @@ def _add_part(holder: Xml.Element, side: str, part: Part, width: float, place: d
     body = Xml.SubElement(holder, "body", {"name": f"{side}_{part.name}"} | place)
     for joint in part.joints:
         kind, axis = "slide" if joint.slides else "hinge", _numbers(*mirrored(joint, sign))
-        Xml.SubElement(body, "joint", name=f"{side}_{joint.name}", type=kind, axis=axis)
+        node = Xml.SubElement(body, "joint", name=f"{side}_{joint.name}", type=kind, axis=axis)
+        if (spring := joint.spring) is not None:
+            node.set("stiffness", _numbers(0.5 * spring.stiffness))
+            node.set("damping", _numbers(0.5 * spring.damping))
+            node.set("springref", _numbers(spring.rest_angle))
     Xml.SubElement(body, "inertial", _inertia(part, sign))
     for strip in part.strips:
         half = _numbers(strip.chord / 2, width / 2, THICKNESS / 2)
@@ -133,14 +152,15 @@ def _inertia(part: Part, sign: float) -> dict[str, str]:
 
 def _add_gait(top: Xml.Element, gait: Gait, joints: WingJoints) -> None:
     """Add the gait: the keyframe of its first phase, and a table with a row of numbers for each joint."""
-    (wings, wing_rates, _), states = joints.motion(laws_at(gait.orbit.wingbeat, gait.phase)), gait.states
+    (wings, wing_rates, _), states = joints.motion(gait.laws), gait.states
     position, rate = np.hstack([states[:, :3], wings]), np.hstack([states[:, 3:], wing_rates])
     table = Xml.SubElement(top, "custom")
     columns = zip((*BODY_JOINTS, *joints.names), position.T, strict=True)
     rows = {"time": gait.dataset["time"].values, **dict(columns)}
     key = {"qpos": _numbers(*position[0]), "qvel": _numbers(*rate[0])}
     if is_rigid(gait.orbit.wingbeat) and len(joints.names) == 4:
-        torque = {name: 0.5 * gait.dataset[f"{name}_torque"].values for name in ("flap", "pitch")}
+        driven = ("flap", "pitch")[: len(joints.driven) // 2]
+        torque = {name: 0.5 * gait.dataset[f"{name}_torque"].values for name in driven}
         rows |= {f"{side}_{joint}_torque": torque[joint] for side in SIDES for joint in torque}
         key["ctrl"] = _numbers(*[torque[joint][0] for _ in SIDES for joint in torque])
     for name, values in rows.items():
@@ -168,6 +188,8 @@ class MujocoStates(NamedTuple):
 class MujocoFlight:
     """A certified orbit in MuJoCo, with the gait as the drive of its wings; needs the extra ``mujoco``.
 
+    A pitch hinge that gives way is not driven: MuJoCo's own springs and dampers act on it.
+
     Parameters
     ----------
     orbit : a certified orbit.
@@ -179,7 +201,8 @@ class MujocoFlight:
 
     Raises
     ------
-    InvalidInputError : an orbit not certified, or with the lag of the wake; steps not whole, from 16 to 100000.
+    InvalidInputError : an orbit not certified, or with the lag of the wake; steps not whole, from 16 to 100000, or
+        too few for a hinge that gives way; such a hinge with stops, or on a wing that also twists, slides or folds.
     FileError : MuJoCo is not installed.
 
     >>> import wingbeat as wb
@@ -197,11 +220,18 @@ class MujocoFlight:
         if (wake := orbit.problem.aero.wake) != "none":
             faults.add("aero.wake", wake, "has states that MuJoCo does not carry along", "export the gait (.xml)")
         faults.raise_if_any()
-        engine, problem = _mujoco(), orbit.problem
+        problem = orbit.problem
+        root = wing_parts(problem.vehicle.wing, orbit.wingbeat, problem.model.strips)
+        if steps < (least := _hinge_steps(root, orbit.wingbeat)):
+            rule = "are too few for spring and damper of the pitch hinge, with which MuJoCo's RK4 diverges"
+            faults.add("steps", steps, rule, f"take at least {least}")
+            faults.raise_if_any()
+        engine = _mujoco()
         self._gait, self._steps, self._flown = orbit.wingbeat, steps, problem.model
+        self._gives = self._gait.pitch_hinge is not None
         self.model: Any = engine.MjModel.from_xml_string(mujoco_xml(gait_of(orbit, 2)))
         self.data: Any = engine.MjData(self.model)
-        self._joints = WingJoints.of(wing_parts(problem.vehicle.wing, self._gait, problem.model.strips))
+        self._joints = WingJoints.of(root)
         # The joints as they would move if flap angle and wing pitch at the root were zero.
         self._besides = self._joints._replace(factors=self._joints.factors.copy())
         self._besides.factors[:, HINGES] = 0.0
@@ -210,6 +240,9 @@ class MujocoFlight:
         self._moved[_BODY, :3] = np.eye(3)
         self._moved[_WINGS, 3:] = self._joints.factors[:, HINGES]
         self._spread = self._moved @ np.linalg.inv(self._moved.T @ self._moved)
+        # The joints that motors drive; the others, and the body, follow from the forces on them.
+        self._driven = _WINGS.start + self._joints.driven
+        self._free = np.setdiff1d(np.arange(self.model.nv), self._driven)
         numbers = range(1, problem.model.strips + 1)
         self._sites = {s: [self.model.site(f"{s}_strip_{i}").id for i in numbers] for s in SIDES}
         self.reset()
@@ -223,6 +256,11 @@ class MujocoFlight:
 
     def _beat(self, wingbeat: Wingbeat) -> None:
         """Begin to drive the wings by a wingbeat, from its top of the stroke."""
+        if wingbeat.pitch_hinge != self._gait.pitch_hinge:
+            fault = Fault(
+                "controller", wingbeat.pitch_hinge, "changes the hinge", "keep that of the orbit in MuJoCo"
+            )
+            raise InvalidInputError([fault])
         self._wingbeat, self._begun = wingbeat, float(self.data.time)
         self.model.opt.timestep = 1.0 / wingbeat.frequency / self._steps
 
@@ -254,15 +292,16 @@ class MujocoFlight:
             engine.mj_mulM(model, data, force, acceleration)
             return force + self._spread @ (added @ (self._spread.T @ acceleration))
 
-        # The body's accelerations follow from the body's rows. The motors give what the wings' rows then lack.
-        own = np.stack([resisted(unit)[_BODY] for unit in np.eye(model.nv)[_BODY]], axis=-1)
-        free = (loads - data.qfrc_bias - resisted(wanted))[_BODY]
-        wanted[_BODY] = np.linalg.solve(own, free)
+        # The free accelerations, of the body and of hinges that give way, follow from their rows. The motors give
+        # what the other rows then lack.
+        wanted[self._free], given = 0.0, data.qfrc_passive - data.qfrc_bias
+        own = np.stack([resisted(unit)[self._free] for unit in np.eye(model.nv)[self._free]], axis=-1)
+        wanted[self._free] = np.linalg.solve(own, (loads + given - resisted(wanted))[self._free])
         inertia = np.zeros(model.nv)
         engine.mj_mulM(model, data, inertia, wanted)
         air = loads - self._spread @ (added @ (self._spread.T @ wanted))
         data.qfrc_applied[:] = air
-        data.ctrl[:] = (inertia + data.qfrc_bias - air)[_WINGS]
+        data.ctrl[:] = (inertia - given - air)[self._driven]
 
     def _air_loads(self, model: Any, data: Any, laws: Laws) -> tuple[np.ndarray, np.ndarray]:
         """Return the air loads on the joints that no acceleration causes, and the added mass, shape (5, 5)."""
@@ -313,7 +352,7 @@ class MujocoFlight:
             None for the gait of the orbit.
         servos : called at the start of each step with time [s], length of the step [s] and state; returns the
             angles and rates that are added to flap and pitch at its end, shape (2,) each. Such is
-            `SegmentFeedback.driver`.
+            `SegmentFeedback.driver`. A hinge that gives way takes no angle.
 
         Raises
         ------
@@ -336,7 +375,7 @@ class MujocoFlight:
             note()
             for beat in range(beats):
                 if controller is not None:
-                    self._beat(commanded(controller, beat, State(*found[-1][1])))
+                    self._beat(commanded(controller, beat, State(*found[-1][1]), self._gives))
                 for _ in range(self._steps):
                     if servos is not None:
                         before_it = self._servos[3] if self._servos is not None else (np.zeros(2), np.zeros(2))

@@ -15,9 +15,10 @@ from xml.etree import ElementTree as Xml
 import numpy as np
 
 from wingbeat._base import Fault, InvalidInputError
-from wingbeat.animal.kinematics import LAWS, Wingbeat, parameter
+from wingbeat.animal.kinematics import LAWS, parameter
+from wingbeat.animal.pitch_hinge import PitchHinge
 from wingbeat.animal.vehicle import Body, Tail
-from wingbeat.exports.gait import Gait, laws_at
+from wingbeat.exports.gait import Gait, Laws, as_flown, laws_at
 from wingbeat.exports.wing_parts import (
     AT_ZERO,
     NOTHING,
@@ -83,6 +84,7 @@ class _Hinge(NamedTuple):
     axis: Triple  # in the child's axes
     limits: _Limits
     mimic: _Followed | None
+    spring: PitchHinge | None  # of a joint that nothing drives
 
 
 class _Robot(NamedTuple):
@@ -99,10 +101,11 @@ class _Followed(NamedTuple):
     offset: float
 
 
-def _limits(orbit: Orbit, joints: list[Joint]) -> dict[str, _Limits]:
+def _limits(orbit: Orbit, joints: list[Joint], laws: Laws) -> dict[str, _Limits]:
     """Return the limits of each joint, those of its laws within the bounds of the problem.
 
-    What the wingbeat does beyond them, for example by harmonics, counts as well.
+    What the wingbeat does beyond them, for example by harmonics, counts as well. A hinge that gives way may turn
+    all around.
     """
     bounds, wingbeat = orbit.problem.bounds, orbit.wingbeat
 
@@ -114,22 +117,22 @@ def _limits(orbit: Orbit, joints: list[Joint]) -> dict[str, _Limits]:
 
     within = {
         "flap": np.array(bounds["flap"]),
-        "wing_pitch": around("pitch"),
+        "wing_pitch": around("pitch") if wingbeat.pitch_hinge is None else np.array([-np.pi, np.pi]),
         "sweep": around("sweep"),
         "span_ratio": 1.0 - ends("span_retraction"),
         "fold": ends("fold_amplitude"),
         "tip_twist": ends("twist_mean"),
         "chord_ratio": 1.0 - ends("chord_retraction"),
     }
-    values, rates, _ = laws_at(wingbeat, _PHASES)
+    values, rates, _ = laws
     reached = np.concatenate([values, np.stack([within[name] for name in LAWS], axis=1)]) - AT_ZERO
     lower, upper = reached.min(axis=0), reached.max(axis=0)
-    followed, found = _followed(wingbeat, joints), {}
+    followed, found = _followed(joints, values), {}
     efforts = {law: 0.5 * float(np.abs(orbit.dataset[name].values).max()) for law, name in _TORQUES.items()}
     for joint, factors in zip(joints, law_factors(joints), strict=True):
         low, high = (np.where(factors > 0, *pair) @ factors for pair in ((lower, upper), (upper, lower)))
         law, effort = _driver(joint, values), NO_LIMIT
-        if joint.name in followed:
+        if joint.name in followed or joint.spring is not None:
             effort = 0.0
         elif law in efforts:
             effort = efforts[law] / abs(joint.laws[law])
@@ -143,9 +146,12 @@ def _driver(joint: Joint, values: np.ndarray) -> str | None:
     return moving[0] if len(moving) == 1 else None
 
 
-def _followed(wingbeat: Wingbeat, joints: list[Joint]) -> dict[str, _Followed]:
-    """Return what joints follow: of those that one law alone moves, the one that it moves furthest."""
-    values, found = laws_at(wingbeat, _PHASES)[0], {}
+def _followed(joints: list[Joint], values: np.ndarray) -> dict[str, _Followed]:
+    """Return what joints follow: of those that one law alone moves, the one that it moves furthest.
+
+    `values` are those of the laws at some phases.
+    """
+    found = {}
     still = np.where(np.ptp(values, axis=0) > 0, 0.0, values[0] - AT_ZERO)
     held = {joint.name: float(factors @ still) for joint, factors in zip(joints, law_factors(joints), strict=True)}
     for law in LAWS:
@@ -187,7 +193,8 @@ def _robot(orbit: Orbit) -> _Robot:
     if 2 * len(joints) * NOTHING > 1e-6 * about:
         rule = f"has an inertia of {about:.2g} kg m2 about the shoulder, to which links without mass would add"
         raise InvalidInputError([Fault("wing.mass", wing.mass, rule, "export the gait as .csv, .mat or .xml")])
-    followed, limits = _followed(wingbeat, joints), _limits(orbit, joints)
+    laws = laws_at(as_flown(orbit, _PHASES), _PHASES)
+    followed, limits = _followed(joints, laws[0]), _limits(orbit, joints, laws)
     links, hinges = [_body(problem.vehicle.body, problem.vehicle.tail, wingbeat.tail_tilt)], []
 
     def add(side: str, part: Part, holder: str, place: Triple, pitch: float) -> None:
@@ -200,7 +207,7 @@ def _robot(orbit: Orbit) -> _Robot:
             mimic = mimic and mimic._replace(joint=f"{side}_{mimic.joint}")
             what = f"{side}_{joint.name}", "prismatic" if joint.slides else "revolute"
             where = holder, name, place, pitch, mirrored(joint, sign)
-            hinges.append(_Hinge(*what, *where, limits[joint.name], mimic))
+            hinges.append(_Hinge(*what, *where, limits[joint.name], mimic, joint.spring))
             holder, place, pitch = name, (0.0, 0.0, 0.0), 0.0
         width = wing.semi_span / strips
         drawn = (
@@ -225,14 +232,24 @@ _ABOUT = (
     "written by the package wingbeat. Units: SI, radians. Axes: x forward, y to the left, z up. Positive are: wing "
     f"up, leading edge up. The link body flies freely and contains the tail's mass; {GUESSED}. Efforts and "
     "velocities are the peaks of one wing in the beat; the effort of a hinge is that of actuator and springs "
-    "together. A joint that follows another one (mimic) has no actuator and no effort. An effort of "
+    "together. A joint that follows another one (mimic) has no actuator and no effort; nor has a pitch hinge that "
+    "gives way, which may turn all around. An effort of "
     f"{NO_LIMIT:g} limits nothing: wingbeat does not compute it. The model has no air loads. A mass of {NOTHING:g} "
     "stands for none. "
 )
 
 
-def _about(gait: Gait) -> Any:  # a comment is an element of its own type
-    return Xml.Comment(f" {re.sub('-+', '-', gait.about)}, {_ABOUT}")  # two dashes would end a comment
+def _about(gait: Gait, more: str = "") -> Any:  # a comment is an element of its own type
+    return Xml.Comment(f" {re.sub('-+', '-', gait.about)}, {_ABOUT}{more}")  # two dashes would end a comment
+
+
+def _springs_left_out(gait: Gait) -> str:
+    """Say what URDF has no element for."""
+    hinge = gait.orbit.wingbeat.pitch_hinge
+    if hinge is None:
+        return ""
+    spring = f"{0.5 * hinge.stiffness:g} N m/rad and the rest angle {hinge.rest_angle:g} rad"
+    return f"URDF has no springs: each wing_pitch needs one with {spring}, as the SDF has. "
 
 
 def urdf(gait: Gait) -> bytes:
@@ -242,7 +259,7 @@ def urdf(gait: Gait) -> bytes:
     """
     robot = _robot(gait.orbit)
     top = Xml.Element("robot", name=robot.name)
-    top.append(_about(gait))
+    top.append(_about(gait, _springs_left_out(gait)))
     Xml.SubElement(Xml.SubElement(top, "mujoco"), "compiler", fusestatic="false", discardvisual="false")
 
     def origin(holder: Xml.Element, place: np.ndarray | Triple, pitch: float = 0.0) -> None:
@@ -265,6 +282,8 @@ def urdf(gait: Gait) -> bytes:
         origin(node, hinge.place, hinge.pitch)
         Xml.SubElement(node, "axis", xyz=_numbers(*hinge.axis))
         Xml.SubElement(node, "limit", {name: _numbers(value) for name, value in hinge.limits._asdict().items()})
+        if hinge.spring is not None:
+            Xml.SubElement(node, "dynamics", damping=_numbers(0.5 * hinge.spring.damping), friction="0")
         if (mimic := hinge.mimic) is not None:
             line = {"multiplier": _numbers(mimic.ratio), "offset": _numbers(mimic.offset)}
             Xml.SubElement(node, "mimic", {"joint": mimic.joint} | line)
@@ -304,6 +323,10 @@ def sdf(gait: Gait) -> bytes:
         put(axis, {"xyz": _numbers(*hinge.axis)})
         limits = {name: _numbers(value) for name, value in hinge.limits._asdict().items()}
         put(Xml.SubElement(axis, "limit"), limits)
+        if hinge.spring is not None:
+            given = {"damping": 0.5 * hinge.spring.damping, "spring_reference": hinge.spring.rest_angle}
+            given["spring_stiffness"] = 0.5 * hinge.spring.stiffness
+            put(Xml.SubElement(axis, "dynamics"), {name: _numbers(value) for name, value in given.items()})
         if (mimic := hinge.mimic) is not None:
             line = {"multiplier": _numbers(mimic.ratio), "offset": _numbers(mimic.offset), "reference": "0"}
             put(Xml.SubElement(axis, "mimic", joint=mimic.joint), line)
@@ -313,14 +336,16 @@ def sdf(gait: Gait) -> bytes:
 def joint_trajectory(gait: Gait) -> bytes:
     """Return one beat as YAML, a message trajectory_msgs/msg/JointTrajectory of ROS 2.
 
-    It has the joints that follow no other one. Its last point is the next top of the stroke. Efforts are left out,
-    because ROS's joint_trajectory_controller refuses them unless its hardware takes efforts as commands.
+    It has the joints that something drives and that follow no other one. Its last point is the next top of the
+    stroke. Efforts are left out, because ROS's joint_trajectory_controller refuses them unless its hardware takes
+    efforts as commands.
     """
     wingbeat, problem = gait.orbit.wingbeat, gait.orbit.problem
     root = wing_parts(problem.vehicle.wing, wingbeat, problem.model.strips)
-    found, followers = WingJoints.of(root), _followed(wingbeat, root.all_joints())
-    own = [i for i, name in enumerate(found.names) if name.partition("_")[2] not in followers]
-    position, rate, acceleration = (a[:, own] for a in found.motion(laws_at(wingbeat, gait.phase)))
+    found = WingJoints.of(root)
+    followers = _followed(root.all_joints(), laws_at(as_flown(gait.orbit, _PHASES), _PHASES)[0])
+    own = [i for i in found.driven if found.names[i].partition("_")[2] not in followers]
+    position, rate, acceleration = (a[:, own] for a in found.motion(gait.laws))
     lines = [
         f"# one wingbeat of {gait.about}, written by the package wingbeat; SI units, radians",
         "# ros2 topic pub --once /joint_trajectory_controller/joint_trajectory \\",

@@ -49,7 +49,7 @@ def export(orbit: Orbit, path: str | PathLike[str], samples: int = SAMPLES) -> N
     .csv   angles, rates, accelerations, torques and power of one wing, a row per phase
     .mat   the same as structures with time, which Simulink's From Workspace takes
     .c3d   points of body and wings in the world, a frame per phase; needs the extra ``c3d``
-    .xml   a MuJoCo model with body, wings, motors and the gait as keyframe and table
+    .xml   a MuJoCo model with body, wings, motors, pitch springs and the gait as keyframe and table
     .urdf  links with mass and inertia, joints with limits, for ROS and other robotics
     .sdf   the same for Gazebo
     .yaml  one beat as a message trajectory_msgs/msg/JointTrajectory of ROS 2
@@ -67,7 +67,8 @@ def export(orbit: Orbit, path: str | PathLike[str], samples: int = SAMPLES) -> N
     Raises
     ------
     InvalidInputError : another suffix, an orbit that is not certified or whose wake does not repeat with the lag
-        of the wake, samples that are not a whole number from 2 to 4096 (for .xml from 2 to 499).
+        of the wake, a pitch hinge that no joint stands for (.xml, .urdf, .sdf, .yaml), samples that are not a whole
+        number from 2 to 4096 (for .xml from 2 to 499).
     FileError : the file cannot be written; .c3d without the extra.
 
     >>> import tempfile, pathlib, wingbeat as wb

@@ -4,19 +4,19 @@ Each joint's position is a sum of the wingbeat's laws. A wing whose span, fold a
 part that turns about flap, sweep and pitch hinges. Any other wing has a part for each strip, which turns and slides
 by itself, and a hand if the hand folds. The parts here are parts of the left wing; the right wing is its mirror
 image. In a part's axes, x is along the chord to the leading edge, y along the span to the left and z along the
-normal; its origin is on the line of the quarter chords.
+normal; its origin is on the axis of pitch.
 """
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from wingbeat._base import Fault, InvalidInputError
+from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat.animal.kinematics import LAWS, Wingbeat
+from wingbeat.animal.pitch_hinge import PitchHinge
 from wingbeat.animal.vehicle import Wing
 from wingbeat.mechanics.wing_motion import strips_of
 from wingbeat.mechanics.wing_shape import twist_factors
@@ -42,6 +42,7 @@ class Joint(NamedTuple):
     slides: bool
     axis: tuple[float, float, float]  # in the axes of its part
     laws: dict[str, float]  # its position as a sum of laws: factors [1, or m for a slide] by the laws' names
+    spring: PitchHinge | None = None  # what holds it if nothing drives it; its numbers are those of both wings
 
 
 class Strip(NamedTuple):
@@ -83,7 +84,7 @@ class Part:
         centre = mass @ x / whole, mass @ y / whole
         away_x, away_y = x - centre[0], y - centre[1]
         about_x = max(mass @ away_y**2, NOTHING)
-        about_y = mass @ (away_x**2 + gyration**2)
+        about_y = max(mass @ (away_x**2 + gyration**2), NOTHING)
         across, about_z = -mass @ (away_x * away_y), about_x + about_y
         # Of a plate without thickness, the inertias about two axes sum up to the third. MuJoCo refuses the plate if
         # rounding makes their sum the smaller one, which it does to every fourth wing.
@@ -99,7 +100,8 @@ class Part:
 def is_rigid(wingbeat: Wingbeat) -> bool:
     """Return whether the wing is one rigid part, because its span, fold and twist are constant."""
     twists = wingbeat.twist_ratio != 1.0 or wingbeat.twist_mean or wingbeat.twist_harmonics
-    return not (_spans(wingbeat) or wingbeat.fold_amplitude or twists)
+    gives = isinstance(wingbeat.pitch_hinge, PitchHinge) and wingbeat.pitch_hinge.twist_share > 0
+    return not (_spans(wingbeat) or wingbeat.fold_amplitude or twists or gives)
 
 
 def _sweeps(wingbeat: Wingbeat) -> bool:
@@ -117,8 +119,24 @@ def mirrored(joint: Joint, sign: float) -> tuple[float, float, float]:
     return (x, sign * y, z) if joint.slides else (sign * x, y, sign * z)
 
 
+def _refuse_hinge(hinge: PitchHinge, wingbeat: Wingbeat) -> None:
+    """Refuse a hinge that gives way on a wing whose strips it turns one by one, or whose stops no joint has."""
+    faults, way = FaultList(), "export the gait as .csv, .mat or .c3d"
+    if not is_rigid(wingbeat):
+        rule = "turns strips that also twist, slide or fold: no joint with a spring stands for it"
+        faults.add("pitch_hinge", "the wing's pitch", rule, f"{way}, or solve a wing that only flaps and sweeps")
+    if hinge.stop_stiffness:
+        rule = "belongs to stops that set in smoothly, which no joint has"
+        fix = f"{way}, or solve without stops (0) if the wing stays clear of them"
+        faults.add("pitch_hinge.stop_stiffness", hinge.stop_stiffness, rule, fix)
+    faults.raise_if_any()
+
+
 def wing_parts(wing: Wing, wingbeat: Wingbeat, count: int) -> Part:
     """Return the part at the shoulder, with all that it holds."""
+    hinge = wingbeat.pitch_hinge
+    if hinge is not None:
+        _refuse_hinge(hinge, wingbeat)
     # A hand that folds about the axis of flap on an arm that sweeps would need two hinges with the same axis.
     if wingbeat.fold_amplitude and _sweeps(wingbeat):
         rule = "on a wing that sweeps cannot be represented by hinges one after another"
@@ -127,13 +145,14 @@ def wing_parts(wing: Wing, wingbeat: Wingbeat, count: int) -> Part:
     fraction, chord, mass = (np.asarray(a) for a in strips_of(wing, count))
 
     def strip(i: int, station: float) -> Strip:
-        return Strip(i + 1, station, chord[i], mass[i], 0.0, -0.25 * chord[i], chord[i] / math.sqrt(12.0))
+        ahead = wing.pitch_axis - 0.25, wing.pitch_axis - wing.mass_axis
+        return Strip(i + 1, station, chord[i], mass[i], *(chord[i] * a for a in (*ahead, wing.mass_gyration)))
 
     shoulder = [Joint("flap", False, _FLAP, {"flap": 1.0})]
     if _sweeps(wingbeat):
         shoulder.append(Joint("sweep", False, _SWEEP, {"sweep": 1.0}))
     if is_rigid(wingbeat):
-        shoulder.append(Joint("wing_pitch", False, _PITCH, {"wing_pitch": 1.0}))
+        shoulder.append(Joint("wing_pitch", False, _PITCH, {"wing_pitch": 1.0}, hinge))
         own = [strip(i, wing.semi_span * fraction[i]) for i in range(count)]
         return Part("wing", 0.0, tuple(shoulder), tuple(own))
     wrist = wingbeat.wrist if wingbeat.fold_amplitude else 1.0
@@ -167,6 +186,7 @@ class WingJoints(NamedTuple):
 
     names: tuple[str, ...]
     factors: np.ndarray  # of each law on each joint, shape (joints, laws)
+    driven: np.ndarray  # the places of those that something drives
 
     @classmethod
     def of(cls, part: Part) -> WingJoints:
@@ -174,7 +194,8 @@ class WingJoints(NamedTuple):
         joints = part.all_joints()
         factors = law_factors(joints)
         names = tuple(f"{side}_{joint.name}" for side in SIDES for joint in joints)
-        return cls(names, np.vstack([factors, factors]))
+        driven = np.flatnonzero([joint.spring is None for joint in [*joints, *joints]])
+        return cls(names, np.vstack([factors, factors]), driven)
 
     def motion(self, laws: Laws) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Return positions, rates and accelerations of the joints, shape (..., joints), from those of the laws."""

@@ -6,7 +6,7 @@ then the last axis, because XLA on CPU works along the last axis; the equations 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -17,7 +17,7 @@ from wingbeat._jax.exported import exported
 from wingbeat.aero.winds import Wind
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.mechanics.flight_model import FlightModel, State
-from wingbeat.mechanics.state_rates import body_rates, rate_table, refuse_without_motion
+from wingbeat.mechanics.state_rates import HINGE_STATE, body_rates, rate_table
 from wingbeat.mechanics.strip_air import refuse_without_wake
 
 if TYPE_CHECKING:
@@ -147,10 +147,11 @@ def fly_through(
 ) -> tuple[np.ndarray, Steps]:
     """Fly `state`, at phase 0, to phases that increase from 0; `air` is its velocity at the `air_phases`.
 
-    With the lag of the wake, `wake` holds the states of the wake at phase 0, shape (2 strips,).
+    `wake` holds the states at phase 0 of the lag of the wake, shape (2 strips,), or angle and rate of a hinge that
+    gives way, shape (2,).
 
-    Returns the states, shape (K, 6), and after them those of the wake, NaN after the integrator gave up, and the
-    integrator's steps.
+    Returns the states, shape (K, 6), and after them those of wake or hinge, NaN after the integrator gave up, and
+    the integrator's steps.
     """
     given = model, wingbeat, np.concatenate([np.array(state, dtype=float), *wake]), phases, rtol
     states, at, there = _fly(*given) if air is None else _fly_in_wind(*given, air)
@@ -249,6 +250,7 @@ class FlownBeats(NamedTuple):
     states: np.ndarray  # (x, z, body_pitch, u, w, pitch_rate) there, NaN after the integrator gave up
     wingbeats: tuple[Wingbeat, ...]  # of each beat
     air: np.ndarray | None  # its velocity there, forward and up [m/s], shape (K, 2); None for still air
+    hinge: np.ndarray | None  # angle and rate of a hinge that gives way, shape (K, 2) [rad, rad/s]
 
 
 def check_samples(faults: FaultList, beats: int, samples: int) -> None:
@@ -269,6 +271,33 @@ def check_wind(faults: FaultList, wind: object) -> None:
         faults.add("wind", wind, "must be two velocities or a function of times", fix)
 
 
+def hinge_of(given: Any, wingbeat: Wingbeat) -> np.ndarray:
+    """Return angle and rate at phase 0 of a wingbeat's hinge, shape (2,), at rest if not given; (0,) without one.
+
+    >>> hinge_of(None, Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3)).shape
+    (0,)
+    """
+    faults, hinge = FaultList(), wingbeat.pitch_hinge
+    if hinge is None:
+        if given is not None:
+            rule = "has no effect on a wing whose pitch is prescribed"
+            faults.add("hinge", given, rule, "leave it out, or set pitch_hinge.stiffness")
+            faults.raise_if_any()
+        return np.zeros(0)
+    if given is None:
+        return np.array([hinge.rest_angle, 0.0], dtype=float)
+    values = np.asarray(given).tolist() if hasattr(given, "__array__") else given
+    if isinstance(given, Mapping) and given.keys() == {*HINGE_STATE}:
+        values = [given[name] for name in HINGE_STATE]
+    if not isinstance(values, list | tuple) or len(values) != len(HINGE_STATE):
+        faults.add("hinge", given, "must be two numbers", "angle [rad] and rate [rad/s], or leave it out for rest")
+        faults.raise_if_any()
+    faults.angle("hinge.angle", values[0])
+    faults.number("hinge.rate", values[1], unit="rad/s")
+    faults.raise_if_any()
+    return np.array(values, dtype=float)
+
+
 def fly_beats(
     model: FlightModel,
     wingbeat: Wingbeat,
@@ -277,33 +306,40 @@ def fly_beats(
     samples: int,
     wind: Wind | tuple[float, float] | None = None,
     controller: Controller | None = None,
+    hinge: Any = None,
 ) -> FlownBeats:
-    """Fly several beats with prescribed wings, ``beats * samples + 1`` samples in all; None is still air."""
+    """Fly several beats, ``beats * samples + 1`` samples in all; None is still air, and a hinge at rest."""
     refuse_without_wake(model)
-    refuse_without_motion(wingbeat)
     one_beat, current, begun = np.linspace(0.0, 1.0, samples + 1), state, 0.0
-    pieces, wingbeats, airs = [np.array([state], dtype=float)], [], []
+    turned = hinge_of(hinge, wingbeat)
+    pieces, wingbeats, airs = [np.concatenate([np.array(state, dtype=float), turned])[None]], [], []
     for beat in range(beats):
-        now = wingbeat if controller is None else commanded(controller, beat, current)
+        now = wingbeat if controller is None else commanded(controller, beat, current, turned.size > 0)
         wingbeats.append(now)
         table = None
         if wind is not None:
             table = air_at(wind, begun + air_phases() / now.frequency)
             airs.append(air_at(wind, begun + one_beat[beat > 0 :] / now.frequency))
-        flown, _ = fly_through(model, now, current, one_beat, air=table)
-        current = State(*flown[-1])
+        flown, _ = fly_through(model, now, current, one_beat, air=table, wake=(turned,))
+        current, turned = State(*flown[-1, :6]), flown[-1, 6:]
         pieces.append(flown[1:])
         begun += 1.0 / now.frequency
-    phase = np.linspace(0.0, beats, beats * samples + 1)
-    return FlownBeats(phase, np.concatenate(pieces), tuple(wingbeats), np.concatenate(airs) if airs else None)
+    phase, whole = np.linspace(0.0, beats, beats * samples + 1), np.concatenate(pieces)
+    air, given = np.concatenate(airs) if airs else None, whole[:, 6:] if turned.size else None
+    return FlownBeats(phase, whole[:, :6].copy(), tuple(wingbeats), air, given)
 
 
-def commanded(controller: Controller, beat: int, state: State) -> Wingbeat:
-    """Return the wingbeat that a controller asks for."""
+def commanded(controller: Controller, beat: int, state: State, gives: bool) -> Wingbeat:
+    """Return the wingbeat that a controller asks for; `gives` says whether the wing's pitch gives way."""
     wingbeat = controller(beat, state)
     if not isinstance(wingbeat, Wingbeat):
         rule = f"returned {type(wingbeat).__name__} after {beat} beats"
         raise InvalidInputError([Fault("controller", wingbeat, rule, "return a Wingbeat")])
+    if (wingbeat.pitch_hinge is not None) != gives:
+        rule = f"{'takes away' if gives else 'adds'} the hinge that gives way, after {beat} beats"
+        raise InvalidInputError(
+            [Fault("controller", wingbeat.pitch_hinge, rule, "keep pitch_hinge in the wingbeat")]
+        )
     return wingbeat
 
 

@@ -6,7 +6,7 @@ import dataclasses
 import functools
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -47,6 +47,7 @@ class Flight(Saveable):
     wingbeats : the wingbeat of each beat.
     air : velocity of the air, forward and up [m/s], shape (K, 2); None for still air.
     species : what flies, for drawings alone; None if it was not given.
+    hinge : angle and rate of a pitch hinge that gives way, shape (K, 2) [rad, rad/s]; None without one.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
@@ -63,6 +64,7 @@ class Flight(Saveable):
     wingbeats: tuple[Wingbeat, ...]
     air: np.ndarray | None = None
     species: Species | None = None
+    hinge: np.ndarray | None = None
 
     @property
     def completed(self) -> bool:
@@ -99,8 +101,9 @@ class Flight(Saveable):
         through_air = states
         if self.air is not None:
             through_air = states - np.pad(self.air[here], ((0, 0), (3, 1)))
-        found = evaluate(self.model, wingbeat, phase, through_air)
-        return flight_dataset(self.model, wingbeat, phase, states, found, attributes)
+        hinge = None if self.hinge is None else self.hinge[here]
+        found = evaluate(self.model, wingbeat, phase, through_air, hinge=hinge)
+        return flight_dataset(self.model, wingbeat, phase, states, found, attributes, hinge=hinge)
 
 
 def simulate(
@@ -113,8 +116,9 @@ def simulate(
     wind: Wind | tuple[float, float] | None = None,
     controller: Controller | None = None,
     species: Species | None = None,
+    hinge: ArrayLike | Mapping[str, float] | None = None,
 ) -> Flight:
-    """Fly an initial state for a number of wingbeats with prescribed wings.
+    """Fly an initial state for a number of wingbeats with prescribed wings, or wings whose pitch gives way.
 
     Parameters
     ----------
@@ -129,12 +133,15 @@ def simulate(
     controller : function of the number of beats flown and the state at the top of the stroke; it returns the
         wingbeat of the next beat. Inputs of `linearise` change a wingbeat without a jump of the wing.
     species : what flies; drawings of the flight show its shape. The flight itself does not depend on it.
+    hinge : angle and rate at phase 0 of a pitch hinge that gives way [rad, rad/s], such as ``flight.hinge[-1]``, or
+        ``orbit.record()["hinge_start"]``, without which an orbit is not repeated; by default, at rest.
 
     Raises
     ------
     InvalidInputError : a state that is not six finite numbers, a body pitch above pi, which is most likely in
         degrees, beats or samples that are not whole numbers of at least 1, a model with the lag of the wake, a
-        wind that is not finite or has another shape than its times, a controller that returns no wingbeat.
+        wind that is not finite or has another shape than its times, a controller that returns no wingbeat, a
+        hinge for a wing without one.
 
     >>> import wingbeat as wb
     >>> pigeon = wb.load_species("pigeon")
@@ -149,8 +156,9 @@ def simulate(
     if controller is not None and not callable(controller):
         faults.add("controller", controller, "must be a function of the beats flown and the state")
     faults.raise_if_any()
-    flown = fly_beats(model, wingbeat, state_of(state), beats, samples, wind, controller)
-    return Flight(model, flown.wingbeats[0], flown.phase, flown.states, flown.wingbeats, flown.air, species)
+    flown = fly_beats(model, wingbeat, state_of(state), beats, samples, wind, controller, hinge)
+    series = flown.phase, flown.states, flown.wingbeats, flown.air
+    return Flight(model, flown.wingbeats[0], *series, species, flown.hinge)
 
 
 # The generalised coordinates and their rates, as a data set names them.

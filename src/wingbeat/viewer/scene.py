@@ -47,8 +47,8 @@ _PLANS = {
 def look_of(dataset: xr.Dataset) -> dict[str, Any]:
     """Return how the animal of a flight looks: JSON-able, lengths in m, span fractions from root to tip.
 
-    ``leading`` is the distance of the leading edge ahead of the pitch axis, ``trailing`` that of the trailing edge
-    behind it; a swept tip lies behind the axis, where ``leading`` is negative. A flight that does not carry the
+    ``leading`` is the distance of the leading edge ahead of the quarter chords, ``trailing`` that of the trailing
+    edge behind them; a swept tip lies behind them, where ``leading`` is negative. A flight that does not carry the
     shape of its species gets a schematic one from the numbers of its vehicle.
     """
     vehicle, beat = (json.loads(dataset.attrs[name]) for name in ("vehicle", "wingbeat"))

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
 _PLACES = {"x": "u", "z": "w", "body_pitch": "pitch_rate"}
+_HINGE = {"hinge_angle": "hinge_rate"}  # of a wing whose pitch gives way
 _RATES = {"u": "u_rate", "w": "w_rate", "pitch_rate": "pitch_acceleration"}
 
 
@@ -51,7 +52,8 @@ class Motion:
         # The file has values and slopes; the cubics between the samples match both.
         splines = {
             name: CubicHermiteSpline(time, dataset[name].values, dataset[rate].values)
-            for name, rate in (_PLACES | _RATES).items()
+            for name, rate in (_PLACES | _RATES | _HINGE).items()
+            if name in dataset
         }
         x, z = (float(np.diff(splines[name](time[[0, -1]]))[0]) / np.ptp(time) for name in ("x", "z"))
         return cls(vehicle, wingbeat, air, (x, z), splines)
@@ -79,11 +81,12 @@ class Motion:
         span_fraction, chord_fraction : where the points are, as in `surface_points`.
         """
         within = np.mod(phase, 1.0)
+        hinge = [self._splines[name](within * self.period) for name in _HINGE if name in self._splines]
         points = surface_points(
             self.vehicle,
             self.wingbeat,
             self.state(within),
-            *map(jnp.asarray, (within, span_fraction, chord_fraction)),
+            *map(jnp.asarray, (within, span_fraction, chord_fraction, *hinge)),
         )
         drift = np.array([self.velocity[0], 0.0, self.velocity[1]]) * self.period
         return np.asarray(points) - within[:, None, None, None] * drift

@@ -65,7 +65,10 @@ def filmed_species(beat: Filmed, species: Species) -> Species:
     if species.is_set_by_hand("wingbeat.wrist"):
         filmed.pop("wrist", None)
     changed = species.with_values({f"wingbeat.{name}": value for name, value in filmed.items()})
-    return dataclasses.replace(changed, warnings=(*changed.warnings, *doubts_of(beat, species)))
+    doubts, hinge = doubts_of(beat, species), changed.wingbeat.pitch_hinge
+    if hinge is not None and hinge.moves_root:
+        doubts += ("the filmed pitch has no effect: the wing's pitch hinge gives way, in place of its pitch law",)
+    return dataclasses.replace(changed, warnings=(*changed.warnings, *doubts))
 
 
 def doubts_of(beat: Filmed, species: Species) -> tuple[str, ...]:

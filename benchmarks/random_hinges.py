@@ -12,9 +12,9 @@ have one start, more follow until an orbit is certified; the least mean positive
 of the processor, after a flight of each kind that compiles the programs. A robot without an orbit is explained if
 the solver finds none within the bounds: its message says what is short.
 
-Of 100 robots with one start, 94 were certified and 5 explained; all 50 that twist were certified. An orbit took 2.98
-times the time of a prescribed one (median; 3.6 for wings that pitch, 2.8 for wings that twist). The last one had
-closed wingbeats that could not be certified; with four times its damping it flies.
+Of 100 robots with one start, 94 were certified and 5 explained; all 50 that twist were certified. An orbit took
+2.98 times the time of a prescribed one (median; 3.6 for wings that pitch, 2.8 for wings that twist). The last one
+had closed wingbeats that could not be certified; with four times its damping it flies.
 """
 
 from __future__ import annotations

@@ -363,5 +363,3 @@ def test_without_its_motion_a_wing_that_gives_way_has_no_loads():
     case, _ = cases("steady", 0.0)[0]
     with pytest.raises(wb.InvalidInputError, match="gives way"):
         wb.flight_loads(case.model, case.wingbeat, State(u=8.0), 0.0)
-    with pytest.raises(wb.InvalidInputError, match="gives way"):
-        wb.simulate(case.model, case.wingbeat, State(u=8.0))

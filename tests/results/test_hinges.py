@@ -1,5 +1,6 @@
 """What a record says of pitch hinges: of those that give way, and of those that a prescribed pitch needs."""
 
+import json
 import shlex
 from types import SimpleNamespace
 
@@ -199,6 +200,13 @@ def test_the_figure_shows_the_angle_and_its_rest(giving):
     np.testing.assert_allclose(drawn["hinge θ"].get_ydata(), np.degrees(giving.dataset["hinge_angle"].values))
     rest = giving.record()["wingbeat"]["hinge_rest_angle"]
     assert drawn["at rest"].get_ydata()[0] == pytest.approx(np.degrees(rest))
+    # With stops within what is drawn, they are one entry of the legend.
+    stopped = giving.dataset.copy()
+    beat = json.loads(stopped.attrs["wingbeat"]) | {"hinge_stop_stiffness": 10.0, "hinge_stop_angle": 0.2}
+    stopped.attrs["wingbeat"] = json.dumps(beat)
+    page = wb.plots.wingbeat_page(stopped)
+    told = [text.get_text() for text in page.axes[0].get_legend().get_texts()]
+    assert told == ["flap φ", "hinge θ", "at rest", "stops"]
 
 
 @pytest.mark.slow

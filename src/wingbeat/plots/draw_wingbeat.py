@@ -167,7 +167,7 @@ def draw_motion(dataset: xr.Dataset, panels: Any) -> None:
         wing.plot(phase, np.degrees(dataset[name].values), label=label, **style)
     if "hinge_angle" in dataset:
         _draw_hinge(wing, dataset)
-    lines = wing.get_lines()
+    lines = [line for line in wing.get_lines() if not str(line.get_label()).startswith("_")]
     if np.ptp(dataset["span_ratio"].values) > 1e-9:
         span = wing.twinx()
         span.spines["right"].set_visible(True)
@@ -203,8 +203,8 @@ def _draw_hinge(axes: Axes, dataset: xr.Dataset) -> None:
     if beat["hinge_stop_stiffness"]:
         stop = math.degrees(beat["hinge_stop_angle"])
         low, high = axes.get_ylim()
-        for at in (at for at in (-stop, stop) if low < at < high):
-            axes.axhline(at, color=ALARM, linewidth=0.5)
+        for i, at in enumerate(at for at in (-stop, stop) if low < at < high):
+            axes.axhline(at, color=ALARM, linewidth=0.5, label="_" if i else "stops")
 
 
 def draw_portraits(dataset: xr.Dataset, panels: Any) -> None:

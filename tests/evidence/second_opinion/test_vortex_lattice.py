@@ -65,5 +65,7 @@ def test_lift_of_a_long_wing_that_heaves_is_theodorsen_s():
     assert found.power.mean() == pytest.approx(work, rel=0.05)
 
 
-def test_version_is_the_one_that_is_pinned():
-    assert code_version() == "PteraSoftware 5.0.0"
+def test_version_is_one_with_free_flight():
+    name, version = code_version().split()
+    assert name == "PteraSoftware"
+    assert tuple(map(int, version.split(".")[:2])) >= (5, 1)

@@ -27,9 +27,10 @@ from wingbeat.mechanics.glide import held_still
 from wingbeat.plots import save_figure
 from wingbeat_evidence.markdown import markdown_table
 from wingbeat_evidence.second_opinion import LatticeOptions
-from wingbeat_evidence.second_opinion.comparison import lattice_loads
+from wingbeat_evidence.second_opinion.comparison import ATTACHED, lattice_loads
 from wingbeat_evidence.second_opinion.free_flight import WINGS, Flown, as_rigid_body, fly_on, own_less_lattice
 from wingbeat_evidence.second_opinion.motion import Motion
+from wingbeat_evidence.second_opinion.own_loads import own_loads
 
 DOCS, TABLE = ROOT / "docs" / "evidence", ROOT / "data" / "free_flight.csv"
 BEATS, OPTIONS, FINER = 10, LatticeOptions(2, 6, 16, 2), LatticeOptions(2, 6, 32, 2)
@@ -99,6 +100,8 @@ def flown_on(case: str) -> Iterator[dict[str, Any]]:
     whole = fly_on(flown, OPTIONS, BEATS)
     difference = own_less_lattice(flown, whole, OPTIONS)
     fine = lattice_loads(motion, LatticeOptions(beats=2), None, aero)
+    alpha = own_loads(motion, aero, np.arange(OPTIONS.steps) / OPTIONS.steps).alpha
+    assert alpha is not None
     weight = flown.mass * model.air.gravity
     yield {
         "case": case,
@@ -111,6 +114,7 @@ def flown_on(case: str) -> Iterator[dict[str, Any]]:
         "fine_thrust": float(np.mean(fine.thrust)),
         "fine_lift": float(np.mean(fine.lift)),
         "weight": weight,
+        "beyond_15_deg": float(np.mean(np.abs(alpha) > ATTACHED)),
     }
     ways = {
         WHOLE: whole,
@@ -157,10 +161,18 @@ def page(table: pd.DataFrame) -> str:
                 f"{lift:.3g}, {thrust:.2g}",
                 f"{loads['fine_lift']:.3g}, {loads['fine_thrust']:.2g}",
                 f"{-loads['less_moment'] / loads['inertia']:.0f}",
+                f"{loads['beyond_15_deg']:.0%}",
             ]
         )
     heads = ["flight", "flown", "after 1 beat", "after the last whole beat"]
-    of_loads = ["flight", "ours", "this lattice", "finer", "its extra moment / inertia [rad/s2]"]
+    of_loads = [
+        "flight",
+        "ours",
+        "this lattice",
+        "finer",
+        "its extra moment / inertia [rad/s2]",
+        "strips beyond 15 deg",
+    ]
     rounds = table[table["flown"] != OURS]["rounds"].dropna()
     return filled(
         "free_flight",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import re
 import sys
 from collections.abc import Sequence
 
@@ -58,8 +59,10 @@ COMMANDS = {
 # Limits of one word of the command line: its length (longer than any path), and how deep its lists are nested.
 _LONGEST = 10_000
 _DEEPEST = 50
-# Longest line on stderr; the middle of a longer line is left out.
-_LINE = 2000
+# Longest line on stderr, and longest word in it, most often a value of the user's; the middle of a longer one
+# is left out. Lists of known names are long lines of short words.
+_LINE, _WORD = 2000, 400
+_LONG_WORD = re.compile(rf"\S{{{_WORD},}}")
 
 # Commands of the two packages that know this one; this one knows them by these names alone.
 _COMPANIONS = {
@@ -175,6 +178,7 @@ def _run(argv: list[str], app: App | None) -> int:
 def _complain(lines: list[str], code: int) -> int:
     for line in lines:
         shown = "".join(sign if sign.isprintable() else repr(sign)[1:-1] for sign in line)
+        shown = _LONG_WORD.sub(lambda found: f"{found[0][: _WORD // 2]} ... {found[0][-_WORD // 2 :]}", shown)
         if len(shown) > _LINE:
             shown = f"{shown[: _LINE // 2]} ... {shown[-_LINE // 2 :]}"
         print(f"error: {shown}", file=sys.stderr)

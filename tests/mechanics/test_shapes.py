@@ -43,7 +43,7 @@ NO_ARRAY = {
     "xp",
 }
 # What is refused unless it is a number, a pair or a name.
-CHECKED_FIRST = {"blend_width_deg", "extension", "limits"}
+CHECKED_FIRST = {"blend_width_deg", "extension", "hinge", "limits"}
 # `padded` adds strips; those of `air_forces` come with the axes of time first, for all others these are the last.
 OTHER_STRIPS = {"air_forces", "padded"}
 

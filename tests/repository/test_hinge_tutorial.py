@@ -39,7 +39,7 @@ def test_the_tutorial_holds(tmp_path, monkeypatch, capsys):
     assert stability["spectral_radius"] == pytest.approx(1.22, abs=0.005)
     assert held["spectral_radius"] < 1
     orbit = wb.load_orbit(tmp_path / "gait.nc")
-    assert wb.feedback(orbit).inputs == ("frequency", "flap_mean", "flap_amplitude", "hinge_rest_angle")
+    assert wb.feedback(orbit).inputs == ("frequency", "flap_mean", "flap_amplitude")
     assert (tmp_path / "hinge.png").stat().st_size > 10_000
 
 

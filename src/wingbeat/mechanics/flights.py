@@ -6,7 +6,7 @@ then the last axis, because XLA on CPU works along the last axis; the equations 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -306,7 +306,7 @@ def fly_beats(
     samples: int,
     wind: Wind | tuple[float, float] | None = None,
     controller: Controller | None = None,
-    hinge: Sequence[float] | None = None,
+    hinge: Any = None,
 ) -> FlownBeats:
     """Fly several beats, ``beats * samples + 1`` samples in all; None is still air, and a hinge at rest."""
     refuse_without_wake(model)

@@ -18,6 +18,7 @@ from wingbeat._base import FaultList, Report, Reported, __version__, install_ext
 from wingbeat._jax.arrays import jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, flap_angle
+from wingbeat.animal.pitch_hinge import HINGE_NAMES
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.state_rates import HINGE_STATE, body_rates, rate_table
 from wingbeat.orbits.flight.certificate import StrokeMap, multipliers_of, stroke_map
@@ -313,8 +314,8 @@ class LinearFlight(Reported):
         return control.StateSpace(*matrices, self.dt, states=state, inputs=inputs, outputs=state)
 
 
-# A spring or damper is built once: no command changes it.
-_BUILT = ("hinge_stiffness", "hinge_damping")
+# A hinge is built once: no command changes its numbers, unless it is asked to.
+_BUILT = tuple(HINGE_NAMES)
 
 
 def linearise(

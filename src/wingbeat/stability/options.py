@@ -241,7 +241,7 @@ def check_no_wake(faults: FaultList, wake: str) -> None:
 def check_no_hinge(faults: FaultList, wingbeat: Wingbeat) -> None:
     """Note a hinge that gives way, where only a prescribed pitch is known."""
     if wingbeat.pitch_hinge is not None:
-        fix = "use feedback from beat to beat (wb.feedback), or prescribe the pitch"
+        fix = "use feedback from beat to beat (wb.feedback, `wingbeat feedback --delay 1`), or prescribe the pitch"
         faults.add("pitch_hinge", "the wing's pitch", "gives way, which this feedback does not know", fix)
 
 

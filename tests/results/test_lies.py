@@ -14,6 +14,7 @@ import wingbeat as wb
 from wingbeat._base import FileError
 from wingbeat.cli import main
 from wingbeat.records import result_files as declared
+from wingbeat.records.agreement import check_newton
 from wingbeat.records.forms import inputs_hash
 from wingbeat.records.result_files import digest, load_dataset, netcdf_bytes, save_result
 
@@ -291,3 +292,16 @@ def test_another_kind_is_named_before_anything_else_is_read(saved, kind):
         FileError, match=f"as an? {other}: it holds another kind of result, '{kind}'; give a file that"
     ):
         load_dataset(saved[kind], other)
+
+
+def test_a_wing_that_does_not_pitch_is_no_damage(pigeon_orbit):
+    """A live starling's file was once refused: its pitch amplitude was 3e-19, at the bound of 0."""
+    dataset, species = pigeon_orbit.orbit.dataset, pigeon_orbit.problem.species
+    series = {str(name): np.array(variable.values) for name, variable in dataset.variables.items()}
+    check_newton(series, species)
+    series["wing_pitch"] = np.full_like(series["wing_pitch"], 0.347)
+    series["wing_pitch_rate"] = 2e-17 * np.cos(2 * np.pi * series["phase"])
+    check_newton(series, species)
+    series["wing_pitch_rate"] = 1e-3 * np.cos(2 * np.pi * series["phase"])
+    with pytest.raises(ValueError, match="wing_pitch is not the integral"):
+        check_newton(series, species)

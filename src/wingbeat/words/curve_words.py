@@ -42,6 +42,7 @@ _AGAINST = {
     "metabolic_rate": ", beside the estimate for the whole animal",
 }
 _HEADINGS = ("U\n[m/s]", "f\n[Hz]", "P+\n[W]", "CoT\n[-]", "flap\n[deg]", "optima", "at the limit of")
+_OWN = "given, not predicted: the frequency, the animal's own"
 _OVER_FREQUENCY = ("f\n[Hz]", "P+\n[W]", "flap\n[deg]", "optima", "at the limit of")
 _OF_MUSCLE = ("activation\n[-]", "work\n[J/kg]")  # of a curve over frequency, before the optima
 _NEAR = 0.02  # share of a speed within which the lowest computed point stands for the minimum
@@ -71,7 +72,7 @@ def curve_report(record: dict[str, Any]) -> Report:
     blocks: list[Block] = [
         Line(f"{animal}, minimum {minimised}: {certified} of {len(points)} {PLURALS[over]} certified"),
         *([Line(f"air: {air_in_words(record['air'])}")] if record["air"] != DEFAULT_AIR else []),
-        *([Line("given, not predicted: the frequency, the animal's own")] if record.get("own_frequency") else []),
+        *([Line(_OWN)] if record.get("own_frequency") and over == "speed" else []),
         *(Line(note, tone="warning") for note in other_frequency(record)),
         Table(rows, tuple(headings), "r" * (len(headings) - 1) + "l"),
         *([Line("* added to find the characteristic speeds")] if any(point["refined"] for point in points) else []),

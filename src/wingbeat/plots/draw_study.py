@@ -11,6 +11,8 @@ import numpy as np
 
 from wingbeat._base import FaultList, in_words, label_of, plain_unit
 from wingbeat._base.style import ALARM, FONT, MARKED, PAGE, drawing, legend_below, letter_panels, new_figure
+from wingbeat.animal.vehicle import Air
+from wingbeat.records.judgements import conditions_in_words
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -86,9 +88,18 @@ def study_page(
         left = f"; {len(groups) - len(shown)} more panels are left out" if len(groups) > len(shown) else ""
         later = f", {asked - len(frame)} not solved yet" if len(frame) < asked else ""
         what = re.sub(r" \[.*\]$", "", label)
-        title = f"{what[:1].upper()}{what[1:]}: {good} of {asked} points certified{later}{left}"
+        title = f"{what[:1].upper()}{what[1:]}{_conditions(frame)}: {good} of {asked} points certified{later}{left}"
         figure.suptitle(title, fontsize=8, x=0.01, ha="left", parse_math=False)
     return figure
+
+
+def _conditions(frame: pd.DataFrame) -> str:
+    """Return what the title says of load and air, as far as all points share them."""
+    shared = {}
+    for name in ("air.density", "added_mass"):
+        values = frame[name].fillna(0.0).to_numpy(dtype=float) if name in frame else np.zeros(1)
+        shared[name] = float(values[0]) if np.ptp(values) <= _SAME * np.abs(values).max() else 0.0
+    return conditions_in_words({"density": shared["air.density"] or Air().density}, shared["added_mass"])
 
 
 def _groups(frame: pd.DataFrame, varied: Sequence[str]) -> list[tuple[str, pd.DataFrame]]:

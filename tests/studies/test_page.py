@@ -131,8 +131,8 @@ def test_altitudes_and_temperatures_are_listed_as_other_keys(tmp_path):
 
 def test_the_title_names_load_and_air_that_all_points_share():
     frame = table([4.0, 6.0], [0.01])
-    frame["air.density"], frame["added_mass"] = 0.9093, 0.005
+    frame["air.density"], frame["carried_mass"] = 0.9093, 0.005
     title = "Least frequency, with 5 g added, in air of 0.9093 kg/m3: 4 of 4 points certified"
     assert page(frame, "speed").get_suptitle() == title
-    frame.loc[0, ["air.density", "added_mass"]] = 1.225, float("nan")
+    frame.loc[0, ["air.density", "carried_mass"]] = 1.225, float("nan")
     assert page(frame, "speed").get_suptitle() == "Least frequency: 4 of 4 points certified"

@@ -96,10 +96,10 @@ def study_page(
 def _conditions(frame: pd.DataFrame) -> str:
     """Return what the title says of load and air, as far as all points share them."""
     shared = {}
-    for name in ("air.density", "added_mass"):
+    for name in ("air.density", "carried_mass"):
         values = frame[name].fillna(0.0).to_numpy(dtype=float) if name in frame else np.zeros(1)
         shared[name] = float(values[0]) if np.ptp(values) <= _SAME * np.abs(values).max() else 0.0
-    return conditions_in_words({"density": shared["air.density"] or Air().density}, shared["added_mass"])
+    return conditions_in_words({"density": shared["air.density"] or Air().density}, shared["carried_mass"])
 
 
 def _groups(frame: pd.DataFrame, varied: Sequence[str]) -> list[tuple[str, pd.DataFrame]]:

@@ -403,6 +403,8 @@ def check_wings(wingbeat: Wingbeat, series: dict[str, np.ndarray]) -> None:
 def check_newton(series: dict[str, np.ndarray], species: Species) -> None:
     """Check that each series is the integral of its rate, momentum that of force, and energy that of power."""
     mass, gravity = species.vehicle.mass, species.air.gravity
+    # A hinge that gives way takes and returns energy of its own.
+    springs = series.get("hinge_torque", 0.0) * series.get("hinge_rate", 0.0)
     pairs = {name: (series[name], series[rate]) for name, rate in _RATES.items()}
     pairs |= {
         "momentum_x": (series["momentum_x"], series["force_x"]),
@@ -411,10 +413,7 @@ def check_newton(series: dict[str, np.ndarray], species: Species) -> None:
         "centre_of_mass_z": (series["centre_of_mass_z"], series["momentum_z"] / mass),
         "energy": (
             series["kinetic_energy"] + series["potential_energy"],
-            # A hinge that gives way takes and returns energy of its own.
-            series["actuator_power"]
-            + series["air_power"]
-            + series.get("hinge_torque", 0.0) * series.get("hinge_rate", 0.0),
+            series["actuator_power"] + series["air_power"] + springs,
         ),
     }
     if "hinge_angle" in series:

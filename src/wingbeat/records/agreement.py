@@ -403,8 +403,7 @@ def check_wings(wingbeat: Wingbeat, series: dict[str, np.ndarray]) -> None:
 def check_newton(series: dict[str, np.ndarray], species: Species) -> None:
     """Check that each series is the integral of its rate, momentum that of force, and energy that of power."""
     mass, gravity = species.vehicle.mass, species.air.gravity
-    # A hinge that gives way takes and returns energy of its own.
-    springs = series.get("hinge_torque", 0.0) * series.get("hinge_rate", 0.0)
+    springs = series.get("hinge_torque", 0.0) * series.get("hinge_rate", 0.0)  # which take and return energy
     pairs = {name: (series[name], series[rate]) for name, rate in _RATES.items()}
     pairs |= {
         "momentum_x": (series["momentum_x"], series["force_x"]),

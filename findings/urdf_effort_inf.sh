@@ -24,7 +24,7 @@ READERS = {
     "urdfdom": lambda: pinocchio.buildModelFromUrdf("robot.urdf").upperEffortLimit[0],
     "yourdfpy": lambda: yourdfpy.URDF.load("robot.urdf").joint_map["flap"].limit.effort,
 }
-found = {}
+found, unlimited = {}, {}
 for effort in ('effort="inf"', "", 'effort="0"', 'effort="1e9"'):
     Path("robot.urdf").write_text(f"""<robot name="robot"><link name="body">{LINK}</link><link name="wing">{LINK}</link>
       <joint name="flap" type="revolute"><parent link="body"/><child link="wing"/>
@@ -35,9 +35,10 @@ for effort in ('effort="inf"', "", 'effort="0"', 'effort="1e9"'):
             found[effort, reader] = None if value is None else float(value)
         except ValueError:
             found[effort, reader] = "refused"
+    unlimited[effort] = not mujoco.MjModel.from_xml_path("robot.urdf").jnt_actfrclimited[0]
     print(effort or "no effort", {reader: found[effort, reader] for reader in READERS})
 print(f"MuJoCo {mujoco.__version__}, Pinocchio {pinocchio.__version__}, yourdfpy 0.0.60; in MuJoCo, 0 is unlimited")
 expected = {"inf": [float("inf"), "refused", float("inf")], "": [0.0, "refused", None], "0": [0.0] * 3}
 expected["1e9"] = [1e9] * 3
-sys.exit(list(found.values()) != [value for values in expected.values() for value in values])
+sys.exit([unlimited[effort] for effort in ("", 'effort="0"', 'effort="1e9"')] != [True, True, False] or list(found.values()) != [value for values in expected.values() for value in values])
 PY

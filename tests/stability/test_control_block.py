@@ -121,3 +121,19 @@ def test_the_block_flies_in_mujoco_at_a_kilohertz_as_in_our_flight(asked):
     assert np.abs(commands - ours.bumps).max() < 0.02 * np.abs(commands).max()
     first, last = (np.abs(ours.deviations[k] / [0.2, 0.1, 1.0, 1.0, 2.0]).max() for k in (0, -1))
     assert last < 0.7 * first
+
+
+def test_bumps_without_delay_are_a_block_too_and_a_step_must_divide_its_samples(cruise, tmp_path):
+    plain = wb.feedback_in_beat(cruise, 4)
+    path = tmp_path / "bumps.json"
+    plain.save(path)
+    block = json.loads(path.read_text(encoding="utf-8"))
+    assert np.shape(block["gains_of_memory"]) == (4, 2, 0)
+    driver, state = plain.driver(), pushed(cruise)
+    first = driver.command(state)
+    away = np.array(state, dtype=float)[1:] - plain.path[0]
+    away[0] = 0.0
+    wanted = -np.array(block["gains_of_state"][0]) @ away
+    np.testing.assert_allclose(first, np.clip(wanted, block["lower"], block["upper"]), rtol=1e-12)
+    with pytest.raises(wb.InvalidInputError, match="do not divide"):
+        plain.driver()(0.0, 0.3 / cruise.wingbeat.frequency, state)

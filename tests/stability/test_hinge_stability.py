@@ -56,3 +56,11 @@ def test_what_does_not_know_the_hinge_says_so(orbit):
     for asked in (lambda: wb.feedback_in_beat(orbit), lambda: wb.manoeuvre(orbit, [8.0, 9.0])):
         with pytest.raises(wb.InvalidInputError, match="gives way"):
             asked()
+
+
+def test_a_gust_flight_starts_with_the_orbits_hinge(orbit):
+    from wingbeat.stability.gust_flights import fly_gust
+
+    calm = fly_gust(orbit, (0.0, 0.0), beats=2)
+    assert np.abs(calm.pitch).max() < 1e-5
+    np.testing.assert_allclose(calm.flight.hinge[0], orbit.hinge_start)

@@ -356,3 +356,13 @@ def test_a_varied_number_that_equals_the_stock_one_is_flown():
 def test_an_unknown_model_of_a_study_is_refused():
     with pytest.raises(wb.InvalidInputError, match=r"model = 'beast'"):
         plan(model="beast", speed=8.0)
+
+
+def test_a_study_of_a_hinge_has_its_force_where_a_problem_has_it():
+    form = {"species": "robofalcon2", "speed": 8.0, "set": {"pitch_hinge.stiffness": 1.4}}
+    (base,) = plan(**form).bases
+    assert base.recipe.aero.force_point == "centre-of-pressure"
+    (asked,) = plan(**form, force_point="quarter-chord").bases
+    assert asked.recipe.aero.force_point == "quarter-chord"
+    (rigid,) = plan(species="robofalcon2", speed=8.0).bases
+    assert rigid.recipe.aero.force_point == "quarter-chord"

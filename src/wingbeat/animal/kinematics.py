@@ -391,6 +391,11 @@ def with_parameters(wingbeat: Wingbeat, values: Mapping[str, Any]) -> Wingbeat:
     >>> with_parameters(Wingbeat(6.0, 0.0, 0.8, 0.1, 0.3), {"pitch_cos_2": 0.1}).pitch_harmonics
     (0.1, 0.0)
     """
+    if wingbeat.pitch_hinge is None and (names := [name for name in values if name in HINGE_NAMES]):
+        faults = FaultList()
+        fix = "give the wingbeat a pitch_hinge"
+        faults.add(f"wingbeat.{names[0]}", values[names[0]], "is a number of a pitch hinge, and there is none", fix)
+        faults.raise_if_any()
     fields = _fields(wingbeat, values)
     if isinstance(hinge := fields.get("pitch_hinge"), PitchHinge):
         fields["pitch_hinge"] = PitchHinge(**vars(hinge))  # checked

@@ -21,8 +21,9 @@ _STOP_WIDTH = 0.05
 class PitchHinge:
     """A hinge that nothing drives: the wing's pitch gives way until spring, damper, inertia and air balance.
 
-    Its torque is ``-k (theta - theta_0) - c theta'``, and that of its stops. In place of the pitch law, a strip is
-    pitched by its angle theta times ``1 - t + t s/L``, where t is `twist_share`.
+    Its torque is ``-k (theta - theta_0) - c theta'``, and that of its stops. A strip is pitched by its angle
+    theta times ``(1 - t) g + t s/L``, where t is `twist_share` and g the strip's twist factor; unless t is 1, this
+    stands in place of the pitch law.
 
     Parameters
     ----------

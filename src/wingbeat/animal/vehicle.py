@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from wingbeat._base import FaultList, is_number
-from wingbeat._jax.arrays import register_record
+from wingbeat._jax.arrays import at_default, register_record
 from wingbeat.animal.drive import Battery, Drive, Motor, Muscle, Springs
 
 
@@ -120,6 +120,12 @@ class Wing:
         fix = "a uniform strip has 0.2887 chords"
         faults.number("wing.mass_gyration", self.mass_gyration, at_least=0, at_most=0.5, fix=fix)
         faults.raise_if_any()
+
+    def told(self) -> dict[str, Any]:
+        """Return its numbers by name, in SI units; places on the chord are left out at their defaults."""
+        return {
+            name: value for name, value in vars(self).items() if name not in CHORDWISE or not at_default(self, name)
+        }
 
     @property
     def mean_chord(self) -> float:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
 import math
 import shlex
@@ -123,8 +124,10 @@ def simulate(
             prescribed = filmed.carried(beat, animal, whole.aero, given, beats, samples)
         else:
             start = start._replace(**disturbed)
-            velocity = float(start.u), float(start.w)
-            flown_by = FlightModel(animal.vehicle, whole.aero, animal.air, velocity=velocity)
+            velocity, loads = (float(start.u), float(start.w)), whole.aero
+            if wingbeat.pitch_hinge is not None and model.force_point is None:  # as in a problem of such a wing
+                loads = dataclasses.replace(loads, force_point="centre-of-pressure")
+            flown_by = FlightModel(animal.vehicle, loads, animal.air, velocity=velocity)
     if prescribed is not None:
         flight, errors, more = prescribed
         doubts += more

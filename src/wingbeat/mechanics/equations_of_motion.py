@@ -19,8 +19,10 @@ from wingbeat._base import FaultList
 from wingbeat._jax.arrays import in_own_settings, jax, jnp
 from wingbeat._jax.exported import jit_soon
 from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.animal.pitch_hinge import PitchHinge
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.mechanics.flights import integrate
+from wingbeat.mechanics.state_rates import refuse_without_motion
 from wingbeat.mechanics.strip_air import is_unsteady, refuse_without_wake
 from wingbeat.mechanics.wing_points import (
     AirForces,
@@ -66,6 +68,12 @@ class EquationsOfMotion(NamedTuple):
     velocity_matrix: CoordinateMatrix
     time_force: Coordinates
     gravity_force: Coordinates
+
+
+def refuse_unknown_twist(wingbeat: Wingbeat) -> None:
+    """Refuse a hinge that twists the wing, whose angle is no coordinate; one that turns it whole is the fifth."""
+    if isinstance(wingbeat.pitch_hinge, PitchHinge) and wingbeat.pitch_hinge.twist_share:
+        refuse_without_motion(wingbeat)
 
 
 def drift_velocities(model: FlightModel, wingbeat: Wingbeat, q: Coordinates, time: Scalar) -> WingPoints:
@@ -160,6 +168,7 @@ def _over_axes(
 ) -> Any:
     """Apply a function of q, q', time and perhaps q'' to arrays with any leading axes."""
     refuse_without_wake(model)
+    refuse_unknown_twist(wingbeat)
     moment, *rows = (jnp.asarray(a, dtype=float) for a in (time, *vectors))
     axes = jnp.broadcast_shapes(moment.shape, *(row.shape[:-1] for row in rows))
     flat = [jnp.broadcast_to(row, (*axes, 5)).reshape(-1, 5) for row in rows]
@@ -305,6 +314,7 @@ def fly_torque_driven(
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Fly as `simulate_torque_driven` does; return times (K,), q and q' (K, 5)."""
     refuse_without_wake(model)
+    refuse_unknown_twist(wingbeat)
     faults = FaultList()
     q, q_dot, when = (np.asarray(a, dtype=float) for a in (coordinates, rates, times))
     for name, value in (("coordinates", q), ("rates", q_dot)):

@@ -70,6 +70,9 @@ def rate_table(model: FlightModel, wingbeat: Wingbeat, phase: Phases, vector: in
     """Tabulate what `body_rates` needs at phases; `vector` is as in `motion_table`."""
     if wingbeat.pitch_hinge is None:
         return motion_table(model, wingbeat, phase, vector)
+    if model.wake is not None:
+        fix = "leave the lag of the wake out, or prescribe the pitch"
+        raise InvalidInputError([Fault("aero.wake", "the lag", "is not built for a wing that gives way", fix)])
     phase = jnp.asarray(phase, dtype=float)
     spread = jax.tree_util.tree_map(lambda a: jnp.broadcast_to(jnp.asarray(a, dtype=float), phase.shape), wingbeat)
     still, strips = jnp.zeros_like(phase), with_time_axes(strips_of(model.vehicle.wing, model.strips), phase)

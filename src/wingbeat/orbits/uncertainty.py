@@ -413,7 +413,7 @@ def sample_orbits(
         generator = np.random.default_rng(seed)
         deviations = np.concatenate([spread.draw(generator, count) for spread in spreads], axis=1)
     by_path = {s.parameter.path: [*s.initial_state.values(), *s.wingbeat.values()] for s in slopes}
-    predicted = unknowns + deviations @ np.array([by_path[p.path] for p in parameters])
+    predicted = unknowns + deviations @ np.reshape([by_path[p.path] for p in parameters], (-1, len(unknowns)))
     drawn = []
     for row, guess in zip(deviations.tolist(), predicted, strict=True):
         moved = problem

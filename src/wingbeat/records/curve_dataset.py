@@ -138,6 +138,8 @@ def _numbers(
 ) -> Iterator[tuple[str, str, str, Callable[[dict[str, Any]], float | None]]]:
     """Yield name, unit and meaning of each number of an optimum, and the function that reads it from a record."""
     parts = {"muscle": _OF_MUSCLE, "motor": _OF_MOTOR, "battery": tuple(OF_BATTERY)}
+    if problem.vehicle.motor is None:  # without it, a battery drives nothing
+        del parts["battery"]
     there = (names for part, names in parts.items() if getattr(problem.vehicle, part) is not None)
     hinges = hinge_names(problem.species.kind, problem.vehicle, problem.species.wingbeat)
     for name in (*_NUMBERS, *itertools.chain(*there), *hinges):

@@ -131,6 +131,8 @@ def hinge_warnings(
             centres = [part.coefficients.centre_of_pressure(alpha[:, part.strips]) for part in aero.parts]
             lever = strips_of(vehicle.wing, aero.strips).chord * (np.hstack(centres) - vehicle.wing.pitch_axis)
             normal = np.cos(alpha) * np.asarray(beat.lift) + np.sin(alpha) * np.asarray(beat.drag)
+            held = held_at(wingbeat, 0.0, 0.0, 0.0, 0.0)
+            lever = lever * np.asarray(giving_share(held, strips_of(vehicle.wing, aero.strips).span_fraction))
             most = float(np.abs(2.0 * np.sum(lever * normal, axis=1)).max())
             peak = float(np.abs(hinge.torque(*motion.T)).max())
             lost += (

@@ -35,7 +35,7 @@ from wingbeat.animal.pitch_hinge import PitchHinge
 from wingbeat.animal.species.numbers import OwnFrequency, Range, number_from
 from wingbeat.animal.species.shape import Shape
 from wingbeat.animal.species.species import Species
-from wingbeat.animal.vehicle import CHORDWISE, Air, Body, Tail, Vehicle, Wing
+from wingbeat.animal.vehicle import Air, Body, Tail, Vehicle, Wing
 from wingbeat.orbits.options import DEFAULTS, SolverOptions
 from wingbeat.orbits.problem.origin import origin_from
 from wingbeat.orbits.problem.problem import OrbitProblem
@@ -171,16 +171,12 @@ _PARTS = {"tail": Tail, "muscle": Muscle, "motor": Motor, "springs": Springs, "b
 def vehicle_record(vehicle: Vehicle) -> dict[str, Any]:
     """Return the vehicle's numbers."""
     parts = {name: getattr(vehicle, name) for name in ("body", "wing", *_PARTS)}
-    return {name: _told(part) for name, part in parts.items() if part is not None}
-
-
-def _told(part: Any) -> dict[str, Any]:
-    off = [name for name in CHORDWISE if isinstance(part, Wing) and at_default(part, name)]
-    return {name: value for name, value in _listed(part).items() if name not in off}
+    return {name: _listed(part) for name, part in parts.items() if part is not None}
 
 
 def _listed(part: Any) -> dict[str, Any]:
-    return {name: list(value) if isinstance(value, tuple) else value for name, value in vars(part).items()}
+    numbers = part.told() if isinstance(part, Wing) else vars(part)
+    return {name: list(value) if isinstance(value, tuple) else value for name, value in numbers.items()}
 
 
 def vehicle_from(record: dict[str, Any]) -> Vehicle:
@@ -198,7 +194,7 @@ def wingbeat_record(wingbeat: Wingbeat) -> dict[str, Any]:
     hinge = wingbeat.pitch_hinge
     if hinge is None:
         return {name: value for name, value in _listed(wingbeat).items() if name not in (*left_out, "pitch_hinge")}
-    left_out += PITCH_LAW if hinge.moves_root else ()
+    left_out += (*PITCH_LAW, "pitch_harmonics") if hinge.moves_root else ()
     listed = {name: value for name, value in _listed(wingbeat).items() if name not in left_out}
     del listed["pitch_hinge"]
     return listed | {f"{_HINGE}{name}": value for name, value in vars(hinge).items()}

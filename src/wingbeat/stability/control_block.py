@@ -45,12 +45,21 @@ _USE_OF_READINGS = (
 )
 
 
+# Segments whose lengths differ by less than this share of a beat are samples of a clock.
+_UNEVEN = 1e-9
+
+
 def block_of(record: dict[str, Any]) -> dict[str, Any]:
     """Return the block of a record of feedback within a beat: arrays by name, and what they are for.
 
     Theory: equation ``control-block``.
     """
     gains, order = np.array(record["gains"]), _STATES
+    if np.ptp(np.diff(record["phases"])) > _UNEVEN:
+        faults = FaultList()
+        fix = "give a sample_rate (--sample-rate), or a delay_time"
+        faults.add("segments", len(gains), "divide this beat unevenly in time, as no clock does", fix)
+        faults.raise_if_any()
     limits = [[record[end][name] for name in record["inputs"]] for end in ("lower", "upper")]
     speeds = [record["servo_speed"][name] for name in record["inputs"]] if record["held"] else []
     largest = [None if speed is None else speed / record["sample_rate"] for speed in speeds]
@@ -64,8 +73,8 @@ def block_of(record: dict[str, Any]) -> dict[str, Any]:
         "path": np.array(record["path"])[:-1],
         "gains_of_state": gains[:, :, :order],
         "gains_of_memory": gains[:, :, order:],
-        "memory": np.array(record["memory"]["matrix"]),
-        "input": np.array(record["memory"]["input"]),
+        "memory": np.reshape(record["memory"]["matrix"], (gains.shape[2] - order,) * 2),
+        "input": np.reshape(record["memory"]["input"], (gains.shape[2] - order, len(record["inputs"]))),
         "largest_step": largest,
         "lower": np.array(limits[0]),
         "upper": np.array(limits[1]),
@@ -208,7 +217,16 @@ class ServoDriver:
         time : at the start of the step [s]; steps follow each other, and each sample starts one.
         step : its length [s].
         state : at its start.
+
+        Raises
+        ------
+        InvalidInputError : a step that does not divide a sample.
         """
+        if abs(self._period / step - round(self._period / step)) > 1e-6:
+            faults, each = FaultList(), self._block["samples"]
+            fix = f"take a multiple of {each} a beat, such as MujocoFlight(orbit, steps={each * (256 // each)})"
+            faults.add("steps", step, "do not divide the controller's samples", fix)
+            faults.raise_if_any()
         if time >= len(self.commands) * self._period - 1e-9:
             self.command(state)
         late, end = self._block["delay_time"], time + step

@@ -17,7 +17,7 @@ from wingbeat.orbits.flight.period import PITCH_STATE
 from wingbeat.orbits.options import check_certified
 from wingbeat.results.flight import Flight, simulate
 from wingbeat.stability.beat_feedback import Feedback, feedback
-from wingbeat.stability.options import FEEDBACK, MANY, ManyOptions, check_no_hinge, check_no_wake
+from wingbeat.stability.options import FEEDBACK, MANY, ManyOptions, check_no_wake
 from wingbeat.stability.reports import beats_of
 from wingbeat.stability.segment_feedback import SegmentFeedback
 from wingbeat.viewer.scene import Push
@@ -91,9 +91,10 @@ def fly_gust(
         return _within_beats(feedback, wind, beats, noise, seed, options)
     controller = None if feedback is None else feedback.controller(noise, seed, late=late)
     model, beat, start = orbit.problem.model, orbit.wingbeat, orbit.initial_state
-    species = orbit.problem.species
-    flown = simulate(model, beat, start, beats, SAMPLES, wind=wind, controller=controller, species=species)
-    path = simulate(model, beat, start, 1, SAMPLES).states[:-1, 2]
+    species, hinge = orbit.problem.species, orbit.record().get("hinge_start")
+    given = {"wind": wind, "controller": controller, "species": species, "hinge": hinge}
+    flown = simulate(model, beat, start, beats, SAMPLES, **given)
+    path = simulate(model, beat, start, 1, SAMPLES, hinge=hinge).states[:-1, 2]
     pitch = flown.states[:, 2] - np.append(np.tile(path, beats), path[0])
     tops = flown.states[::SAMPLES]
     height = tops[:, 1] - float(start.z) - float(orbit.inputs["climb"]) * flown.time[::SAMPLES]
@@ -172,7 +173,6 @@ def fly_pushes(
         faults.number("sizes", size, above=0, unit="m/s")
     check_certified(faults, orbit.status, "solve it again with more starts")
     check_no_wake(faults, orbit.problem.aero.wake)
-    check_no_hinge(faults, orbit.wingbeat)
     faults.raise_if_any()
     held: list[Feedback | None] = [None] if delay is None else [None, feedback(orbit, delay=delay)]
     asked = list(itertools.product(directions, sizes, held))

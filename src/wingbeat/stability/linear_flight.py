@@ -291,9 +291,11 @@ class LinearFlight(Reported):
         faults.whole("index", index, 0, len(self.modes) - 1)
         faults.number("size", size)
         faults.raise_if_any()
-        start, problem = np.array(self.orbit.initial_state), self.orbit.problem
-        start[2:] += size * np.real(self.modes[index].disturbance[:4])
-        return simulate(problem.model, self.orbit.wingbeat, State(*start.tolist()), beats, species=problem.species)
+        orbit, moved = self.orbit, size * np.real(self.modes[index].disturbance)
+        start, hinge = np.array(orbit.initial_state), orbit.hinge_start + moved[4:]
+        start[2:] += moved[:4]
+        own = {"species": orbit.problem.species, "hinge": hinge if hinge.size else None}
+        return simulate(orbit.problem.model, orbit.wingbeat, State(*start.tolist()), beats, **own)
 
     def to_control(self) -> control.StateSpace:
         """Return the linear flight as a state space of the library python-control; needs the extra ``control``.

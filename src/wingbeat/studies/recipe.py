@@ -321,6 +321,8 @@ def makers_of(form: StudyForm, folder: Path) -> dict[str, tuple[tuple[str, ...],
         if "hand" in given:
             given["hand"] = load_hand(_beside(given["hand"], folder, (*POLAR_SUFFIXES, ".toml")), *reach)
         arm = load_coefficients(_beside(name, folder, (*POLAR_SUFFIXES, ".toml")), *reach)
+        if "force_point" not in chosen and animal(species, model).wingbeat.pitch_hinge is not None:
+            given["force_point"] = "centre-of-pressure"  # as in any problem of a wing that it turns
         return dataclasses.replace(own, coefficients=arm, **given)
 
     def objective(species: str, model: str, name: str) -> dict[str, str]:

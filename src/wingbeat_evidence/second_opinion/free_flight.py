@@ -19,6 +19,7 @@ from wingbeat.aero.blade_element import BladeElement
 from wingbeat.animal.kinematics import Wingbeat, flap_angle, pitch_angle
 from wingbeat.mechanics.flight_loads import carried_loads
 from wingbeat.mechanics.flight_model import FlightModel, State
+from wingbeat.mechanics.state_rates import refuse_without_motion
 from wingbeat.mechanics.strip_air import body_air
 from wingbeat.mechanics.wing_points import wing_points
 from wingbeat.mechanics.wing_shape import from_world, strips_of, tail_tilt, to_world
@@ -71,11 +72,12 @@ def as_rigid_body(model: FlightModel, aero: BladeElement, motion: Motion, steps:
     Parameters
     ----------
     model, aero : without the lag of the wake.
-    motion : of the flight.
+    motion : of the flight; its wing's pitch is prescribed.
     steps : number of phases of a beat.
     """
     phase = np.arange(steps + 1) / steps
     wingbeat, vehicle = motion.wingbeat, model.vehicle
+    refuse_without_motion(wingbeat)
     state, rates = motion.state(phase), motion.acceleration(phase)
     loads, _ = carried_loads(
         model, wingbeat, State(*map(jnp.asarray, state)), jnp.asarray(phase), jnp.asarray(rates)

@@ -17,7 +17,6 @@ from wingbeat._base import (
     plain_unit,
     suggest,
 )
-from wingbeat._jax.arrays import at_default
 from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat
 from wingbeat.animal.species.building import (
     BODY,
@@ -61,7 +60,7 @@ from wingbeat.animal.species.numbers import (
 from wingbeat.animal.species.report import species_report
 from wingbeat.animal.species.scaling import frequencies_by_law, muscle_numbers, tail_numbers
 from wingbeat.animal.species.shape import Shape
-from wingbeat.animal.vehicle import CHORDWISE, Air, Vehicle
+from wingbeat.animal.vehicle import Air, Vehicle
 
 MUSCLE = "muscle"  # the alternative with measured masses of the flight muscle
 
@@ -122,7 +121,8 @@ class Species(Reported):
     @property
     def carried_mass(self) -> float:
         """What a payload, or a mass set by hand, adds to the animal's own mass [kg]."""
-        return 0.0 if self.own_mass is None else self.vehicle.mass - self.own_mass
+        own, whole = self.own_mass, self.vehicle.mass
+        return 0.0 if own is None or math.isclose(whole, own, rel_tol=1e-12) else whole - own
 
     def own_frequency(self, speed: float) -> OwnFrequency:
         """Return the frequency at which the animal beats at a flight speed, with its band, basis and source.
@@ -255,23 +255,25 @@ class Species(Reported):
         ------
         InvalidInputError : a name that is no parameter of the wingbeat, or one without a plausible range.
         """
-        faults, bounds, guessed, names = FaultList(), dict(self.bounds), {}, [free_name(name) for name in names]
-        for name in names:
+        faults, bounds, guessed = FaultList(), dict(self.bounds), set[str]()
+        for name in (names := [free_name(name) for name in names]):
             known = self.plausible_range(name, 0.0) if name in FREE_NAMES else None
             if known is None:
                 faults.add("free", name, "is no parameter that can be free", suggest(name, FREE_NAMES))
             elif known.low is not None and known.high is not None:
                 bounds.setdefault(name, (known.low, known.high))
+            elif name in bounds:
+                continue
             elif guess := guessed_hinge_range(name, self.wingbeat.pitch_hinge):
-                guessed[name] = bounds.setdefault(name, guess)
+                guessed.add(name)
+                bounds[name] = guess
             else:
                 faults.add("free", name, "has no plausible range", "give it and its range in the species file")
         faults.raise_if_any()
         added = tuple(name for name in dict.fromkeys(names) if name not in self.free)
-        reason = "the plausible range of the species file"
-        reasons = self.reasons | {name: reason for name in added if name not in self.bounds}
-        reasons |= dict.fromkeys(guessed, "a guess about the hinge's own number")
-        own = {"bounds": bounds, "reasons": reasons, "guessed_bounds": self.guessed_bounds | {*guessed}}
+        reasons = {name: "the plausible range of the species file" for name in added if name not in self.bounds}
+        reasons = self.reasons | reasons | dict.fromkeys(guessed, "a guess about the hinge's own number")
+        own = {"bounds": bounds, "reasons": reasons, "guessed_bounds": self.guessed_bounds | guessed}
         return dataclasses.replace(self, free=(*self.free, *added), **own)
 
     def is_set_by_hand(self, path: str) -> bool:
@@ -442,9 +444,7 @@ class Species(Reported):
         for record in ("vehicle", "wingbeat", "air"):
             plain[record] = dataclasses.asdict(plain[record])
         plain["vehicle"] = {part: record for part, record in plain["vehicle"].items() if record is not None}
-        for name in CHORDWISE:
-            if at_default(self.vehicle.wing, name):
-                del plain["vehicle"]["wing"][name]
+        plain["vehicle"]["wing"] = self.vehicle.wing.told()
         plain["guessed_bounds"] = sorted(self.guessed_bounds)
         plain["shape"] = self.shape and self.shape.drawn() | {"numbers": self.shape.numbers}
         return jsonable(plain)

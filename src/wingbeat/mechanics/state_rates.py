@@ -48,7 +48,7 @@ from wingbeat.mechanics.wing_shape import (
 )
 
 if TYPE_CHECKING:
-    from wingbeat._jax.arrays import FlightState, PerStrip, Phases, PhasesPair
+    from wingbeat._jax.arrays import FlightState, PerStrip, Phases, PhasesPair, Scalar
 
 HINGE_STATE = ("hinge_angle", "hinge_rate")
 
@@ -147,6 +147,25 @@ def _rates_with_hinge(model: FlightModel, tables: _GivingTables, state: FlightSt
     forward, up, turning = (a + acceleration * b for a, b in zip(free, pushed, strict=True))
     ax, az = to_world(attitude, forward, up)
     return jnp.stack([pitch_rate, ax, az, turning, rate, acceleration])
+
+
+def acceleration_on_stand(
+    model: FlightModel, stroke: GivingStroke, angle: Phases, rate: Phases, speed: Scalar = 0.0
+) -> Phases:
+    """Return the hinge's acceleration where a stand holds the body, at zero pitch, in wind of `speed` from ahead.
+
+    Theory: equation ``hinge-balance``, with the body's accelerations 0.
+    """
+    motion, along, inertia, hinge = _tables(model, stroke, angle, rate)
+    still = jnp.zeros_like(angle)
+    attitude = stroke_attitude(model.vehicle.wing, motion, still)
+    velocity = velocity_at_wings(model, attitude, still + speed, still)
+    strips = loads_of_strips(model, motion, velocity, still, None)
+    moments = strip_moments(model, motion, strips) if model.at_centre_of_pressure else 0.0
+    weight = from_world(attitude, 0.0, model.air.gravity)
+    held = (still, still, still)
+    needed = required_force(model, along, strips, moments, velocity, still, weight, still, held)
+    return (hinge.torque(angle, rate) - sum(needed)) / inertia
 
 
 def slopes_with_hinge(model: FlightModel, stroke: GivingStroke, state: FlightState, changes: GivingStroke) -> Any:

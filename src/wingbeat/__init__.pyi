@@ -97,6 +97,8 @@ from .results.spread import Spread as Spread
 from .results.spread import orbit_spread as orbit_spread
 from .results.terms import TermTrace as TermTrace
 from .results.terms import trace_terms as trace_terms
+from .results.wing_on_stand import StandBeat as StandBeat
+from .results.wing_on_stand import wing_on_stand as wing_on_stand
 from .stability import Feedback as Feedback
 from .stability import FeedbackController as FeedbackController
 from .stability import FeedbackOptions as FeedbackOptions

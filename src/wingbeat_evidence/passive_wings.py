@@ -1,4 +1,4 @@
-"""Published wings whose pitch is passive, on a stand, from their own numbers: amplitude and phase beside the measured."""
+"""Published wings whose pitch is passive, flown on a stand from their own numbers, and their measured pitch."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import numpy as np
 from wingbeat.aero import BladeElement, Dickinson, TableCoefficients
 from wingbeat.animal.kinematics import PitchHinge, Wingbeat
 from wingbeat.animal.vehicle import Air, Body, Vehicle, Wing
-from wingbeat.experiment import StandBeat, wing_on_stand
+from wingbeat.results.wing_on_stand import StandBeat, wing_on_stand
 
 AMPLITUDE_LIMIT, PHASE_LIMIT = 0.25, 20.0  # a ratio, and degrees: the agreement that was asked for
 MODELS = ("su-fan", "dickinson")
@@ -46,7 +46,8 @@ class Flown:
 @cache
 def passive_wings() -> dict[str, Any]:
     """Return the list of wings, cases and guesses."""
-    return tomllib.loads(resources.files(__package__).joinpath("data/passive_wings.toml").read_text("utf-8"))
+    file = resources.files("wingbeat_evidence").joinpath("data/passive_wings.toml")
+    return tomllib.loads(file.read_text("utf-8"))
 
 
 def coefficients(model: str) -> Any:
@@ -86,11 +87,23 @@ def measured(case: dict[str, Any]) -> Measured:
     return Measured(float(abs(first)), None, float(np.degrees(np.angle(first))))
 
 
+def projected_peak(case: dict[str, Any]) -> float | None:
+    """Return the peak pitch of photographed spars [deg] by the projection that reads the films.
+
+    A point at x behind the axis is seen at x sin(pitch), so tan(seen) = tan(spar) sin(pitch). The authors' formula
+    for the photographs, cos(pitch) = 1 - tan(seen)/tan(spar), is another.
+    """
+    if "spars_deg" not in case:
+        return None
+    seen, spar = np.radians(case["spars_deg"]).T
+    return float(np.mean(np.degrees(np.arcsin(np.tan(seen) / np.tan(spar)))))
+
+
 def flap_law(case: dict[str, Any]) -> dict[str, Any]:
     """Return the measured flap as the numbers of a wingbeat, with three harmonics where it was filmed."""
     if "flap_deg" not in case:
         return {"flap_amplitude": np.radians(case["flap_amplitude_deg"]).item()}
-    found = np.radians(harmonics(case["flap_deg"], film_phase(case))[1])
+    found = np.pi / 180 * harmonics(case["flap_deg"], film_phase(case))[1]
     rest = tuple(float(part) for one in found[1:] for part in (one.real, -one.imag))
     return {"flap_amplitude": float(abs(found[0])), "flap_harmonics": rest}
 
@@ -103,7 +116,9 @@ def fly(case: dict[str, Any], model: str, *, aero: Any = None, unsteady: bool = 
     hinge = PitchHinge(2 * numbers["stiffness"], 2 * numbers["damping"])
     law = {"flap_mean": 0.0, "pitch_mean": 0.0, "pitch_amplitude": 0.0} | flap_law(case)
     terms = "thin-aerofoil" if unsteady else "none"
-    element = BladeElement(coefficients(model) if aero is None else aero, force_point="centre-of-pressure", strips=20)
+    element = BladeElement(
+        coefficients(model) if aero is None else aero, force_point="centre-of-pressure", strips=20
+    )
     vehicle = Vehicle(Body(1.0, 1.0), wing)
     wingbeat = Wingbeat(case["frequency"], pitch_hinge=hinge, **law)
     stroke = wing_on_stand(vehicle, wingbeat, replace(element, unsteady=terms), Air())
@@ -120,4 +135,6 @@ def reynolds(case: dict[str, Any]) -> float:
     """Return the Reynolds number of a case by chord and mean speed at the radius of gyration of the area."""
     wing = passive_wings()[case["wing"]]
     radius = wing["semi_span"] / np.sqrt(3)
-    return float(4 * flap_law(case)["flap_amplitude"] * case["frequency"] * radius * wing["chord"] / Air().viscosity)
+    return float(
+        4 * flap_law(case)["flap_amplitude"] * case["frequency"] * radius * wing["chord"] / Air().viscosity
+    )

@@ -33,5 +33,3 @@ from .tracked_points import read_points as read_points
 from .wing_fit import WingFit as WingFit
 from .wing_fit import draw as draw
 from .wing_fit import fit_wing as fit_wing
-from .wing_on_stand import StandBeat as StandBeat
-from .wing_on_stand import wing_on_stand as wing_on_stand

@@ -12,7 +12,7 @@ from wingbeat._jax.arrays import jax, jnp
 from wingbeat.animal.kinematics import PitchHinge, Wingbeat, flap_angle
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import FlightModel
-from wingbeat.mechanics.state_rates import acceleration_on_stand, rate_table
+from wingbeat.mechanics.state_rates import GivingStroke, acceleration_on_stand, rate_table
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -59,11 +59,12 @@ class StandBeat:
 
 @jax.jit
 def _stroke(model: FlightModel, wingbeat: Wingbeat, start: Any, speed: Any, phase: Any) -> Any:
-    """Return angle and rate at the start of each step and at the end, (N + 1, 2), by the classical Runge-Kutta rule."""
+    """Return angle and rate at each step and the end, (N + 1, 2), by the classical Runge-Kutta rule."""
     step = 1 / (wingbeat.frequency * phase.size)
 
     def rates(at: Any, state: Any) -> Any:
         stroke = rate_table(model, wingbeat, at[None])
+        assert isinstance(stroke, GivingStroke)
         return jnp.stack([state[1], acceleration_on_stand(model, stroke, state[:1], state[1:], speed)[0]])
 
     def advance(state: Any, at: Any) -> Any:
@@ -83,8 +84,8 @@ def wing_on_stand(
 ) -> StandBeat:
     """Return the periodic stroke of a wing with a passive pitch hinge while a stand holds the body.
 
-    The wing starts at the hinge's rest angle and flaps until it settles; Newton's method closes the stroke. The body
-    is held at zero pitch, in still air or in a wind tunnel.
+    The wing starts at the hinge's rest angle and flaps until it settles; Newton's method closes the stroke. The
+    body is held at zero pitch, in still air or in a wind tunnel.
 
     Parameters
     ----------
@@ -111,7 +112,7 @@ def wing_on_stand(
     >>> hinge = wb.PitchHinge(stiffness=1.4, damping=0.017)
     >>> wingbeat = wb.Wingbeat(6.0, 0.0, 0.6, 0.0, 0.0, pitch_hinge=hinge)
     >>> aero = wb.aero.BladeElement("su-fan", force_point="centre-of-pressure")
-    >>> stroke = wb.experiment.wing_on_stand(robot.vehicle, wingbeat, aero, speed=8.0)
+    >>> stroke = wb.wing_on_stand(robot.vehicle, wingbeat, aero, speed=8.0)
     >>> stroke.settled
     True
     """

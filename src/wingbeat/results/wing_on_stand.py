@@ -32,6 +32,13 @@ class StandBeat:
     hinge_rate : there [rad/s], (N,).
     multipliers : Floquet multipliers of the hinge, (2,).
     settled : whether the wing comes to this stroke by itself: all multipliers lie inside the unit circle.
+
+    >>> import numpy as np
+    >>> phase = np.arange(8) / 8
+    >>> flap, pitch = 0.6 * np.cos(2 * np.pi * phase), -0.4 * np.sin(2 * np.pi * phase)
+    >>> beat = StandBeat(phase, flap, pitch, np.zeros(8), np.array([0.1, 0.2j]))
+    >>> round(beat.amplitude, 3), round(float(np.degrees(beat.lead)), 1), beat.settled
+    (0.4, 90.0, True)
     """
 
     phase: NDArray[np.float64]

@@ -15,6 +15,7 @@ from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import fly_through
 from wingbeat.orbits.flight.period import STEPS, flier
 from wingbeat.orbits.nlp.transcription import Transcription
+from wingbeat.orbits.problem.parameters import parameters_of
 from wingbeat.studies.stopping import Stop
 
 pytestmark = pytest.mark.slow
@@ -176,6 +177,30 @@ def test_sensitivities_to_spring_and_damper_are_those_of_orbits_solved_anew():
             powers.append(solved.record()["mean_positive_power"])
         wanted = (powers[0] - powers[1]) / (2 * step)
         assert slopes[path].objective == pytest.approx(wanted, rel=0.02)
+
+
+def test_axis_and_mass_centre_are_uncertain_also_where_the_species_file_is_silent():
+    orbit = orbit_of()
+    found, step = wb.sensitivities(orbit), 0.01
+    slopes = {one.parameter.path: one for one in found.slopes}
+    for path, value, ends in (("wing.pitch_axis", 0.25, (0.15, 0.35)), ("wing.mass_axis", 0.5, (0.4, 0.6))):
+        own, powers = slopes[path].parameter, []
+        assert own.guessed
+        assert own.plausible == pytest.approx(ends)
+        assert sum(path in line and "a guess" in line for line in found.guesses) == 1
+        for side in (1, -1):
+            solved = wb.solve_orbit(problem(numbers={path: value + side * step}), starts=1, start=orbit)
+            powers.append(solved.record()["mean_positive_power"])
+        wanted = (powers[0] - powers[1]) / (2 * step)
+        assert slopes[path].objective == pytest.approx(wanted, rel=0.05)
+        assert found.error_bar("mean_positive_power").due_to[path] > 0
+
+
+def test_a_wing_that_does_not_give_way_or_whose_axis_is_given_has_no_guessed_range():
+    pigeon = wb.OrbitProblem(wb.load_species("pigeon"), speed=10.0)
+    given = problem(numbers={"wing.pitch_axis": 0.3})
+    assert not any(one.guessed or one.path == "wing.pitch_axis" for one in parameters_of(pigeon))
+    assert [one.path for one in parameters_of(given) if one.guessed] == ["wing.mass_axis"]
 
 
 def test_error_bars_of_first_order_are_those_of_orbits_drawn():

@@ -115,6 +115,8 @@ def uncertainty(
             for name in names:
                 told = in_words(found.error_bar(name, fit, share))
                 console.print(f"  {told}{where}", markup=False, highlight=False, soft_wrap=True)
+    for guess in dict.fromkeys(line for found in slopes for line in found.guesses):
+        Console(stderr=True).print(guess, markup=False, highlight=False, soft_wrap=True)
     processes = max(1, min(core_count(), samples // 200))  # one takes as long to start as some hundred draws
     drawing = names, samples, seed, fit, share, processes
     if against is not None:

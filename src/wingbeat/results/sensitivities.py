@@ -158,6 +158,16 @@ class Sensitivities(Reported):
         return rows
 
     @property
+    def guesses(self) -> tuple[str, ...]:
+        """A line for each range that is drawn from by a guess, because the species file is silent."""
+        return tuple(
+            f"{own.path} is not in the species file: drawn from {own.plausible[0]:.3g} to {own.plausible[1]:.3g} "
+            "chords, a guess, because it matters to a hinge as much as the stiffness; give it with its range"
+            for own in (slope.parameter for slope in self.slopes)
+            if own.guessed and own.plausible
+        )
+
+    @property
     def limited(self) -> frozenset[str]:
         """Names of the quantities and parameters that an active bound or limit of their own has set."""
         names = (price.parameter.path.partition(".")[2] for price in self.prices)
@@ -310,12 +320,14 @@ def influence_report(found: Sensitivities, bars: Sequence[ErrorBar] | None = Non
     for slope in found.ranked(names[0])[:_MOST]:
         ends = slope.parameter.plausible
         plausible = "+-1 %" if ends is None else "{:.3g} to {:.3g}".format(*ends)
+        plausible += " (a guess)" if slope.parameter.guessed else ""
         swings = ["{:+.2g}, {:+.2g}".format(*found.swing(slope, name)) for name in names]
         rows.append(Row((slope.parameter.path, plausible, *swings)))
     prices = [f"  {price_in_words(price, found)}" for price in found.prices] or ["  none is active"]
     return [
         Line("sensitivities: a first-order ranking, not an error bar", tone="title"),
         *(Line(f"  {ranked_in_words(bar)}") for bar in bars),
+        *(Line(f"  {guess}", tone="warning") for guess in found.guesses),
         Line("  for error bars run `wingbeat uncertainty`"),
         Line(""),
         Line("change at the low and high end of each range, extrapolated linearly: for ranking only", tone="title"),

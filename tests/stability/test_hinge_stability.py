@@ -1,9 +1,18 @@
 """Stability, gusts and feedback of a wing whose pitch gives way."""
 
+import functools
+import json
+import math
+
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import wingbeat as wb
+from tests.helpers.coefficients import coefficients
+from tests.helpers.hinge_oracle import HingedFlier, accelerations
+from wingbeat._jax.arrays import jax
+from wingbeat.animal.kinematics import with_parameters
 from wingbeat.mechanics.flights import fly_through
 
 pytestmark = pytest.mark.slow
@@ -53,9 +62,111 @@ def test_feedback_that_does_not_know_the_hinge_holds_the_robot_in_gusts(orbit):
 
 
 def test_what_does_not_know_the_hinge_says_so(orbit):
-    for asked in (lambda: wb.feedback_in_beat(orbit), lambda: wb.manoeuvre(orbit, [8.0, 9.0])):
-        with pytest.raises(wb.InvalidInputError, match="gives way"):
-            asked()
+    with pytest.raises(wb.InvalidInputError, match="gives way"):
+        wb.manoeuvre(orbit, [8.0, 9.0])
+
+
+# --- several times a beat ---
+
+
+@pytest.mark.parametrize("law", ["pitch", "tail", "rest"])
+def test_a_servo_needs_something_to_move(orbit, law):
+    with pytest.raises(wb.InvalidInputError, match=f"servos = '{law}'"):
+        wb.feedback_in_beat(orbit, servos={law: wb.Servo(speed=10.0)})
+
+
+def test_bumps_of_the_flap_are_those_of_the_adaptive_integrator(orbit):
+    """The oracle flies the bumps as mean and cosine of order 4, without the feedback's program."""
+    held = wb.feedback_in_beat(orbit, 4)
+    assert held.laws == ("flap",)
+    assert held.spectral_radius < 1.0
+    start = wb.State(*np.add(orbit.initial_state, [0, 0, 0.05, 0.2, 0.3, 0.5]).tolist())
+    flown, beat = held.fly((0.0, 0.0), 2, start=start), orbit.wingbeat
+    assert np.abs(flown.bumps).max() > 0.01
+    state = np.append(np.array(start), orbit.hinge_start)
+    for j, (height,) in enumerate(flown.bumps):
+        changes = {"flap_mean": beat.flap_mean + height / 2, "flap_cos_4": -height / 2}
+        moved, phases = with_parameters(beat, changes), np.linspace(j % 4 / 4, (j % 4 + 1) / 4, 5)
+        state = fly_through(orbit.problem.model, moved, wb.State(*state[:6]), phases, wake=(state[6:],))[0][-1]
+        np.testing.assert_allclose(flown.states[j + 1], state, atol=2e-3)
+
+
+@pytest.fixture(scope="module")
+def both(orbit):
+    """Servos of flap and springs, twelve samples a beat, 1.3 of them late."""
+    period, servo = 1 / orbit.wingbeat.frequency, wb.Servo(bandwidth=10.0)
+    servos = {"flap": servo, "rest_angle": servo}
+    return wb.feedback_in_beat(orbit, 12, delay_time=1.3 * period / 12, servos=servos)
+
+
+def test_maps_are_those_of_differences_of_flights(orbit, both):
+    assert both.measured == ("z", "body_pitch", "u", "w", "pitch_rate", "hinge_angle", "hinge_rate")
+    assert both.state[7:9] == ("flap servo", "rest_angle servo")
+    moved = np.array([0.0, 1e-4, 1e-3, -1e-3, 2e-3])
+    start = wb.State(*(np.array(orbit.initial_state) + np.append(0.0, moved)).tolist())
+    flown, calm = both.fly((0.0, 0.0), 1, start=start), both.fly((0.0, 0.0), 1)
+    state = np.append(moved, np.zeros(len(both.state) - 5))
+    scales = np.array([0.2, 0.1, 1.0, 1.0, 2.0, 0.1, 4.0])
+    for j in range(12):
+        command = -both.gains[j] @ state
+        state = both.A[j] @ state + both.B[j] @ command
+        away = flown.deviations[j + 1] - calm.deviations[j + 1]
+        assert np.abs((away - state[:7]) / scales).max() < 5e-5
+    assert np.abs(flown.bumps[:, 1] - calm.bumps[:, 1]).max() > 1e-5
+
+
+def test_a_servo_of_the_springs_is_that_of_the_lagrangian(orbit):
+    """SciPy flies the equations of the mass points; the servo's angle is added to the rest angle of the springs."""
+    servo, beat, model = wb.Servo(bandwidth=10.0), orbit.wingbeat, orbit.problem.model
+    held = wb.feedback_in_beat(orbit, 12, servos={"rest_angle": servo})
+    start = wb.State(*np.add(orbit.initial_state, [0, 0, 0.05, 0.2, 0.3, 0.5]).tolist())
+    flown = held.fly((0.0, 0.0), 1, start=start)
+    assert np.abs(flown.angles[:3]).max() > 0.01
+    vehicle = {part: vars(one) for part, one in vars(model.vehicle).items() if one is not None}
+    three = jax.jit(functools.partial(coefficients, model.kernel))
+    hinge, pace, sample = vars(beat.pitch_hinge), 2 * math.pi * 10.0, 1 / beat.frequency / 12
+    state, angle = np.append(np.array(start), orbit.hinge_start), 0.0  # x z psi u w q theta theta'
+    for j in range(3):
+        aim, first = flown.bumps[j, 0], angle
+
+        def rates(time, at, j=j, aim=aim, first=first):
+            turned = aim + (first - aim) * math.exp(-pace * (time - j * sample))
+            springs = hinge | {"rest_angle": hinge["rest_angle"] + turned}
+            flier = HingedFlier(
+                vehicle, vars(beat), springs, vars(model.air), lambda a: np.array(three(a)), model.strips
+            )
+            found = accelerations(flier, at[[0, 1, 2, 6]], at[[3, 4, 5, 7]], time * beat.frequency)
+            return np.array([*at[3:6], *found[:3], at[7], found[3]])
+
+        state = solve_ivp(rates, (j * sample, (j + 1) * sample), state, rtol=1e-7, atol=1e-9).y[:, -1]
+        angle = aim + (first - aim) * math.exp(-pace * sample)
+        np.testing.assert_allclose(flown.states[j + 1], state, atol=2e-3)
+        assert flown.angles[j, 0] == pytest.approx(angle, abs=1e-7)
+
+
+def test_the_robot_survives_gusts_with_delay_and_a_servo_and_an_imu(orbit):
+    servo = wb.Servo(speed=math.radians(600))
+    imu = wb.Imu(gyro=0.01, accelerometer=0.3, gyro_bias=0.02, accelerometer_bias=0.2, height=0.1)
+    asked = {"sample_rate": 100.0, "delay_time": 0.01, "servos": servo}
+    held = {"state": wb.feedback_in_beat(orbit, **asked), "imu": wb.feedback_in_beat(orbit, **asked, imu=imu)}
+    assert "count as measured" in held["state"].summary()
+    assert "count as measured" not in held["imu"].summary()
+    found = wb.survey_gusts(orbit, {"free": None, **held}, flights=40, size=3.0, seed=1)
+    assert min(found.share("state"), found.share("imu")) > 0.95 > found.share("free")
+
+
+def test_the_block_of_equations_gives_the_commands_of_flights(both, tmp_path):
+    both.save(tmp_path / "controller.json")
+    block = json.loads((tmp_path / "controller.json").read_text())
+    flown = both.fly(wb.winds.CosineGust(w=1.0, duration=0.2), 2)
+    memory = np.zeros(len(block["memory"]))
+    for j in range(24):
+        gains = np.hstack([block["gains_of_state"][j % 12], block["gains_of_memory"][j % 12]])
+        command = np.clip(-gains @ np.append(flown.deviations[j], memory), block["lower"], block["upper"])
+        np.testing.assert_allclose(command, flown.bumps[j], atol=1e-6)
+        memory = np.array(block["memory"]) @ memory + np.array(block["input"]) @ command
+    with pytest.raises(wb.InvalidInputError, match="MuJoCo"):
+        both.driver()
 
 
 def test_a_gust_flight_starts_with_the_orbits_hinge(orbit):

@@ -8,7 +8,7 @@ import pytest
 import wingbeat as wb
 from wingbeat.animal.kinematics import flap_angle, pitch_angle, with_parameters
 from wingbeat.mechanics.flights import fly_through
-from wingbeat.stability.segment_feedback import _phases_of
+from wingbeat.stability.real_time import _phases_of
 
 SCALES = np.array([0.2, 0.1, 1.0, 1.0, 2.0])
 SEGMENTS = 4

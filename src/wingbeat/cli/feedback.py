@@ -21,6 +21,7 @@ from wingbeat.cli.arguments import (
 )
 from wingbeat.cli.problem_options import Gust, Turbulence, WindSeed, saved_orbit, wind_of
 from wingbeat.cli.terminal import deliver, plain_console, print_report, progress_bar
+from wingbeat.mechanics.state_rates import HINGE_STATE
 from wingbeat.plots import gust_page
 from wingbeat.records.judgements import conditions_of
 from wingbeat.stability.beat_feedback import Feedback
@@ -32,7 +33,7 @@ from wingbeat.stability.many_flights import MOST_FLIGHTS, GustSurvey, survey_gus
 from wingbeat.stability.options import MOST_DELAY, check_delay, check_inputs, check_noise
 from wingbeat.stability.reports import STATE_UNITS, beats_of, feedback_report, segment_report, survey_report
 from wingbeat.stability.segment_feedback import SegmentFeedback, feedback_in_beat
-from wingbeat.stability.servos import SERVO_LAWS, Servo, check_timing
+from wingbeat.stability.servos import SERVOED, Servo, check_timing
 
 FREE, HELD = "no feedback", "feedback"
 # The gust that is flown if none is given: upward at 2 m/s, for 0.3 s.
@@ -73,7 +74,8 @@ def feedback(
         list[str] | None,
         several(
             "The same, by servos that hold their commands: speed_deg=600 bandwidth=5 lower_deg=-12 upper_deg=8 "
-            "[deg/s, Hz, deg]; flap.speed_deg=600 for one of flap and pitch. If only one is named, only it moves."
+            "[deg/s, Hz, deg]; flap.speed_deg=600 for one of flap, pitch, tail, and rest_angle of a "
+            "hinge's springs. Only those move that are named."
         ),
     ] = None,
     imu: Annotated[
@@ -132,8 +134,9 @@ def feedback(
         faults.add("ORBIT", str(source), "is not a saved orbit", "save one with wingbeat orbit ... -o orbit.nc")
     faults.whole("--beats", beats, 1, 10_000)
     faults.whole("--survey", survey, 0, MOST_FLIGHTS)
-    errors = named_numbers(faults, "--noise", noise, tuple(STATE_UNITS), "body_pitch=0.01")
-    check_noise(faults, errors, tuple(STATE_UNITS), seed)
+    measured = (*STATE_UNITS, *HINGE_STATE)
+    errors = named_numbers(faults, "--noise", noise, measured, "body_pitch=0.01")
+    check_noise(faults, errors, measured, seed)
     check_delay(faults, delay)
     faults.whole("late", late, 0, MOST_DELAY)
     faults.number("--largest-gust", largest_gust, above=0.0, unit="m/s")
@@ -192,15 +195,15 @@ def feedback(
 
 
 def _servos(faults: FaultList, words: list[str] | None) -> Servo | dict[str, Servo] | None:
-    """Return the servos of words such as ``pitch.speed_deg=600``; those without a law are for both."""
+    """Return the servos of words such as ``pitch.speed_deg=600``; one alone if no law is named."""
     if words is None:
         return None
     names = ("speed_deg", "bandwidth", "lower_deg", "upper_deg")
-    known = (*names, *(f"{law}.{name}" for law in SERVO_LAWS for name in names))
+    known = (*names, *(f"{law}.{name}" for law in SERVOED for name in names))
     found = named_numbers(faults, "--servo", words, known, "speed_deg=600")
-    laws = [law for law in SERVO_LAWS if any(name.startswith(law) for name in found)] or list(SERVO_LAWS)
+    laws = [law for law in SERVOED if any(name.startswith(law) for name in found)]
     servos = {}
-    for law in laws:
+    for law in laws or [""]:
         own = {name: found.get(f"{law}.{name}", found.get(name)) for name in names}
         numbers = {
             name.removesuffix("_deg"): math.radians(value) if name.endswith("_deg") else value
@@ -212,7 +215,7 @@ def _servos(faults: FaultList, words: list[str] | None) -> Servo | dict[str, Ser
         except InvalidInputError as error:
             faults.faults += error.faults
             break
-    return servos
+    return servos if laws else servos.get("")
 
 
 def _imu(faults: FaultList, words: list[str] | None) -> Imu | None:

@@ -21,17 +21,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from wingbeat._base import FaultList, write_atomically
-from wingbeat.stability.servos import WITHOUT_END, follow
+from wingbeat.stability.servos import SERVO_LAWS, WITHOUT_END, follow
 
 if TYPE_CHECKING:
     from wingbeat.mechanics.flight_model import State
 
 BLOCK_SUFFIXES = (".json", ".mat", ".csv")
-_STATES = 5  # of the body that are measured
 _USE = (
-    "x = (height above the start and above the climb since then, body_pitch, u, w, pitch_rate) - path[j]",
-    "command = clip(-(gains_of_state[j] @ x + gains_of_memory[j] @ m), lower, upper), for flap and pitch [rad]",
-    "m = memory @ m + input @ command; each servo in m (the first two if held) changes by at most largest_step",
+    "x = (height above the start and above the climb since then, then the other states) - path[j]",
+    "command = clip(-(gains_of_state[j] @ x + gains_of_memory[j] @ m), lower, upper), for all commands [rad]",
+    "m = memory @ m + input @ command; each servo in m (the first if held) changes by at most largest_step",
     "j counts the samples of a beat from the top of the stroke; m is zero at the start; SI units, radians",
 )
 _READINGS = ("pitch_rate", "mean acceleration felt forward", "mean acceleration felt up", "z")
@@ -39,7 +38,7 @@ _BIASES = ("bias of pitch_rate", "bias forward", "bias up")
 _USE_OF_READINGS = (
     "y = readings - path[j]; accelerations are means over the sample before, as sensors in the body feel them",
     "e = m + gains_of_readings[j] @ (y - output @ m)",
-    "command = clip(-gains_of_estimate[j] @ e, lower, upper), for flap and pitch [rad]",
+    "command = clip(-gains_of_estimate[j] @ e, lower, upper), for all commands [rad]",
     "m = memory[j] @ e + input[j] @ command; each servo in m (if held) changes by at most largest_step from e",
     "j counts the samples of a beat from the top of the stroke; m is zero at the start; SI units, radians",
 )
@@ -54,7 +53,8 @@ def block_of(record: dict[str, Any]) -> dict[str, Any]:
 
     Theory: equation ``control-block``.
     """
-    gains, order = np.array(record["gains"]), _STATES
+    gains = np.array(record["gains"])
+    order = gains.shape[2] - len(record["memory"]["matrix"])  # states that are measured
     if np.ptp(np.diff(record["phases"])) > _UNEVEN:
         faults = FaultList()
         fix = "give a sample_rate (--sample-rate), or a delay_time"
@@ -177,6 +177,10 @@ class ServoDriver:
         if record["estimator"] is not None:
             faults, fix = FaultList(), "compute the feedback without an IMU"
             faults.add("imu", record["imu"], "has readings that MuJoCo's states do not give", fix)
+            faults.raise_if_any()
+        if record["inputs"] != list(SERVO_LAWS) or len(record["path"][0]) > 5:
+            faults, fix = FaultList(), "save the block, or fly it with SegmentFeedback.fly"
+            faults.add("driver", record["inputs"], "moves what MuJoCo is not told of, or knows the hinge", fix)
             faults.raise_if_any()
         self._block, self._held = block_of(record), record["held"]
         self._period = 1.0 / record["sample_rate"]

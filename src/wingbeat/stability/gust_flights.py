@@ -127,7 +127,7 @@ def _within_beats(
     completed = bool(np.isfinite(flown.states).all())
     kept = completed and bool(options.keeps(np.abs(pitch).max(), height.min()))
     path = SampledFlight(time, flown.states, (beat,) * beats, air, completed)
-    return GustFlight(path, pitch, height, flown.bumps, kept, _settled(flown.deviations[::count, 1:]))
+    return GustFlight(path, pitch, height, flown.bumps, kept, _settled(flown.deviations[::count, 1:5]))
 
 
 def fly_pushes(

@@ -92,7 +92,7 @@ class Estimator(NamedTuple):
     gains: np.ndarray  # shape (N, states, readings)
     output: np.ndarray  # readings by the state, shape (N, readings, states)
     by_state: np.ndarray  # to the next sample, shape (N, states, states)
-    by_command: np.ndarray  # shape (N, states, 2)
+    by_command: np.ndarray  # shape (N, states, laws)
     felt: np.ndarray  # by accelerometers on the orbit, in the sample before, shape (N, 2) [m/s2]
 
     @property
@@ -110,7 +110,7 @@ def estimator_of(imu: Imu, A: np.ndarray, B: np.ndarray, felt: np.ndarray, perio
     """
     N, order = A.shape[:2]
     whole, step = order + 2 + _BIASES, period / N
-    by_state, by_command = np.zeros((N, whole, whole)), np.zeros((N, whole, 2))
+    by_state, by_command = np.zeros((N, whole, whole)), np.zeros((N, whole, B.shape[2]))
     by_state[:, :order, :order], by_command[:, :order] = A, B
     by_state[:, order : order + 2, :order] = felt[:, :, :order]
     by_command[:, order : order + 2] = felt[:, :, order:-1]

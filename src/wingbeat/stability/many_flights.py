@@ -26,9 +26,9 @@ from wingbeat.stability.beat_feedback import Feedback, feedback
 from wingbeat.stability.imu import check_noise_of
 from wingbeat.stability.inputs import Compensation, Smoother, parameters_of, smoother
 from wingbeat.stability.options import FLIGHT_STATE, MANY, MOST_DELAY, ManyOptions, check_no_wake, noise_of
-from wingbeat.stability.real_time import by_beats
+from wingbeat.stability.real_time import bump_parameters, by_beats
 from wingbeat.stability.reports import survey_report
-from wingbeat.stability.segment_feedback import SegmentFeedback, bump_parameters
+from wingbeat.stability.segment_feedback import SegmentFeedback
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -217,7 +217,7 @@ def simulate_many(
         if late:
             faults.add("late", late, "is not known to feedback within a beat", "give 0, or use `delay_time`")
     faults.raise_if_any()
-    deviations = noise_of(noise, FLIGHT_STATE, seed)
+    deviations = noise_of(noise, feedback.measured if isinstance(feedback, SegmentFeedback) else FLIGHT_STATE, seed)
     lanes = min(options.lanes, len(winds)) if len(winds) < 8 else options.lanes
     slower, segments, sensors = 0.0, 1, None
     if isinstance(feedback, SegmentFeedback):
@@ -231,7 +231,7 @@ def simulate_many(
         slower = 0.0 if isinstance(feedback, SegmentFeedback) else min([0.0, *hold.lower.tolist()])
     random, found = np.random.default_rng(seed), []
     for air in _tables(orbit, winds, beats, slower, lanes, options.air_samples):
-        measured = deviations[:, None] * random.standard_normal((beats, segments, len(FLIGHT_STATE), lanes))
+        measured = deviations[:, None] * random.standard_normal((beats, segments, len(deviations), lanes))
         if sensors is not None:
             measured = sensors.errors(random, beats, segments, lanes)
         found.append(fly(air, 1.0 / (options.air_samples * orbit.wingbeat.frequency), measured))

@@ -1,9 +1,9 @@
 """Feedback in real time: sampled, late, and flown by servos that follow held commands; for `feedback_in_beat`.
 
-A beat has N samples at equal times. Each sets a command for flap and pitch, which acts after the delay. Servos add
-what they reach to the laws of the gait: ideal ones a bump, real ones a held angle that they follow with finite
-speed and bandwidth. Flights are computed in steps. Between the ends of a step, the angle of a servo is a cubic, so
-the wing's momentum is that of the servo's velocity.
+A beat has N samples at equal times. Each sets a command for all laws that servos move, which acts after the delay.
+Servos add what they reach to the laws of the gait: ideal ones a bump, real ones a held angle that they follow with
+finite speed and bandwidth. Flights are computed in steps, in which the angle of a servo is a cubic, so the wing's
+momentum is that of the servo's velocity.
 """
 
 from __future__ import annotations
@@ -17,9 +17,10 @@ import numpy as np
 from wingbeat._jax.arrays import at_default, jax, jnp
 from wingbeat._jax.exported import exported
 from wingbeat.animal.kinematics import Wingbeat, parameter, stroke_phase, unpack
-from wingbeat.mechanics.flight_model import FlightModel, motion_table
+from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.mechanics.flights import air_between, fly_through
-from wingbeat.mechanics.state_rates import body_rates
+from wingbeat.mechanics.state_rates import body_rates, hinge_states, rate_table
+from wingbeat.orbits.flight.period import flier
 from wingbeat.stability.imu import Estimator
 from wingbeat.stability.servos import SERVO_LAWS, follow
 
@@ -51,21 +52,24 @@ class Timing(NamedTuple):
     waiting: int  # whole samples of delay
     fraction: float  # of a sample that the delay lasts longer
     held: bool  # servos follow held commands; else they make bumps
-    speed: np.ndarray  # of flap and pitch, shape (2,) [rad/s]
-    pace: np.ndarray  # inverse of their time constants, shape (2,) [1/s]
+    laws: tuple[str, ...]  # that servos move, of `SERVOED`
+    speed: np.ndarray  # of these, shape (laws,) [rad/s]
+    pace: np.ndarray  # inverse of their time constants, shape (laws,) [1/s]
 
 
 class TimedHold(NamedTuple):
-    """Feedback in real time as arrays; each command is one of flap and pitch."""
+    """Feedback in real time as arrays, for n states of body and hinge, and so many laws."""
 
-    gains: np.ndarray  # of each sample, shape (samples, 2, 5 + 2 held + 2 (waiting + 1))
-    lower: np.ndarray  # smallest and largest commands, shape (2,)
+    gains: np.ndarray  # of each sample, shape (samples, laws, n + laws (held + waiting + 1))
+    lower: np.ndarray  # smallest and largest commands, shape (laws,)
     upper: np.ndarray
-    speed: np.ndarray  # of the servos, shape (2,)
+    speed: np.ndarray  # of the servos, shape (laws,)
     pace: np.ndarray
     target: np.ndarray  # from `shares_of_commands`
     ending: np.ndarray
-    path: np.ndarray  # (z, body_pitch, u, w, pitch_rate) at the samples, z from that at phase 0, shape (samples, 5)
+    path: (
+        np.ndarray
+    )  # (z, body_pitch, u, w, pitch_rate) and hinge at the samples, z from phase 0, shape (samples, n)
     pitch: np.ndarray  # body pitch of the orbit at the ends of all steps [rad], shape (samples, steps + 1)
     estimator: Estimator | None  # of the state from what an IMU feels; None if the state itself is measured
 
@@ -106,10 +110,13 @@ def _cubic(angle: Any, rate: Any, angle_end: Any, rate_end: Any, time: Any) -> t
     )
 
 
-def with_offsets(wingbeat: Wingbeat, phase: Any, offsets: tuple[Any, Any, Any]) -> Wingbeat:
-    """Return a wingbeat whose flap and pitch are changed at a phase by angles, their rates and accelerations.
+def with_offsets(
+    wingbeat: Wingbeat, phase: Any, offsets: tuple[Any, Any, Any], laws: tuple[str, ...] = SERVO_LAWS
+) -> Wingbeat:
+    """Return a wingbeat whose laws are changed at a phase by angles, their rates and accelerations.
 
-    Mean and second harmonic make the change; it holds at this phase alone. Theory: equation ``servo-offset``.
+    Mean and second harmonic make the change of flap and pitch; it holds at this phase alone. The springs of a hinge
+    and the tail have neither mass nor rate. Theory: equation ``servo-offset``.
     """
     value, rate, acceleration = offsets
     by_phase, twice = rate / wingbeat.frequency, acceleration / wingbeat.frequency**2
@@ -125,9 +132,15 @@ def with_offsets(wingbeat: Wingbeat, phase: Any, offsets: tuple[Any, Any, Any]) 
     cosine = (turns * sine * bend - twice) / (turns * slope) ** 2
     c, s = jnp.cos(turns * at), jnp.sin(turns * at)
     changes = value - cosine, cosine * c - sine * s, cosine * s + sine * c
-    names = tuple(f"{law}_{part}" for law in SERVO_LAWS for part in ("mean", f"cos_{_ORDER}", f"sin_{_ORDER}"))
-    numbers = [parameter(wingbeat, name) + changes[i % 3][i // 3] for i, name in enumerate(names)]
-    return unpack(names, wingbeat, numbers)
+    still = {"rest_angle": "hinge_rest_angle", "tail": "tail_tilt"}
+    more: dict[str, tuple[Any, int]] = {}  # changes of all laws, and which law's they are
+    for i, law in enumerate(laws):
+        parts = (f"{law}_{part}" for part in ("mean", f"cos_{_ORDER}", f"sin_{_ORDER}"))
+        more |= (
+            {still[law]: (value, i)} if law in still else {name: (changes[k], i) for k, name in enumerate(parts)}
+        )
+    numbers = [parameter(wingbeat, name) + change[i] for name, (change, i) in more.items()]
+    return unpack(tuple(more), wingbeat, numbers)
 
 
 def _step(
@@ -137,15 +150,16 @@ def _step(
     phase: Any,
     size: Any,
     servos: tuple[Any, Any, Any],
+    laws: tuple[str, ...],
     wind_at: Any,
 ) -> Any:
     """Return states of many flights one step of the classical Runge-Kutta method later.
 
-    Behind the state of the body come the integrals over time of what accelerometers feel, forward and up in body
-    axes. Theory: equation ``specific-force``.
+    Behind body and hinge come the integrals over time of what accelerometers feel, forward and up in body axes.
+    Theory: equation ``specific-force``.
     """
     at = jnp.stack([jnp.broadcast_to(phase + part * size, state.shape[1:]) for part in (0.0, 0.5, 1.0)])
-    motion = motion_table(model, with_offsets(wingbeat, at, servos), at)
+    motion, hinge = rate_table(model, with_offsets(wingbeat, at, servos, laws), at), hinge_states(wingbeat)
     stages = np.array([0, 1, 1, 2])
     # One body for the four stages, because compiling takes longer than flying.
     along = jax.tree_util.tree_map(lambda a: jnp.moveaxis(jnp.broadcast_to(a, a.shape), -2, 0)[stages], motion)
@@ -156,7 +170,7 @@ def _step(
         moved, wind, share, weight = within
         place = state + share * size * last
         # The loads depend on the velocity through the air, and both frames have the same accelerations.
-        by_time = body_rates(model, moved, place[2:6].at[1:3].add(-wind))
+        by_time = body_rates(model, moved, place[2 : 6 + hinge].at[1:3].add(-wind))
         c, s, lift = jnp.cos(place[2]), jnp.sin(place[2]), by_time[2] + model.air.gravity
         felt = jnp.stack([by_time[1] * c + lift * s, lift * c - by_time[1] * s])
         rates = jnp.concatenate([place[3:5], by_time, felt]) / wingbeat.frequency
@@ -167,7 +181,7 @@ def _step(
     return state + size * total
 
 
-@exported(static=("held", "samples"))
+@exported(static=("laws", "held", "samples"))
 def fly_in_time(
     model: FlightModel,
     wingbeat: Wingbeat,
@@ -178,6 +192,7 @@ def fly_in_time(
     spacing: Scalar,
     noise: NoiseOfFlights,
     *,
+    laws: tuple[str, ...],
     held: bool,
     samples: int,
 ) -> tuple[FlownSamples, FlownCommands, FlownCommands, FlownCommands, Flights]:
@@ -190,28 +205,32 @@ def fly_in_time(
     size = 1.0 / (samples * steps)
     time = size * period
     most, speed, pace = (values[:, None] for values in (hold.speed, hold.speed, hold.pace))
-    queue = (hold.gains.shape[2] - 5 - 2 * held) // 2  # commands that wait at the start of a sample
+    hinge, count, known_states = hinge_states(wingbeat), len(laws), 5 + hinge_states(wingbeat)
+    servoed = slice(known_states, known_states + count)
+    queue = (hold.gains.shape[2] - known_states) // count - held  # commands that wait at the start of a sample
 
     def sample(carry: Any, asked: Any) -> tuple[Any, Any]:
         state, angle, rate, waiting, guess, largest, begun = carry
         gains, path, pitch, first, error, estimator = asked
-        along = jnp.broadcast_to(path[:, None], (5, flights)).at[0].add(start[1] + climb * begun[0])
-        away = state[1:6] - along
+        along = jnp.broadcast_to(path[:, None], (known_states, flights)).at[0].add(start[1] + climb * begun[0])
+        away = state[1 : 6 + hinge] - along
         measured = jnp.zeros((0, flights))
         if estimator is None:
             known = jnp.concatenate([away + error, *([angle] if held else []), *waiting])
         else:
-            sensed = jnp.concatenate([away[4:], state[6:] * (samples / period) - estimator.felt[:, None], away[:1]])
+            turning, felt = away[4:5], state[6 + hinge :] * (samples / period) - estimator.felt[:, None]
+            sensed = jnp.concatenate([turning, felt, away[:1]])
             measured = sensed[: error.shape[0]] + error
             known = guess + estimator.gains @ (measured - estimator.output @ guess)
-        estimate = known[:5]
+        estimate = known[:known_states]
         command = jnp.clip(-gains @ known[: gains.shape[1]], hold.lower[:, None], hold.upper[:, None])
         command = jnp.where(jnp.isfinite(command), command, 0.0)  # the vehicle has tumbled
         if estimator is not None:
             guess = estimator.by_state @ known + estimator.by_command @ command
             if held:  # the controller knows how fast its servos are
                 reach = most * (period / samples)
-                guess = guess.at[5:7].set(known[5:7] + jnp.clip(guess[5:7] - known[5:7], -reach, reach))
+                begun_at = known[servoed]
+                guess = guess.at[servoed].set(begun_at + jnp.clip(guess[servoed] - known[servoed], -reach, reach))
         given = jnp.concatenate([command[None], waiting])
         newer, older = given[queue - 1], given[queue]
 
@@ -235,17 +254,17 @@ def fly_in_time(
             def wind_at(at: Any) -> Any:
                 return jax.vmap(air_between, out_axes=1)(air, (begun + at * period) / spacing)
 
-            state = _step(model, wingbeat, state, phase, size, servos, wind_at)
+            state = _step(model, wingbeat, state, phase, size, servos, laws, wind_at)
             away = jnp.abs(state[2] - orbit_pitch)
             return (state, angle_end, rate_end, jnp.maximum(largest, away)), None
 
         tables = (hold.target, hold.ending) if held else tuple(_pairs(one) for one in (hold.target, hold.ending))
         each = jnp.arange(steps, dtype=float), *tables, pitch[1:]
         largest = jnp.maximum(largest, jnp.abs(state[2] - pitch[0]))
-        state = state.at[6:].set(0.0)
+        state = state.at[6 + hinge :].set(0.0)
         (state, angle, rate, largest), _ = jax.lax.scan(step, (state, angle, rate, largest), each)
         told = jnp.concatenate([estimate, measured])
-        return (state, angle, rate, given[:-1], guess, largest, begun), (state[:6], command, angle, told)
+        return (state, angle, rate, given[:-1], guess, largest, begun), (state[: 6 + hinge], command, angle, told)
 
     def beat(carry: Any, errors: Any) -> tuple[Any, Any]:
         firsts = jnp.arange(samples, dtype=float) / samples
@@ -253,13 +272,13 @@ def fly_in_time(
         inner, found = jax.lax.scan(sample, carry, asked)
         return (*inner[:-1], inner[-1] + period), found
 
-    zeros, none = jnp.zeros(flights), jnp.zeros((2, flights))
+    zeros, none = jnp.zeros(flights), jnp.zeros((count, flights))
     felt, guess = jnp.zeros(2), jnp.zeros((0, flights))
     if hold.estimator is not None:  # as if the orbit had been flown before
         felt = hold.estimator.felt[0] * (period / samples)
         guess = jnp.zeros((hold.estimator.by_state.shape[-1], flights))
-    state = jnp.broadcast_to(jnp.concatenate([start, felt])[:, None], (8, flights))
-    begin = state, none, none, jnp.zeros((queue, 2, flights)), guess, zeros, zeros
+    state = jnp.broadcast_to(jnp.concatenate([start, felt])[:, None], (8 + hinge, flights))
+    begin = state, none, none, jnp.zeros((queue, count, flights)), guess, zeros, zeros
     (*_, largest, _), found = jax.lax.scan(beat, begin, noise)
     return *found, largest
 
@@ -281,7 +300,9 @@ def timed_hold(
     """Return feedback as arrays, for flights in at least so many steps a beat."""
     count = math.ceil(steps / timing.samples)
     ends = np.linspace(0.0, 1.0, timing.samples * count + 1)
-    flown, _ = fly_through(orbit.problem.model, orbit.wingbeat, orbit.initial_state, ends)
+    flown, _ = fly_through(
+        orbit.problem.model, orbit.wingbeat, orbit.initial_state, ends, wake=(orbit.hinge_start,)
+    )
     pitch = np.stack([flown[j * count : (j + 1) * count + 1, 2] for j in range(timing.samples)])
     shares = shares_of_commands(timing, count)
     return TimedHold(gains, *limits, timing.speed, timing.pace, *shares, path, pitch, estimator)
@@ -301,59 +322,64 @@ def by_beats(fly: Callable[..., Any], frequency: float) -> Callable[..., tuple[n
 # --- linear maps ---
 
 
-@exported
-def _step_maps(model: FlightModel, wingbeat: Wingbeat, states: ServoStates, phases: Samples) -> ServoMaps:
-    """Return ends of steps between phases, with derivatives by (z, body_pitch, u, w, pitch_rate) and servos' cubic.
+@exported(static=("laws",))
+def _step_maps(
+    model: FlightModel, wingbeat: Wingbeat, states: ServoStates, phases: Samples, *, laws: tuple[str, ...]
+) -> ServoMaps:
+    """Return ends of steps between phases, with derivatives by the n states without x, and by servos' cubic.
 
-    The cubic has angles and rates of flap and pitch at the start, then at the end. The ends are those of the state
-    without x, then what an accelerometer has felt. Shape (7, 1 + 13, steps).
+    The cubic has angles and rates of all laws at the start, then at the end. The ends are those of the state
+    without x, then what an accelerometer has felt. Shape (n + 2, 1 + n + 4 laws, steps).
     """
-    size = phases[1] - phases[0]
-    several = states.shape[0]
+    size, count = phases[1] - phases[0], len(laws)
+    several, order = states.shape[0], states.shape[1] - 1
 
     def after(changes: Any) -> Any:
-        whole = jnp.concatenate([jnp.zeros((1, several)), changes[:5], jnp.zeros((2, several))])
-        servos = _cubic(changes[5:7], changes[7:9], changes[9:11], changes[11:], size / wingbeat.frequency)
+        whole = jnp.concatenate([jnp.zeros((1, several)), changes[:order], jnp.zeros((2, several))])
+        a, b, c, d = (changes[order + i * count : order + (i + 1) * count] for i in range(4))
+        servos = _cubic(a, b, c, d, size / wingbeat.frequency)
         begun = jnp.concatenate([states.T, jnp.zeros((2, several))]) + whole
-        ended = _step(model, wingbeat, begun, phases[:-1], size, servos, lambda at: 0.0 * at)
+        ended = _step(model, wingbeat, begun, phases[:-1], size, servos, laws, lambda at: 0.0 * at)
         return ended[1:]
 
-    still = jnp.zeros((13, several))
+    still = jnp.zeros((order + 4 * count, several))
 
     def by(direction: Any) -> Any:
         return jax.jvp(after, (still,), (jnp.broadcast_to(direction[:, None], still.shape),))[1]
 
-    return jnp.concatenate([after(still)[:, None], jnp.moveaxis(jax.vmap(by)(jnp.eye(13)), 0, 1)], axis=1)
+    return jnp.concatenate([after(still)[:, None], jnp.moveaxis(jax.vmap(by)(jnp.eye(len(still))), 0, 1)], axis=1)
 
 
 def sample_maps(orbit: Orbit, timing: Timing) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """Return the orbit's path at the samples, and the maps A and B of each sample by state and commands.
 
     At last what an accelerometer feels in the mean of a sample, by state and commands, shape (samples, 2, states +
-    2 + 1) [m/s2]; its last column is that of the orbit.
+    laws + 1) [m/s2]; its last column is that of the orbit.
 
-    The state is that of the body, then the angles of the servos if commands are held, then the commands that wait,
-    the newest first. Servos have no limits here. Theory: equation ``sampled-map``.
+    The state is that of body and hinge, then the angles of the servos if commands are held, then the commands that
+    wait, the newest first. Servos have no limits here. Theory: equation ``sampled-map``.
     """
     N, steps, pace = timing.samples, math.ceil(_STEPS / timing.samples), timing.pace
     phases = np.linspace(0.0, 1.0, N * steps + 1)
-    flown, _ = fly_through(orbit.problem.model, orbit.wingbeat, orbit.initial_state, phases)
-    parts = np.moveaxis(np.asarray(_step_maps(orbit.problem.model, orbit.wingbeat, flown[:-1], phases)), -1, 0)
-    path = flown[::steps, 1:] - [float(orbit.initial_state.z), 0.0, 0.0, 0.0, 0.0]
+    model, beat, laws, hinge = orbit.problem.model, orbit.wingbeat, len(timing.laws), orbit.hinge_start
+    flown, _ = fly_through(model, beat, orbit.initial_state, phases, wake=(hinge,))
+    parts = np.moveaxis(np.asarray(_step_maps(model, beat, flown[:-1], phases, laws=timing.laws)), -1, 0)
+    path, order = flown[::steps, 1:].copy(), flown.shape[1] - 1
+    path[:, 0] -= float(orbit.initial_state.z)
     mean, last = shares_of_commands(timing, steps)
     time = 1.0 / (orbit.wingbeat.frequency * N * steps)
     keep = np.exp(-pace * time / SUBSTEPS)
-    held, queue = 2 * timing.held, timing.waiting + 1
-    whole = 5 + held + 2 * queue
-    # Each row below is a linear function of (state, command): the last two columns are the command.
-    own = np.eye(whole, whole + 2)
-    commands = [np.eye(whole + 2)[whole:], *(own[5 + held + 2 * i :][:2] for i in range(queue))]
+    held, queue = laws * timing.held, timing.waiting + 1
+    whole = order + held + laws * queue
+    # Each row below is a linear function of (state, command): the last columns are the command.
+    own = np.eye(whole, whole + laws)
+    commands = [np.eye(whole + laws)[whole:], *(own[order + held + laws * i :][:laws] for i in range(queue))]
     newer, older = commands[queue - 1], commands[queue]
-    A, B, felt = np.zeros((N, whole, whole)), np.zeros((N, whole, 2)), np.zeros((N, 2, whole + 3))
+    A, B, felt = np.zeros((N, whole, whole)), np.zeros((N, whole, laws)), np.zeros((N, 2, whole + laws + 1))
     for j in range(N):
-        body = own[:5]
+        body = own[:order]
         if timing.held:
-            angle = own[5:7]
+            angle = own[order : order + laws]
             rate = pace[:, None] * (older - angle)
         else:
             angle, rate = mean[0, 0] * older + mean[0, 1] * newer, (last[0, 0] * older + last[0, 1] * newer) * N
@@ -370,9 +396,53 @@ def sample_maps(orbit: Orbit, timing: Timing) -> tuple[np.ndarray, np.ndarray, n
                 rate_end = (last[k + 1, 0] * older + last[k + 1, 1] * newer) * N * orbit.wingbeat.frequency
             part = parts[j * steps + k]
             changed = part[:, 1:] @ np.concatenate([body, angle, rate, end, rate_end])
-            body, felt[j, :, :-1] = changed[:5], felt[j, :, :-1] + changed[5:]
-            felt[j, :, -1] += part[5:, 0]
+            body, felt[j, :, :-1] = changed[:order], felt[j, :, :-1] + changed[order:]
+            felt[j, :, -1] += part[order:, 0]
             angle, rate = end, rate_end
         rows = np.concatenate([body, *([angle] if timing.held else []), *commands[:queue]])
         A[j], B[j] = rows[:, :whole], rows[:, whole:]
     return path, A, B, felt / (time * steps)
+
+
+def bump_parameters(segments: int) -> tuple[tuple[str, ...], np.ndarray]:
+    """Return the parameters that make bumps, and the change of each by bumps of flap and pitch, (names, 2).
+
+    Theory: equation ``bump``.
+    """
+    names = tuple(name for law in SERVO_LAWS for name in (f"{law}_mean", f"{law}_cos_{segments}"))
+    return names, np.kron(np.eye(len(SERVO_LAWS)), [[0.5], [-0.5]])
+
+
+def segment_maps(orbit: Orbit, segments: int, blocks: int) -> tuple[np.ndarray, ...]:
+    """Return the ends of the segments, the orbit's state there, and the linear map over each segment."""
+    from scipy.integrate import cumulative_simpson
+    from scipy.interpolate import CubicSpline
+
+    beat, start = orbit.wingbeat, np.array(orbit.initial_state, dtype=float)[2:]
+    names, shares = bump_parameters(segments)
+    fly = flier(orbit.problem.model, beat, names, whole_path=True)
+    flown = fly(np.array([float(parameter(beat, name)) for name in names]), start, blocks)
+    path, by = np.asarray(flown.path), np.asarray(flown.path_jacobian)  # (K, 4), (K, 4, 4 + names)
+    phase = np.linspace(0.0, 1.0, len(path))
+    by = np.concatenate([by[..., :4], by[..., 4:] @ shares], axis=-1)
+
+    def with_height(rates: np.ndarray) -> np.ndarray:
+        """Return the integral over time of the upward velocity, in front of the others."""
+        height = cumulative_simpson(rates[:, 2], dx=phase[1] / beat.frequency, axis=0, initial=0.0)
+        return np.concatenate([height[:, None], rates], axis=1)
+
+    ends = _phases_of(beat, segments)
+    states, moved = (CubicSpline(phase, with_height(part), axis=0)(ends) for part in (path, by))
+    lifted = np.zeros((segments + 1, 5, 1))
+    lifted[:, 0] = 1.0  # the height shifts the height alone
+    since = np.concatenate([lifted, moved[..., :4]], axis=-1)
+    by_state = np.stack([since[j + 1] @ np.linalg.inv(since[j]) for j in range(segments)])
+    by_bumps = np.stack([moved[j + 1, :, 4:] - by_state[j] @ moved[j, :, 4:] for j in range(segments)])
+    return ends, states, by_state, by_bumps
+
+
+def _phases_of(beat: Wingbeat, segments: int) -> np.ndarray:
+    """Return the phases at which the phase of the stroke is a multiple of 1 / segments."""
+    phase = np.linspace(0.0, 1.0, 4097)
+    stretched = np.asarray(stroke_phase(beat, phase))
+    return np.interp(np.arange(segments + 1) / segments, stretched, phase)

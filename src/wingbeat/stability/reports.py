@@ -145,6 +145,8 @@ def segment_report(record: dict[str, Any]) -> Report:
         lines.append(f"the state by a Kalman filter from an IMU: its errors have the spectral radius {radius:.3f}")
         if record["imu"]["height"] is None:
             lines.append("No sensor gives the height: it is not held.")
+    elif "hinge_angle" in record["state"]:
+        lines.append("The angle and rate of the pitch hinge count as measured; --imu estimates them.")
     for name, speed in record["servo_speed"].items():
         own = record["gait_speed"][name]
         if speed is not None and own > speed and record["lower"][name] < record["upper"][name]:

@@ -4,7 +4,8 @@ A beat is cut into M equal segments of the stroke. In each, flap and pitch are r
 with s the phase of the stroke. It begins and ends without a jump of position or speed. Within its segment, a bump
 is a change of the mean by b/2 and of the cosine of order M by -b/2, so it needs no law of its own.
 
-With a delay or with servos, `real_time` samples the beat at equal times and adds the servos' angles instead.
+With a delay, with servos, or with a hinge that gives way, `real_time` samples the beat at equal times and adds the
+servos' angles instead.
 """
 
 from __future__ import annotations
@@ -20,10 +21,10 @@ import numpy as np
 
 from wingbeat._base import HIGHEST_ORDER, FaultList, Report, Reported, __version__
 from wingbeat.aero.winds import Wind
-from wingbeat.animal.kinematics import Wingbeat, flap_angle, parameter, pitch_angle, stroke_phase, with_parameters
+from wingbeat.animal.kinematics import Wingbeat, flap_angle, parameter, pitch_angle, with_parameters
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import air_at, air_phases, check_wind, fly_through, state_of
-from wingbeat.orbits.flight.period import flier
+from wingbeat.mechanics.state_rates import HINGE_STATE
 from wingbeat.orbits.options import check_certified
 from wingbeat.stability.control_block import ServoDriver, save_block
 from wingbeat.stability.imu import Estimator, Imu, check_noise_of, estimator_of
@@ -31,14 +32,29 @@ from wingbeat.stability.options import (
     FEEDBACK,
     FLIGHT_STATE,
     FeedbackOptions,
-    check_no_hinge,
     check_no_wake,
     noise_of,
 )
-from wingbeat.stability.real_time import MOST_WAITING, Timing, fly_in_time, sample_maps, timed_hold
+from wingbeat.stability.real_time import (
+    MOST_WAITING,
+    Timing,
+    bump_parameters,
+    fly_in_time,
+    sample_maps,
+    segment_maps,
+    timed_hold,
+)
 from wingbeat.stability.reports import pairs, segment_report
 from wingbeat.stability.riccati import multipliers_over, periodic_linear_quadratic
-from wingbeat.stability.servos import MOST_SAMPLES, SERVO_LAWS, WITHOUT_END, Servo, check_servos, check_timing
+from wingbeat.stability.servos import (
+    MOST_SAMPLES,
+    SERVO_LAWS,
+    SERVOED,
+    WITHOUT_END,
+    Servo,
+    check_servos,
+    check_timing,
+)
 
 if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit
@@ -55,6 +71,7 @@ class SegmentFlight:
     ----------
     states : (x, z, body_pitch, u, w, pitch_rate) at the ends of all segments, shape (beats * segments + 1, 6).
     deviations : of (z, body_pitch, u, w, pitch_rate) from the orbit there, shape (beats * segments + 1, 5).
+        A hinge that gives way adds its angle and rate to both.
     bumps : of flap and pitch in each segment [rad], shape (beats * segments, 2); or the commands of servos.
     angles : of the servos at the ends of all segments [rad], likewise; None for bumps without delay.
     estimates : of the deviations, which the controller used, shape (beats * segments, 5); likewise.
@@ -89,6 +106,7 @@ class SegmentFeedback(Reported):
         With `timing` the state goes on behind these five: see `state`.
     gains : of each segment, shape (segments, 2, 5) [rad per unit of the state], or (segments, 2, states).
     lower, upper : smallest and largest bumps or commands of flap and pitch, shape (2,) [rad].
+        A hinge that gives way adds its angle and rate to the state.
     timing : samples, delay and servos; None for bumps without delay.
     imu, estimator : what is measured, and the Kalman filter of the state; None if the state itself is measured.
 
@@ -116,10 +134,20 @@ class SegmentFeedback(Reported):
         """Names of the columns of `gains`: the state, angles of the servos, and commands that wait."""
         if self.timing is None:
             return FLIGHT_STATE
-        servos = tuple(f"{law} servo" for law in SERVO_LAWS) if self.timing.held else ()
+        servos = tuple(f"{law} servo" for law in self.laws) if self.timing.held else ()
         ago = range(1, self.timing.waiting + 2)
-        waiting = (f"{law}, {n} sample{'s' if n > 1 else ''} ago" for n in ago for law in SERVO_LAWS)
-        return (*FLIGHT_STATE, *servos, *waiting)
+        waiting = (f"{law}, {n} sample{'s' if n > 1 else ''} ago" for n in ago for law in self.laws)
+        return (*self.measured, *servos, *waiting)
+
+    @property
+    def measured(self) -> tuple[str, ...]:
+        """Names of the states that are measured, or estimated from an IMU."""
+        return (*FLIGHT_STATE, *HINGE_STATE[: self.orbit.hinge_start.size])
+
+    @property
+    def laws(self) -> tuple[str, ...]:
+        """Names of what the commands move: flap and pitch, or those of `timing`."""
+        return SERVO_LAWS if self.timing is None else self.timing.laws
 
     @property
     def multipliers(self) -> np.ndarray:
@@ -173,7 +201,8 @@ class SegmentFeedback(Reported):
         faults.raise_if_any()
         begun = np.array(self.orbit.initial_state if start is None else state_of(start), dtype=float)
         random = np.random.default_rng(seed)
-        error = noise_of(noise, FLIGHT_STATE, seed) * random.standard_normal((beats, len(self.gains), 5))
+        deviations = noise_of(noise, self.measured, seed)
+        error = deviations * random.standard_normal((beats, len(self.gains), len(deviations)))
         if self.imu is not None:
             error = self.imu.errors(random, beats, len(self.gains), 1)[..., 0]
         if self.timing is not None:
@@ -196,12 +225,12 @@ class SegmentFeedback(Reported):
         return SegmentFlight(np.stack(states), np.stack(deviations), np.stack(bumps))
 
     @property
-    def gait_speed(self) -> tuple[float, float]:
-        """Largest speeds of flap and pitch of the orbit's own wingbeat [rad/s], to which servos add."""
+    def gait_speed(self) -> tuple[float, ...]:
+        """Largest speeds of all `laws` in the orbit's own wingbeat [rad/s], to which servos add."""
         beat, phase = self.orbit.wingbeat, np.linspace(0.0, 1.0, 4097)
-        laws = (np.asarray(law(beat, phase)) for law in (flap_angle, pitch_angle))
-        flap, pitch = (float(np.abs(np.diff(law)).max() * 4096 * beat.frequency) for law in laws)
-        return flap, pitch
+        laws = {"flap": flap_angle, "pitch": pitch_angle}
+        angles = (laws[law](beat, phase) if law in laws else np.zeros(2) for law in self.laws)
+        return tuple(float(np.abs(np.diff(np.asarray(one))).max() * 4096 * beat.frequency) for one in angles)
 
     def _report(self) -> Report:
         return segment_report(self.record())
@@ -210,11 +239,11 @@ class SegmentFeedback(Reported):
         """Return all numbers as a JSON-able dictionary in SI units and radians; what has no limit is None."""
         orbit, N = self.orbit, len(self.gains)
         frequency, timing = float(orbit.wingbeat.frequency), self.timing
-        free = [WITHOUT_END] * len(SERVO_LAWS)
+        free, known = [WITHOUT_END] * len(self.laws), len(self.measured)
         speed, pace = (free, free) if timing is None else (timing.speed.tolist(), timing.pace.tolist())
 
         def named(values: Any) -> dict[str, float | None]:
-            return {k: v if v < WITHOUT_END else None for k, v in zip(SERVO_LAWS, values, strict=True)}
+            return {k: v if v < WITHOUT_END else None for k, v in zip(self.laws, values, strict=True)}
 
         return {
             "species": orbit.inputs["species"]["name"],
@@ -226,18 +255,18 @@ class SegmentFeedback(Reported):
             "delay_time": 0.0 if timing is None else (timing.waiting + timing.fraction) / (N * frequency),
             "held": timing is not None and timing.held,
             "state": list(self.state),
-            "inputs": list(SERVO_LAWS),
+            "inputs": list(self.laws),
             "phases": self.phases.tolist(),
             "path": self.path.tolist(),
             "gains": self.gains.tolist(),
-            "lower": dict(zip(SERVO_LAWS, self.lower.tolist(), strict=True)),
-            "upper": dict(zip(SERVO_LAWS, self.upper.tolist(), strict=True)),
+            "lower": dict(zip(self.laws, self.lower.tolist(), strict=True)),
+            "upper": dict(zip(self.laws, self.upper.tolist(), strict=True)),
             "servo_speed": named(speed),
             "servo_bandwidth": named([one / (2.0 * math.pi) if one < WITHOUT_END else one for one in pace]),
-            "gait_speed": dict(zip(SERVO_LAWS, self.gait_speed, strict=True)),
+            "gait_speed": dict(zip(self.laws, self.gait_speed, strict=True)),
             "imu": None if self.imu is None else dataclasses.asdict(self.imu),
             "estimator": None if self.estimator is None else self._filter(self.estimator),
-            "memory": {"matrix": self.A[0][5:, 5:].tolist(), "input": self.B[0][5:].tolist()},
+            "memory": {"matrix": self.A[0][known:, known:].tolist(), "input": self.B[0][known:].tolist()},
             "multipliers": pairs(self.multipliers),
             "spectral_radius": self.spectral_radius,
             "open_loop": {"spectral_radius": float(np.abs(multipliers_over(list(self.A))[0]))},
@@ -245,7 +274,7 @@ class SegmentFeedback(Reported):
         }
 
     def _filter(self, found: Estimator) -> dict[str, Any]:
-        path = np.concatenate([self.path[:-1, 4:], found.felt, self.path[:-1, :1]], axis=1)
+        path = np.concatenate([self.path[:-1, 4:5], found.felt, self.path[:-1, :1]], axis=1)
         arrays = {name: getattr(found, name).tolist() for name in ("gains", "by_state", "by_command")}
         output = found.output[0].tolist()
         return arrays | {
@@ -280,14 +309,14 @@ class SegmentFeedback(Reported):
         Parameters
         ----------
         steps : of a beat.
-        start : state at the start, shape (6,); default the orbit's.
+        start : state at the start, shape (6,); default the orbit's. A hinge starts as on the orbit.
         """
         orbit, timing, limits = self.orbit, self.timing, (self.lower, self.upper)
         assert timing is not None
         hold = timed_hold(orbit, timing, self.gains, limits, self.path[:-1], steps, self.estimator)
         begun = np.array(orbit.initial_state, dtype=float) if start is None else start
-        place = begun, np.array(float(orbit.inputs["climb"]))
-        named = {"held": timing.held, "samples": timing.samples}
+        place = np.append(begun, orbit.hinge_start), np.array(float(orbit.inputs["climb"]))
+        named = {"laws": timing.laws, "held": timing.held, "samples": timing.samples}
         return fly_in_time.bind(orbit.problem.model, orbit.wingbeat, hold, *place, **named)
 
     def _fly_in_time(
@@ -298,11 +327,12 @@ class SegmentFeedback(Reported):
         found = self.bound(_TIMED_STEPS, begun)(air[None], spacing, error[..., None])
         parts = (np.asarray(part)[..., 0].reshape(beats * samples, -1) for part in found[:4])
         states, bumps, angles, known = parts
-        states = np.concatenate([begun[None], states])
+        states = np.concatenate([np.append(begun, self.orbit.hinge_start)[None], states])
         along = np.concatenate([np.tile(self.path[:-1], (beats, 1)), self.path[:1]])
         climbed = self.path[-1, 0] - self.path[0, 0]  # in a beat
+        known_states = len(self.measured)
         along[:, 0] += begun[1] + climbed * (np.arange(len(states)) // samples)
-        return SegmentFlight(states, states[:, 1:] - along, bumps, angles, known[:, :5], known[:, 5:])
+        return SegmentFlight(states, states[:, 1:] - along, bumps, angles, *np.split(known, [known_states], 1))
 
 
 def feedback_in_beat(
@@ -317,6 +347,9 @@ def feedback_in_beat(
 ) -> SegmentFeedback:
     """Compute the linear feedback that holds an orbit by changes of flap and pitch several times a beat.
 
+    Where a hinge gives way, it changes the flap, and the tail if there is one. The state then has the hinge's angle
+    and rate: without an IMU, they count as measured.
+
     Parameters
     ----------
     orbit : a certified orbit.
@@ -324,7 +357,9 @@ def feedback_in_beat(
         each. Default: 4, or what is nearest to `sample_rate`.
     sample_rate : measurements per second [Hz], in place of `segments`; a beat has a whole number of them.
     delay_time : from a measurement to the start of its effect [s].
-    servos : of flap and pitch, or by the names of those that there are. Commands are held from sample to sample,
+    servos : of flap and pitch, or by the names of those that there are, of ``"flap"``, ``"pitch"``,
+        ``"rest_angle"`` of the springs of a hinge that gives way, and ``"tail"``. Commands are held from
+        sample to sample,
         and the servos follow them; without a speed or a bandwidth they make bumps without a jump.
     imu : from which a Kalman filter estimates the state, with servos or a delay; None to measure the state itself.
     options : scales of the state, and unit and reach of angles.
@@ -351,8 +386,8 @@ def feedback_in_beat(
     faults = FaultList()
     check_certified(faults, orbit.status, "hold a certified orbit")
     check_no_wake(faults, orbit.problem.aero.wake)
-    check_no_hinge(faults, orbit.wingbeat)
-    moved = check_servos(faults, servos)
+    vehicle, hinge = orbit.problem.vehicle, orbit.wingbeat.pitch_hinge
+    moved = check_servos(faults, servos, hinge, vehicle.tail is not None)
     held = any(not one.ideal for one in moved.values())
     check_timing(faults, segments, sample_rate, delay_time, held)
     if imu is not None and not isinstance(imu, Imu):
@@ -374,9 +409,11 @@ def feedback_in_beat(
         faults.add("delay_time", delay_time, f"lasts longer than {MOST_WAITING} samples", fix)
     faults.raise_if_any()
     reach = options.reach * options.angle
-    lower, upper, speed, pace = np.zeros((4, len(SERVO_LAWS)))
+    usual = SERVO_LAWS if hinge is None or not hinge.moves_root else ()
+    laws = tuple(law for law in SERVOED if law in moved or law in usual)
+    lower, upper, speed, pace = np.zeros((4, len(laws)))
     speed[:], pace[:] = WITHOUT_END, max((one.pace for one in moved.values()), default=0.0)  # one that is not moved
-    for i, law in enumerate(SERVO_LAWS):
+    for i, law in enumerate(laws):
         if law in moved:
             one = moved[law]
             lower[i] = -reach if one.lower is None else one.lower
@@ -387,64 +424,20 @@ def feedback_in_beat(
         faults.add("servos", servos, "leave nothing that can move", "give limits that differ")
         faults.raise_if_any()
     scales = np.array([options.scale(name) for name in FLIGHT_STATE])
-    if held or delay_time > 0.0:
+    if held or delay_time > 0.0 or hinge is not None or laws != SERVO_LAWS:
         waiting = math.floor(late + 1e-9)
-        timing = Timing(count, waiting, max(late - waiting, 0.0), held, speed, pace)
+        timing = Timing(count, waiting, max(late - waiting, 0.0), held, laws, speed, pace)
         path, by_state, by_bumps, felt = sample_maps(orbit, timing)
         estimator = None if imu is None else estimator_of(imu, by_state, by_bumps, felt, 1.0 / frequency)
         phases = np.linspace(0.0, 1.0, count + 1)
     else:
         timing = estimator = None
-        phases, path, by_state, by_bumps = _segment_maps(orbit, count, options.linear.blocks)
+        phases, path, by_state, by_bumps = segment_maps(orbit, count, options.linear.blocks)
     state_cost = np.zeros(by_state.shape[1:])
     state_cost[: len(scales), : len(scales)] = np.diag(1.0 / scales**2)
     if imu is not None and imu.height is None:
         state_cost[0, 0] = 0.0  # nothing tells the height
     input_cost = np.eye(int(used.sum())) / options.angle**2
-    gains = np.zeros((count, len(SERVO_LAWS), len(state_cost)))
+    gains = np.zeros((count, len(laws), len(state_cost)))
     gains[:, used] = periodic_linear_quadratic(by_state, by_bumps[:, :, used], state_cost, input_cost)
     return SegmentFeedback(orbit, phases, path, by_state, by_bumps, gains, lower, upper, timing, imu, estimator)
-
-
-def bump_parameters(segments: int) -> tuple[tuple[str, ...], np.ndarray]:
-    """Return the parameters that make bumps, and the change of each by bumps of flap and pitch, (names, 2).
-
-    Theory: equation ``bump``.
-    """
-    names = tuple(name for law in SERVO_LAWS for name in (f"{law}_mean", f"{law}_cos_{segments}"))
-    return names, np.kron(np.eye(len(SERVO_LAWS)), [[0.5], [-0.5]])
-
-
-def _segment_maps(orbit: Orbit, segments: int, blocks: int) -> tuple[np.ndarray, ...]:
-    """Return the ends of the segments, the orbit's state there, and the linear map over each segment."""
-    from scipy.integrate import cumulative_simpson
-    from scipy.interpolate import CubicSpline
-
-    beat, start = orbit.wingbeat, np.array(orbit.initial_state, dtype=float)[2:]
-    names, shares = bump_parameters(segments)
-    fly = flier(orbit.problem.model, beat, names, whole_path=True)
-    flown = fly(np.array([float(parameter(beat, name)) for name in names]), start, blocks)
-    path, by = np.asarray(flown.path), np.asarray(flown.path_jacobian)  # (K, 4), (K, 4, 4 + names)
-    phase = np.linspace(0.0, 1.0, len(path))
-    by = np.concatenate([by[..., :4], by[..., 4:] @ shares], axis=-1)
-
-    def with_height(rates: np.ndarray) -> np.ndarray:
-        """Return the integral over time of the upward velocity, in front of the others."""
-        height = cumulative_simpson(rates[:, 2], dx=phase[1] / beat.frequency, axis=0, initial=0.0)
-        return np.concatenate([height[:, None], rates], axis=1)
-
-    ends = _phases_of(beat, segments)
-    states, moved = (CubicSpline(phase, with_height(part), axis=0)(ends) for part in (path, by))
-    lifted = np.zeros((segments + 1, 5, 1))
-    lifted[:, 0] = 1.0  # the height shifts the height alone
-    since = np.concatenate([lifted, moved[..., :4]], axis=-1)
-    by_state = np.stack([since[j + 1] @ np.linalg.inv(since[j]) for j in range(segments)])
-    by_bumps = np.stack([moved[j + 1, :, 4:] - by_state[j] @ moved[j, :, 4:] for j in range(segments)])
-    return ends, states, by_state, by_bumps
-
-
-def _phases_of(beat: Wingbeat, segments: int) -> np.ndarray:
-    """Return the phases at which the phase of the stroke is a multiple of 1 / segments."""
-    phase = np.linspace(0.0, 1.0, 4097)
-    stretched = np.asarray(stroke_phase(beat, phase))
-    return np.interp(np.arange(segments + 1) / segments, stretched, phase)

@@ -1,4 +1,4 @@
-"""Servos that move flap and pitch beyond the gait, and checks of what feedback in real time is given."""
+"""Servos that move flap, pitch, a hinge's springs or the tail, and checks of what real-time feedback is given."""
 
 from __future__ import annotations
 
@@ -9,8 +9,11 @@ from typing import Any
 
 from wingbeat._base import HIGHEST_ORDER, FaultList
 from wingbeat._jax.arrays import jnp
+from wingbeat.animal.pitch_hinge import PitchHinge
 
 SERVO_LAWS = ("flap", "pitch")
+# What a servo may move: the rest angle is that of the springs of a hinge that gives way.
+SERVOED = (*SERVO_LAWS, "rest_angle", "tail")
 MOST_SAMPLES = 256  # of a beat
 # Stands for an infinite speed [rad/s] or bandwidth [1/s] where both meet in one formula.
 WITHOUT_END = 1e9
@@ -19,7 +22,7 @@ SLOWING = math.radians(10.0)  # distance from its command at which a servo begin
 
 @dataclass(frozen=True)
 class Servo:
-    """What moves flap or pitch beyond the gait: limits of its angle, its speed and its bandwidth.
+    """What moves flap, pitch, a hinge's rest angle or the tail beyond the gait: limits of angle, speed, bandwidth.
 
     Parameters
     ----------
@@ -72,15 +75,28 @@ class Servo:
         return min(own, WITHOUT_END)
 
 
-def check_servos(faults: FaultList, servos: Servo | Mapping[str, Servo] | None) -> dict[str, Servo]:
-    """Return the servo of each law that has one, and note what is no servo; None means ideal servos of both."""
+def check_servos(
+    faults: FaultList, servos: Servo | Mapping[str, Servo] | None, hinge: PitchHinge | None, tail: bool
+) -> dict[str, Servo]:
+    """Return the servo of each law that has one, and note what is no servo.
+
+    One servo, or None for ideal ones, stands for those of flap and pitch; where nothing drives the pitch, for flap
+    and the tail, if there is one.
+    """
+    driven = hinge is None or not hinge.moves_root
     if servos is None or isinstance(servos, Servo):
-        return dict.fromkeys(SERVO_LAWS, servos or Servo())
+        usual = SERVO_LAWS if driven else ("flap", "tail")
+        return dict.fromkeys([law for law in usual if law != "tail" or tail], servos or Servo())
     if not isinstance(servos, Mapping) or not servos:
         faults.add("servos", servos, "must be a Servo, or servos by name", "for example {'pitch': wb.Servo()}")
         return {}
     for name, one in servos.items():
-        faults.choice("servos", name, SERVO_LAWS)
+        faults.choice("servos", name, SERVOED)
+        if name == "pitch" and not driven:
+            fix = "give flap, tail, or rest_angle for a servo that turns the springs"
+            faults.add("servos", name, "gives way: nothing drives it", fix)
+        if (name == "tail" and not tail) or (name == "rest_angle" and hinge is None):
+            faults.add("servos", name, "moves nothing of this vehicle", "give flap or pitch")
         if not isinstance(one, Servo):
             faults.add(f"servos.{name}", one, "must be a Servo", "for example wb.Servo(speed=10.0)")
     if len({one.ideal for one in servos.values() if isinstance(one, Servo)}) > 1:

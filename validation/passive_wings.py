@@ -57,7 +57,7 @@ def _changes(wing: dict[str, Any]) -> list[tuple[str, dict[str, Any]]]:
         (f"stiffness {low:.1e} N m/rad", {"stiffness": low}),
         (f"stiffness {high:.1e} N m/rad", {"stiffness": high}),
         ("no damping", {"damping": 0.0}),
-        ("damping of 0.1 of critical more", {"damping": wing["damping"] + 0.2 * _critical(wing)}),
+        ("damping of 0.1 of critical more", {"damping": wing["damping"] + 0.1 * _critical(wing)}),
         (f"pitch axis {ahead:.2f} c", {"pitch_axis": ahead, "mass_axis": centre + ahead - axis}),
         (f"pitch axis {axis + 0.05:.2f} c", {"pitch_axis": axis + 0.05, "mass_axis": centre + 0.05}),
         (f"mass axis {centre - 0.1:.2f} c", {"mass_axis": centre - 0.1}),
@@ -71,10 +71,10 @@ def _changes(wing: dict[str, Any]) -> list[tuple[str, dict[str, Any]]]:
 
 
 def _critical(wing: dict[str, Any]) -> float:
-    """Return the square root of stiffness times pitch inertia: half the critical damping [N m s/rad]."""
+    """Return the critical damping of the hinge, twice the root of stiffness times pitch inertia [N m s/rad]."""
     behind = (wing["mass_axis"] - wing["pitch_axis"]) * wing["chord"]
     inertia = wing["mass"] * (behind**2 + (wing["mass_gyration"] * wing["chord"]) ** 2)
-    return float(np.sqrt(wing["stiffness"] * inertia))
+    return float(2 * np.sqrt(wing["stiffness"] * inertia))
 
 
 def _sensitivities(cases: list[dict[str, Any]]) -> list[list[str]]:

@@ -34,11 +34,22 @@ def test_in_vacuum_the_hinge_is_a_driven_oscillator(frequency: float) -> None:
 
 
 def test_a_wing_without_a_hinge_is_refused() -> None:
-    """And a speed from behind, at once."""
+    """And a speed from behind and too few steps, at once."""
     robot = wb.load_species("robofalcon2")
     with pytest.raises(wb.InvalidInputError, match="PitchHinge") as caught:
-        wb.wing_on_stand(robot.vehicle, robot.wingbeat, "su-fan", speed=-1.0)
+        wb.wing_on_stand(robot.vehicle, robot.wingbeat, "su-fan", speed=-1.0, steps=4)
     assert "speed" in str(caught.value)
+    assert "steps" in str(caught.value)
+
+
+def test_the_force_acts_at_the_centre_of_pressure_unless_the_loads_say_otherwise() -> None:
+    """As in a problem with a hinge: coefficients alone must not put it on the axis, where air turns no wing."""
+    robot, hinge = wb.load_species("robofalcon2"), wb.PitchHinge(stiffness=1.4, damping=0.017)
+    wingbeat = wb.Wingbeat(6.0, 0.0, 0.6, 0.0, 0.0, pitch_hinge=hinge)
+    asked = ["su-fan", *(wb.aero.BladeElement("su-fan", force_point=p) for p in wb.aero.FORCE_POINTS[::-1])]
+    alone, centre, quarter = (wb.wing_on_stand(robot.vehicle, wingbeat, one, speed=8.0) for one in asked)
+    assert alone.amplitude == centre.amplitude
+    assert quarter.amplitude < 0.9 * centre.amplitude or quarter.amplitude > 1.1 * centre.amplitude
 
 
 def test_a_filmed_wing_leads_by_some_quarter() -> None:

@@ -214,6 +214,13 @@ def test_error_bars_add_up_and_name_what_they_are_due_to(pigeon):
     )
 
 
+def test_the_deviation_of_three_draws_is_not_given_as_exact(pigeon):
+    """The fourth moment of three draws says so; of a normal distribution, the error is 41 % of the deviation."""
+    found = wb.uncertainty_by_samples(pigeon[1], ["frequency"], samples=3, share=0.05)["frequency"]
+    assert found.deviation > 0
+    assert found.standard_error >= found.deviation / math.sqrt(2 * found.certified) * (1 - 1e-9)
+
+
 @pytest.mark.slow
 def test_draws_and_first_order_agree_where_the_problem_is_smooth(pigeon):
     for one in wb.uncertainty_by_samples(pigeon[1], samples=120, share=0.1).values():

@@ -9,6 +9,7 @@ import numpy as np
 
 from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat._jax.arrays import jax, jnp
+from wingbeat.aero.blade_element import blade_element_of
 from wingbeat.animal.kinematics import PitchHinge, Wingbeat, flap_angle
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import FlightModel
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 _SETTLING = 40  # strokes before Newton's method; a hinge without damper loses its start to the air in some ten
+_NEWTON = 30  # steps of Newton's method: the wings of the evidence needed a few
 _CLOSURE = 1e-8  # in radians, and in radians a stroke
 
 
@@ -98,11 +100,11 @@ def wing_on_stand(
     ----------
     vehicle : whose wing it is; the body does not move.
     wingbeat : with the flap law and a `PitchHinge`.
-    aero : as `FlightModel` takes it. Let the force act at the centre of pressure: at the quarter chord, air exerts
-        no torque about an axis there.
+    aero : a coefficient model, its name, or a `BladeElement`. The force acts at the centre of pressure unless the
+        `BladeElement` says otherwise: at the quarter chord, air exerts no torque about an axis there.
     air : standard air if not given.
     speed : of the wind from ahead [m/s].
-    steps : of the integration, for a stroke.
+    steps : number of steps of the integration in a stroke, at least 32.
 
     Returns
     -------
@@ -110,7 +112,8 @@ def wing_on_stand(
 
     Raises
     ------
-    InvalidInputError : a wingbeat without a `PitchHinge`, a speed that is negative, no periodic stroke found.
+    InvalidInputError : a wingbeat without a `PitchHinge`, a speed that is negative, too few steps, no periodic stroke
+        found.
 
     Theory: equation ``hinge-balance``. Source: Whitney and Wood 2010 (doi 10.1017/S002211201000265X).
 
@@ -118,18 +121,19 @@ def wing_on_stand(
     >>> robot = wb.load_species("robofalcon2")
     >>> hinge = wb.PitchHinge(stiffness=1.4, damping=0.017)
     >>> wingbeat = wb.Wingbeat(6.0, 0.0, 0.6, 0.0, 0.0, pitch_hinge=hinge)
-    >>> aero = wb.aero.BladeElement("su-fan", force_point="centre-of-pressure")
-    >>> stroke = wb.wing_on_stand(robot.vehicle, wingbeat, aero, speed=8.0)
+    >>> stroke = wb.wing_on_stand(robot.vehicle, wingbeat, "su-fan", speed=8.0)
     >>> stroke.settled
     True
     """
     faults = FaultList()
     faults.number("speed", speed, at_least=0, unit="m/s")
+    faults.whole("steps", steps, 32, 1_000_000)
     if not isinstance(wingbeat.pitch_hinge, PitchHinge):
         faults.add("wingbeat.pitch_hinge", wingbeat.pitch_hinge, "is missing", "give the wing a PitchHinge")
     faults.raise_if_any()
     assert isinstance(wingbeat.pitch_hinge, PitchHinge)
-    model = FlightModel(vehicle, aero, Air() if air is None else air, (speed, 0.0))
+    element = blade_element_of(aero, "centre-of-pressure")
+    model = FlightModel(vehicle, element, Air() if air is None else air, (speed, 0.0))
     phase = np.arange(steps) / steps
     scale = np.array([1.0, wingbeat.frequency])
 
@@ -139,7 +143,7 @@ def wing_on_stand(
     start = np.array([wingbeat.pitch_hinge.rest_angle, 0.0])
     for _ in range(_SETTLING):
         start = flown(start)[-1]
-    for _ in range(30):
+    for _ in range(_NEWTON):
         states = flown(start)
         miss = (states[-1] - states[0]) / scale
         small = 1e-6 * np.diag(scale)

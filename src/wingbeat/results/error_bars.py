@@ -29,8 +29,8 @@ from wingbeat.results.sensitivities import QUANTITIES, Sensitivities, quantity_o
 # range it predicts 97 to 99.9 %, and its standard deviation agrees with that of the draws. Over the bat's whole
 # ranges it predicts 6 %, and the two deviations disagree (docs/guide/sensitivities.md).
 _BORNE_OUT = 0.9
-# Fewer draws than this do not tell the fourth moment: of 30 from a normal distribution, nine in ten give a kurtosis of
-# 1.8 to 3.8, where 3 is right.
+# Fewer draws than this do not tell the fourth moment: of 30 from a normal distribution, nine in ten give a kurtosis
+# of 1.8 to 3.8, where 3 is right.
 _FEW = 30
 
 
@@ -141,8 +141,8 @@ def _judged(
     if len(values) and np.ptp(values) > PRECISION * size:
         centred = values - values.mean()
         deviation = float(values.std(ddof=1))
-        # The error of a deviation from n draws, by their fourth moment. Few draws do not tell it (of three, it gives
-        # no error at all), so they count as drawn from a normal distribution if that has the larger error.
+        # The error of a deviation from n draws, by their fourth moment. Few draws do not tell it (three may give no
+        # error at all), so they count as drawn from a normal distribution if that has the larger error.
         kurtosis = float(np.mean(centred**4)) / deviation**4
         if len(values) < _FEW:
             kurtosis = max(kurtosis, 3.0)

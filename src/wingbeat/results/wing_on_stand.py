@@ -112,8 +112,8 @@ def wing_on_stand(
 
     Raises
     ------
-    InvalidInputError : a wingbeat without a `PitchHinge`, a speed that is negative, too few steps, no periodic stroke
-        found.
+    InvalidInputError : a wingbeat without a `PitchHinge`, a speed that is negative, too few steps, or no periodic
+        stroke found.
 
     Theory: equation ``hinge-balance``. Source: Whitney and Wood 2010 (doi 10.1017/S002211201000265X).
 

@@ -40,6 +40,7 @@ NOT_TUNING = {
     "_ANY_FLAP": "an angle beyond which there is no wingbeat",
     "_AMPLITUDE": "an angle beyond which there is no wingbeat",
     "_HARMONIC": "beyond which there is no wingbeat",
+    "_AROUND": "a guessed range of a wing's numbers, which error bars draw from",
     "_BESIDE": "steps of difference quotients of the stroke map",
     "STABLE_RADIUS": "the limit that --stable stands for",
     "_EQUAL": "units in the definition of the gust response",

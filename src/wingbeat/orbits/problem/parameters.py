@@ -25,7 +25,8 @@ _OFF = ("crossflow_area", *CHORDWISE)
 # Of a wing whose pitch gives way, these matter as much as the stiffness: where the species file is silent they are
 # drawn, by a guess, from this much to either side [chords]. In a trial, 0.1 to 0.15 chords moved the pitch
 # amplitude of two robots by 35 to 130 % and their power by up to 90 %.
-_MATTERS_TO_HINGES, _AROUND = ("pitch_axis", "mass_axis"), 0.1
+_MATTERS_TO_HINGES = ("pitch_axis", "mass_axis")
+_AROUND = 0.1
 
 # Path from a problem to one of its numbers: names of fields, indices of tuples.
 Place = tuple[str | int, ...]

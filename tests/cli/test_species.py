@@ -288,13 +288,49 @@ def test_a_new_robot_has_its_parts_as_comments(run: Any, tmp_path: Path) -> None
     assert (code, errors) == (0, [])
     bare = load_species(path).vehicle
     assert (bare.tail, bare.motor, bare.battery, bare.springs) == (None, None, None, None)
-    text = path.read_text(encoding="utf-8")
-    path.write_text(re.sub(r"^# (?=\[vehicle|\w+ = \{)", "", text, flags=re.MULTILINE), encoding="utf-8")
-    whole = load_species(path).vehicle
+    path.write_text(with_parts(path.read_text(encoding="utf-8")), encoding="utf-8")
+    robot = load_species(path)
+    whole = robot.vehicle
     assert None not in (whole.tail, whole.motor, whole.battery, whole.springs)
     assert whole.muscle is None
     assert whole.battery is not None
     assert whole.battery.cells == 3
+    told = "examples of the template, until their source says otherwise: numbers of"
+    assert f"{told} pitch_hinge, tail, motor, springs, battery" in robot.warnings[-1]
+    # Nothing is drawn from the range of an example.
+    examples = [number for number in robot.numbers.values() if number.source == "example"]
+    assert len(examples) > 20
+    assert not any(number.range for number in examples)
+
+
+def with_parts(text: str, parts: str = r"\w+") -> str:
+    """Return a species file without the sign of a comment before the numbers of parts."""
+    tables = text.split("\n\n")
+    for i, table in enumerate(tables):
+        if re.search(rf"^# \[vehicle\.({parts})\]$", table, flags=re.MULTILINE):
+            tables[i] = re.sub(r"^# (?=\[vehicle|\w+ = \{)", "", table, flags=re.MULTILINE)
+    return "\n\n".join(tables)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("parts", [r"\w+", "pitch_hinge|motor|battery"])
+def test_the_parts_of_a_new_robot_fly_it(run: Any, tmp_path: Path, parts: str) -> None:
+    """As the comments of the file promise: at 8 m/s, for a time, within what motor and battery give."""
+    path, size = tmp_path / "mine.toml", ("--mass", "0.25", "--wing-span", "0.8", "--wing-area", "0.1")
+    run("species", "new", str(path), "--kind", "robot", *size)
+    path.write_text(with_parts(path.read_text(encoding="utf-8"), parts), encoding="utf-8")
+    asked = ("--minimise", "electrical-power", "--starts", "2", "--json")
+    code, out, _ = run("orbit", str(path), "--speed", "8", *asked)
+    record = json.loads(out)
+    assert (code, record["status"]) == (0, "converged")
+    assert 25.0 < record["electrical_power"] < 45.0
+    # 3S 850 mAh are 0.85 A h times about 11.1 V; some is left where the voltage under load is that of the cut-off.
+    full = 0.85 * 3600.0 * 11.1 / record["electrical_power"]
+    assert 0.8 * full < record["endurance"] < full
+    assert record["peak_motor_voltage"] < record["least_battery_voltage"]
+    assert record["peak_battery_current"] < 20.0
+    # Nothing sits at a bound, so the example's hinge and gear suit the speed.
+    assert record["active_bounds"] == []
 
 
 def test_new_writes_a_file_that_loads(run: Any, tmp_path: Path) -> None:

@@ -182,6 +182,7 @@ BY_HAND = "set by hand"  # begins the source of a number that was set after the 
 _IN_PLACE = f"{BY_HAND} in place of"
 DENSITY_ALONE = "air.density is set and air.viscosity is not"  # begins the warning of such air
 DERIVED = "derived: "  # begins the source of a number that a scaling law gave
+_EXAMPLE = "example"  # source of a number of the template
 NOT_MEASURED = "derived by scaling laws, not measured: "  # begins the warning that lists such numbers
 
 
@@ -223,6 +224,8 @@ def find_warnings(
     derived = [path.removeprefix("vehicle.") for path in numbers if path.startswith("vehicle.")]
     if told := [path for path in derived if path in laws]:
         found.append(NOT_MEASURED + ", ".join(told))
+    if parts := dict.fromkeys(path.split(".")[1] for path, n in numbers.items() if n.source == _EXAMPLE):
+        found.append(f"examples of the template, until their source says otherwise: numbers of {', '.join(parts)}")
     beyond = [f"{path} ({s.partition(OUTSIDE)[2].partition(' (')[0]})" for path, s in laws.items() if OUTSIDE in s]
     if beyond:
         rule = "scaling laws used outside the data they were fitted to, so unreliable"

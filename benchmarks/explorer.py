@@ -32,7 +32,7 @@ MOVE = """async (speed) => {
     const at = (time) => (performance.timeOrigin + time) / 1000;
     performance.clearResourceTimings();
     const begun = performance.now();
-    face.ask({ speed });
+    face.ask({ at: speed });
     const isDrawn = () => face.answer?.speed === speed && what.textContent.includes(` ${speed} m/s`)
         && face.viewer.stage.due === undefined;
     while (!isDrawn()) {

@@ -14,6 +14,7 @@ from typing import Any
 
 from wingbeat._base import FaultList, FileError, __version__, write_atomically
 from wingbeat.viewer import bundle_path
+from wingbeat_explorer.axis import SPEED
 from wingbeat_explorer.models import EXPLORER_MODELS
 
 # Only files of this folder may be loaded; `file:` is for browsers to which a file is not 'self'.
@@ -69,7 +70,8 @@ def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any
 
     Raises
     ------
-    InvalidInputError : no lattice, two of the same species and model, a species whose name cannot name a file.
+    InvalidInputError : no lattice; two of the same species, model and axis; a species whose name cannot name
+        a file.
     FileError : a file that cannot be written.
     """
     place = Path(folder)
@@ -77,20 +79,21 @@ def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any
         (place / "data").mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise FileError(f"cannot make the folder {os.fspath(place)!r}: {error.strerror}") from None
-    written, titles, models, start = [], {}, [], None
+    written, titles, models, axes, start = [], {}, [], [], None
     for lattice in lattices:
-        species, model = lattice["species"], lattice["model"]
-        check_names([(species, model)], [path.stem for path in written])
-        written.append(place / "data" / f"{species}-{model}.js")
-        pushes = lattice.get("pushes")
-        shown = {name: value for name, value in lattice.items() if name != "pushes"}
-        _call(written[-1], "hold", species, model, _compressed(shown))
-        if pushes:
-            written.append(place / "data" / f"{species}-{model}-pushes.js")
-            _call(written[-1], "holdPushes", species, model, _compressed(pushes))
+        species, model, axis = lattice["species"], lattice["model"], lattice["axis"]
+        check_names([(species, model, axis["name"])], [path.stem for path in written])
+        name = file_name(species, model, axis["name"])
+        parts = {name: {part: value for part, value in lattice.items() if part != "pushes"}}
+        if pushes := lattice.get("pushes"):
+            parts[f"{name}-pushes"] = pushes
+        for stem, part in parts.items():
+            written.append(place / "data" / f"{stem}.js")
+            _call(written[-1], "holdPushes" if stem != name else "hold", name, _compressed(part))
         titles[species] = lattice["title"]
         models += [] if model in models else [model]
-        start = start or {"animal": species, "model": model, "speed": lattice["speed"]}
+        axes += [] if axis in axes else [axis]
+        start = start or {"animal": species, "model": model, "along": axis["name"], "at": lattice["first"]}
     faults = FaultList()
     if start is None:
         faults.add("lattices", 0, "there is nothing to show", "give at least one animal and one model")
@@ -98,6 +101,7 @@ def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any
     catalogue = {
         "animals": [{"name": name, "title": title} for name, title in titles.items()],
         "models": [{"name": name, "title": EXPLORER_MODELS[name].title} for name in models],
+        "axes": axes,
         "files": [path.name for path in written],
         "start": start,
     }
@@ -108,15 +112,29 @@ def write_explorer(folder: str | PathLike[str], lattices: Iterable[dict[str, Any
     return [*others, *written]
 
 
-def check_names(flyers: Iterable[tuple[str, str]], known: Sequence[str] = ()) -> None:
-    """Refuse species whose names cannot name a file, and flyers that come twice or whose files are `known`."""
+def file_name(species: str, model: str, along: str = SPEED.name) -> str:
+    """Return the name of a lattice's file, without suffix; that of speeds does not say what changes.
+
+    >>> file_name("bat", "paper"), file_name("robofalcon2", "animal", "pitch_hinge.stiffness")
+    ('bat-paper', 'robofalcon2-animal-pitch_hinge.stiffness')
+    """
+    return "-".join([species, model, *([] if along == SPEED.name else [along])])
+
+
+def check_names(flyers: Iterable[tuple[str, str, str]], known: Sequence[str] = ()) -> None:
+    """Refuse species whose names cannot name a file, and flyers that come twice or whose files are `known`.
+
+    A flyer is a species by a model, with the name of what changes.
+    """
     faults, seen = FaultList(), set(known)
-    for species, model in flyers:
+    for species, model, along in flyers:
         if not re.fullmatch(r"[A-Za-z0-9][A-Za-z0-9._-]*", species):
             faults.add("species", species, "cannot name a file", "use letters, digits, - and _ in its name")
-        elif f"{species}-{model}" in seen:
-            faults.add("species", species, f"comes twice with the model {model}", "give each animal its own name")
-        seen.add(f"{species}-{model}")
+        elif (name := file_name(species, model, along)) in seen:
+            rule = f"comes twice with the model {model} along the same number"
+            faults.add("species", species, rule, "give each animal its own name")
+        else:
+            seen.add(name)
     faults.raise_if_any()
 
 

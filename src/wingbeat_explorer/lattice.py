@@ -1,4 +1,4 @@
-"""The flights of one animal with one model at several speeds, ready for a page without a server.
+"""The flights of one animal with one model, at several speeds or along another number, for a page without a server.
 
 With them go flights through gusts. Scenes are thinned: fewer samples of a beat, in whole numbers of 16 bits.
 """
@@ -11,10 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from wingbeat._base import FaultList, InvalidInputError, first_line
+from wingbeat._base import InvalidInputError, first_line
 from wingbeat.animal.species.scaling import CRUISE_BY_MASS
 from wingbeat.animal.species.species import Species
-from wingbeat.models import model_of
 from wingbeat.orbits.options import Status
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solve import Progress, check_search
@@ -22,8 +21,9 @@ from wingbeat.results.orbit import Orbit, solve_orbits
 from wingbeat.stability.gust_flights import fly_pushes
 from wingbeat.viewer import scene
 from wingbeat.viewer.scene import EXACT, packed
+from wingbeat_explorer.axis import SPEED, Axis, problems_along
 from wingbeat_explorer.face_data import face_of, is_plausible, measured_points
-from wingbeat_explorer.models import EXPLORER_MODELS, LATTICE_MODELS, search_starts
+from wingbeat_explorer.models import EXPLORER_MODELS, search_starts
 
 SPEEDS = 9
 # What speeds to show, as shares of the cruise of a bird of the same mass. Robots fly slower.
@@ -62,80 +62,94 @@ def default_speeds(species: Species, count: int = SPEEDS) -> list[float]:
 def solve_lattice(
     species: Species,
     model: str,
-    speeds: Sequence[float],
+    values: Sequence[float],
     starts: int | None = None,
     seed: int = 0,
     progress: Progress | None = None,
     push: bool = False,
+    along: str = SPEED.name,
+    speed: float | None = None,
 ) -> dict[str, Any]:
     """Find the wingbeats of an animal at several speeds, and return what the static explorer shows of them.
 
-    The result is fit for JSON. It has species, title, model, the speed to begin with, the curve (points and what
-    was measured on animals), the sources of the plausible ranges and the answers, one for each speed, from
-    `face_of`. Speeds are solved as a series, so that neighbours help each other. With `push` it has pushes too:
-    flights through gusts at the speed to begin with.
+    In place of the speed, another number may change, such as the stiffness of a robot's pitch hinges. The result is
+    fit for JSON. It has species, title, model, the axis (name, unit and label of what changes), the value on it to
+    begin with (first), the curve (points and what was measured on animals), the sources of the plausible ranges and
+    the answers, one for each value, from `face_of`. Answers and points hold the value under the axis' name. Flights
+    are solved as a series, so that neighbours help each other. With `push` it has pushes too: flights through gusts
+    at the value to begin with.
 
     Parameters
     ----------
     species : the animal or robot.
     model : one of `wingbeat_explorer.LATTICE_MODELS`.
-    speeds : increasing [m/s].
+    values : increasing: speeds [m/s], or values of the number that changes.
     starts, seed : as in `solve_orbits`; without a number of starts, the model ``"plausible"`` takes three.
-    progress : called with (speeds done, speeds in all).
+    progress : called with (flights done, flights in all).
     push : whether to fly through gusts as well, which takes some seconds.
+    along : ``"speed"``, or the path of the number that changes, as `Species.with_values` takes it.
+    speed : of all flights [m/s], where another number changes.
 
     Raises
     ------
-    InvalidInputError : no speed, speeds that do not increase; a speed, a model or a number of starts out of range.
+    InvalidInputError : no value, values that do not increase; a value, a model, a path, a speed or a number of
+        starts out of range; a number that the model searches for.
 
     >>> import wingbeat as wb
     >>> lattice = solve_lattice(wb.load_species("pigeon"), "paper", [11.0, 12.0], starts=1)
-    >>> lattice["speed"], [point["certified"] for point in lattice["curve"]["points"]]
+    >>> lattice["first"], [point["certified"] for point in lattice["curve"]["points"]]
     (11.0, [True, True])
     """
-    problems, count = check_lattice(species, model, speeds, starts, seed)
+    axis, problems, count = check_lattice(species, model, values, starts, seed, along, speed)
     orbits = solve_orbits(problems, count, seed, in_order=True, progress=progress)
-    return lattice_of(species, model, orbits, push)
+    return lattice_of(species, model, orbits, push, axis)
 
 
 def check_lattice(
-    species: Species, model: str, speeds: Sequence[float], starts: int | None = None, seed: int = 0
-) -> tuple[list[OrbitProblem], int | None]:
-    """Return the problems of `solve_lattice` and the number of starts of each, with its faults, without solving."""
-    faults = FaultList()
-    if not len(speeds) or any(np.diff(speeds) <= 0):
-        faults.add("speeds", list(speeds), "must be at least one, and increase", "for example 8, 10, 12")
-    faults.choice("model", model, LATTICE_MODELS)
-    faults.raise_if_any()
+    species: Species,
+    model: str,
+    values: Sequence[float],
+    starts: int | None = None,
+    seed: int = 0,
+    along: str = SPEED.name,
+    speed: float | None = None,
+) -> tuple[Axis, list[OrbitProblem], int | None]:
+    """Return axis and problems of `solve_lattice` and the number of starts, with its faults, without solving."""
     check_search(1 if starts is None else starts, seed)
-    meant = EXPLORER_MODELS[model]
-    made = model_of(meant.model, species)
-    problems = [made.problem(species, float(speed), **meant.changes) for speed in speeds]
-    return problems, search_starts(starts, meant.within_plausible)
+    axis, problems = problems_along(species, model, values, along, speed)
+    return axis, problems, search_starts(starts, EXPLORER_MODELS[model].within_plausible)
 
 
-def lattice_of(species: Species, model: str, orbits: Sequence[Orbit], push: bool = False) -> dict[str, Any]:
-    """Return what `solve_lattice` returns, of orbits by one model that are solved already, the slowest first."""
-    answers = [face_of(orbit, model) for orbit in orbits]
-    points = [point_of(answer) for answer in answers]
+def lattice_of(
+    species: Species, model: str, orbits: Sequence[Orbit], push: bool = False, axis: Axis = SPEED
+) -> dict[str, Any]:
+    """Return what `solve_lattice` returns, of orbits that are solved already, in the order of the axis' values."""
+    answers: list[dict[str, Any]] = [
+        face_of(orbit, model) | {axis.name: axis.value_of(orbit.problem)} for orbit in orbits
+    ]
+    points = [
+        point_of(answer, axis.name) | {"stable": orbit.record().get("stable")}
+        for answer, orbit in zip(answers, orbits, strict=True)
+    ]
     first = _first(points)
-    # The source of a range is long, and most often the same at all speeds.
+    # The source of a range is long, and most often the same in all flights.
     sources = {gauge["name"]: gauge["source"] for gauge in answers[0]["gauges"]}
+    measured = measured_points(species) if axis == SPEED else []
     lattice = {
         "species": species.name,
         "title": species.common_name or species.name,
         "model": model,
-        "speed": first,
-        "curve": {"points": points, "measured": measured_points(species)},
+        "axis": axis._asdict(),
+        "first": points[first][axis.name],
+        "curve": {"points": points, "measured": measured},
         "sources": sources,
         "answers": [_small(answer, sources) for answer in answers],
     }
-    pushed = next(orbit for orbit, point in zip(orbits, points, strict=True) if point["speed"] == first)
-    return lattice | ({"pushes": pushes_of(pushed)} if push else {})
+    return lattice | ({"pushes": pushes_of(orbits[first])} if push else {})
 
 
 def _small(answer: dict[str, Any], sources: dict[str, str]) -> dict[str, Any]:
-    """Return an answer with a thinned scene, and without the sources that all speeds share."""
+    """Return an answer with a thinned scene, and without the sources that all flights share."""
     gauges = [
         {name: part for name, part in gauge.items() if name != "source" or part != sources[gauge["name"]]}
         for gauge in answer["gauges"]
@@ -144,24 +158,25 @@ def _small(answer: dict[str, Any], sources: dict[str, str]) -> dict[str, Any]:
     return answer | {"gauges": gauges, "scene": None if scene is None else thinned(scene)}
 
 
-def point_of(answer: dict[str, Any]) -> dict[str, Any]:
+def point_of(answer: dict[str, Any], along: str = SPEED.name) -> dict[str, Any]:
     """Return a point of the curve: speed [m/s], power [W], frequency [Hz], whether certified and plausible.
 
     Parameters
     ----------
     answer : from `face_of`.
+    along : the name of what changes along the curve; its value stands in the speed's place.
     """
-    numbers = {name: answer[name] for name in ("speed", "power", "frequency")}
+    numbers = {name: answer[name] for name in (along, "power", "frequency")}
     return numbers | {"certified": answer["lights"][0]["good"], "plausible": is_plausible(answer["lights"])}
 
 
-def _first(points: Sequence[dict[str, Any]]) -> float:
-    """Return the speed to begin with: of least power among the plausible flights, or else the certified ones."""
+def _first(points: Sequence[dict[str, Any]]) -> int:
+    """Return the place of the point to begin with: of least power among plausible, or else certified ones."""
     for kind in ("plausible", "certified"):
-        fit = [point for point in points if point[kind]]
+        fit = [nth for nth, point in enumerate(points) if point[kind]]
         if fit:
-            return min(fit, key=lambda point: point["power"])["speed"]
-    return points[0]["speed"]
+            return min(fit, key=lambda nth: points[nth]["power"])
+    return 0
 
 
 def flown_through_gusts(orbit: Orbit, **asked: Any) -> tuple[list[dict[str, Any]], str]:

@@ -12,7 +12,8 @@ import pytest
 
 import wingbeat as wb
 from tests.helpers.browsers import shown_files
-from wingbeat_explorer import face_of, write_explorer
+from wingbeat_explorer import face_of, solve_lattice, write_explorer
+from wingbeat_explorer.axis import problems_along
 from wingbeat_explorer.lattice import lattice_of
 
 SPEEDS = {"pigeon": (8.0, 10.0, 12.0, 14.0), "bat": (6.0, 8.0)}
@@ -62,8 +63,44 @@ def folder(pushed, plates_and_flies, tmp_path_factory) -> Path:
 def read_script(path: Path) -> list:
     """Return the arguments of a data file's call; the last one is compressed."""
     called = re.fullmatch(r"wingbeatExplorer\.\w+\((.*)\);\n", path.read_text("utf-8"))
-    *names, text = json.loads(f"[{called[1]}]")
-    return [*names, json.loads(gzip.decompress(base64.b64decode(text)))]
+    name, text = json.loads(f"[{called[1]}]")
+    return [name, json.loads(gzip.decompress(base64.b64decode(text)))]
+
+
+ALONG = "pitch_hinge.stiffness"
+STIFFNESSES = (1.2, 1.4, 1.7, 2.0, 2.8, 3.3)  # N m/rad
+
+
+@pytest.fixture(scope="session")
+def robot() -> wb.Species:
+    """A robot whose wings pitch about hinges with springs and dampers."""
+    return wb.load_species("robofalcon2").with_values({"pitch_hinge.damping": 0.0166, ALONG: 1.0})
+
+
+@pytest.fixture(scope="session")
+def hinged(robot) -> tuple[list[wb.Orbit], dict]:
+    """Certified orbits at one speed with stiffer and stiffer hinges, and their lattice."""
+    axis, problems = problems_along(robot, "animal", STIFFNESSES, ALONG, 8.0)
+    found = wb.solve_orbits(problems, starts=1, in_order=True)
+    assert all(orbit.status is wb.Status.CONVERGED for orbit in found)
+    return found, lattice_of(robot, "animal", found, axis=axis)
+
+
+@pytest.fixture(scope="session")
+def hinge_folder(pushed, hinged, tmp_path_factory) -> Path:
+    """An explorer with a pigeon, and a robot along the stiffness of its hinges and along the speed."""
+    place = tmp_path_factory.mktemp("hinges")
+    write_explorer(
+        place, [pushed, hinged[1], solve_lattice(wb.load_species("robofalcon2"), "paper", [8.0, 9.0], 1)]
+    )
+    return place
+
+
+@pytest.fixture
+def show_hinges(browser, hinge_folder) -> Iterator:
+    """Open this explorer from disk in a page of its own."""
+    with shown_files(browser, ".wbx canvas", 1280, 844) as opened:
+        yield functools.partial(opened, hinge_folder / "index.html")
 
 
 @pytest.fixture

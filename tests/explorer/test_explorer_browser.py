@@ -66,7 +66,7 @@ def slid(page, speed):
     """Move the held point on the curve, and return the speed that it reached and the corners that are drawn."""
     page.mouse.move(*page.evaluate(ACROSS, speed))
     page.evaluate("() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
-    reached = page.evaluate(f"{FACE}.curve.scale.speedAt(Number({FACE}.curve.knob.getAttribute('cx')))")
+    reached = page.evaluate(f"{FACE}.curve.scale.valueAt(Number({FACE}.curve.knob.getAttribute('cx')))")
     return reached, np.array(page.evaluate(SHOWN))
 
 

@@ -34,14 +34,14 @@ def test_all_animals_by_both_models_and_with_gusts_fit_into_15_megabytes(folder)
     Files with fewer flights say less: what a file holds once counts for more in them.
     """
     pushes, lattice = (folder / "data" / f"pigeon-paper{end}.js" for end in ("-pushes", ""))
-    each = lattice.stat().st_size / len(read_script(lattice)[2]["answers"])
+    each = lattice.stat().st_size / len(read_script(lattice)[1]["answers"])
     animals = len(wb.species_names()) * (2 * SPEEDS * each + pushes.stat().st_size)
     assert animals + (folder / "explorer.js").stat().st_size < 15e6
 
 
 def test_the_gusts_are_those_of_fly_pushes_from_two_sides(folder, orbits):
-    species, model, pushes = read_script(folder / "data" / "pigeon-paper-pushes.js")
-    assert (species, model) == ("pigeon", "paper")
+    name, pushes = read_script(folder / "data" / "pigeon-paper-pushes.js")
+    assert name == "pigeon-paper"
     assert [(push["direction"], push["size"], push["feedback"]) for push in pushes] == [
         (direction, 1.0, feedback) for direction in ("upward", "tail") for feedback in (False, True)
     ]
@@ -66,14 +66,15 @@ def test_the_fruit_fly_s_coefficients_are_those_of_the_paper_s_model(plates_and_
 
 
 def test_a_data_file_holds_the_answers_and_the_curve(folder, answers):
-    species, model, lattice = read_script(folder / "data" / "pigeon-paper.js")
-    assert (species, model) == ("pigeon", "paper")
+    name, lattice = read_script(folder / "data" / "pigeon-paper.js")
+    assert (name, lattice["species"], lattice["model"]) == ("pigeon-paper", "pigeon", "paper")
+    assert lattice["axis"] == {"name": "speed", "unit": "m/s", "label": "speed"}
     assert [one["sentence"] for one in lattice["answers"]] == [one["sentence"] for one in answers["pigeon"]]
     for point, answer in zip(lattice["curve"]["points"], answers["pigeon"], strict=True):
         assert (point["speed"], point["power"]) == (answer["speed"], answer["power"])
         assert (point["certified"], point["plausible"]) == (True, False)
     cheapest = min(answers["pigeon"], key=lambda answer: answer["power"])
-    assert lattice["speed"] == cheapest["speed"]
+    assert lattice["first"] == cheapest["speed"]
 
 
 def test_thinning_keeps_the_flight(answers):
@@ -120,7 +121,7 @@ def test_the_command_writes_a_folder(tmp_path, capsys):
     words = ["--animals", "pigeon", "--models", "paper", "--speeds", "11", "12", "--starts", "1"]
     assert main(["explore", "--static", str(tmp_path / "new"), *words]) == 0
     assert re.search(r"index.html and 3 other files, \d\.\d MB", capsys.readouterr().err)
-    assert [one["speed"] for one in read_script(tmp_path / "new" / "data" / "pigeon-paper.js")[2]["answers"]] == [
+    assert [one["speed"] for one in read_script(tmp_path / "new" / "data" / "pigeon-paper.js")[1]["answers"]] == [
         11,
         12,
     ]
@@ -133,6 +134,10 @@ def test_the_command_writes_a_folder(tmp_path, capsys):
         (["--animals", ","], "names nothing"),
         (["--animals", "pigeo"], "pigeon"),
         (["--speeds", "9:4:1"], "reverse the sign"),
+        (["--along", "wing.chord"], "names no values"),
+        (["--along", "body.mass", "0.3", "0.4"], "must be one speed: only body.mass changes"),
+        (["--animals", "pigeon", "--speeds", "9", "--along", "body.mas", "0.3"], "body.mass"),
+        (["--animals", "pigeon", "--set", "wing.mass=-1"], "wing.mass"),
     ],
 )
 def test_the_command_says_what_is_wrong_before_it_solves(tmp_path, capsys, words, told):
@@ -150,9 +155,9 @@ def test_a_file_is_no_folder(tmp_path, capsys):
 @pytest.mark.parametrize(
     ("flyers", "told"),
     [
-        ([("../../x", "paper")], "species = '../../x': cannot name a file"),
-        ([("my bird", "paper")], "cannot name a file"),
-        ([("pigeon", "paper"), ("pigeon", "paper")], "comes twice with the model paper"),
+        ([("../../x", "paper", "speed")], "species = '../../x': cannot name a file"),
+        ([("my bird", "paper", "speed")], "cannot name a file"),
+        (2 * [("pigeon", "paper", "speed")], "comes twice with the model paper"),
     ],
 )
 def test_names_that_cannot_be_those_of_files_are_refused(flyers, told):

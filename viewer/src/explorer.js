@@ -15,6 +15,6 @@ globalThis.wingbeatExplorer = {
   // The static explorer: `open` is called by the catalogue of a folder, `hold` by each of its data files, and
   // `holdPushes` by those with flights through gusts.
   open: (catalogue) => (folder = new Folder(document.querySelector("main"), catalogue)),
-  hold: (animal, model, lattice) => folder.hold(animal, model, lattice),
-  holdPushes: (animal, model, pushes) => folder.holdPushes(animal, model, pushes),
+  hold: (name, lattice) => folder.hold(name, lattice),
+  holdPushes: (name, pushes) => folder.holdPushes(name, pushes),
 };

@@ -22,7 +22,8 @@ window.wingbeatPage = {
         if (!place || !window.wingbeatExplorer) return;
         watcher.disconnect();
         this.face = wingbeatExplorer.explore(place, { theme: this.theme, snap: false });
-        this.face.onask = (asked) => {
+        this.face.onask = ({ animal, model, at: speed }) => {
+          const asked = { animal, model, speed };
           this.want(asked);
           place.dispatchEvent(new CustomEvent("ask", { detail: asked }));
         };

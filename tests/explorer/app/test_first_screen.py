@@ -153,7 +153,7 @@ def test_the_point_of_the_curve_is_dragged_to_another_speed(visit):
     page.mouse.down()
     for part in (0.02, 0.04, 0.06):
         page.mouse.move(x + part * chart["width"], y)
-    speed = float(page.evaluate("wingbeatPage.face.curve.speed"))
+    speed = float(page.evaluate("wingbeatPage.face.curve.at"))
     page.mouse.up()
     assert 10.1 < speed < 11.0
     asks_for(page, f"speed={speed!r}")

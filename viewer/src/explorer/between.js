@@ -1,6 +1,7 @@
 // The picture between two computed flights of one animal: every array of the beat, blended sample by sample. It is a
 // picture only; no number on the page follows from it.
 
+import { withUnit } from "./numbers.js";
 import { Flight, short } from "./shared.js";
 
 // Wings that are farther apart than this, in semi-spans, beat in different ways, and nothing lies between them. From one
@@ -8,21 +9,23 @@ import { Flight, short } from "./shared.js";
 const APART = 0.5;
 
 export class Between {
-  // `answers`: of one animal and model, by speed.
-  constructor(answers) {
+  // `answers`: of one animal and model, along an axis.
+  constructor(answers, axis) {
     this.answers = answers;
+    this.axis = axis;
     this.flights = new Map();
   }
 
-  // The flight to draw at a speed; undefined at a computed speed, and where the flights at both sides do not suit.
-  at(speed) {
-    const after = this.answers.findIndex((answer) => answer.speed >= speed);
+  // The flight to draw at a value; undefined at a computed one, and where the flights at both sides do not suit.
+  at(value) {
+    const { name, unit } = this.axis;
+    const after = this.answers.findIndex((answer) => answer[name] >= value);
     const [low, high] = [this.answers[after - 1], this.answers[after]];
-    if (!low || !high || high.speed === speed || !flies(low) || !flies(high)) return undefined;
+    if (!low || !high || high[name] === value || !flies(low) || !flies(high)) return undefined;
     const [one, other] = [this.flight(low), this.flight(high)];
     if (!alike(one, other)) return undefined;
-    const share = (speed - low.speed) / (high.speed - low.speed);
-    const summary = `Picture between the wingbeats at ${short(low.speed)} and ${short(high.speed)} m/s`;
+    const share = (value - low[name]) / (high[name] - low[name]);
+    const summary = `Picture between the wingbeats at ${short(low[name])} and ${withUnit(high[name], unit)}`;
     return { ...blended(one, other, share), summary };
   }
 

@@ -1,11 +1,13 @@
-// The explorer's face: sentence and verdict, the flying animal, the curve that is the speed control, and the gauges.
+// The explorer's face: sentence and verdict, the flying animal, the curve that is the control of the speed or
+// of another number, and the gauges.
 
 import { Curve } from "./curve.js";
 import { Gauges } from "./gauges.js";
 import { LinkedPush } from "./linked_push.js";
+import { SPEED, withUnit } from "./numbers.js";
 import { OwnData } from "./own_data.js";
 import { Pins } from "./pins.js";
-import { make, short, Viewer } from "./shared.js";
+import { capital, make, Viewer } from "./shared.js";
 import { styles } from "./styles.js";
 import { Tour } from "./tour.js";
 import { Verdict } from "./verdict.js";
@@ -14,7 +16,7 @@ const UNCERTIFIED = "the closest wingbeat: it does not fly";
 let made = 0;
 
 export class Face {
-  // With `snap` the point rests on computed speeds only; without, the page can ask for any speed.
+  // With `snap` the point rests on computed values only; without, the page can ask for any speed.
   constructor(element, { theme = "system", snap = true } = {}) {
     this.onask = () => {};
     // Set before `setChoices` by a page that can: `onpush()` brings flights of the answer on the page through gusts, by
@@ -25,7 +27,7 @@ export class Face {
     this.theme = theme;
     this.id = `wbx${++made}`;
     this.verdict = new Verdict();
-    this.curve = new Curve((speed) => this.ask({ speed }), snap);
+    this.curve = new Curve((at) => this.ask({ at }), snap);
     this.gauges = new Gauges();
     this.pins = new Pins(() => this.show());
     this.tour = new Tour(this);
@@ -40,8 +42,10 @@ export class Face {
 
   build() {
     this.animal = this.choice("Animal", (animal) => this.ask({ animal }));
+    this.along = this.choice("Slider", (along) => this.ask({ along, at: undefined }));
     this.model = this.choice("Model", (model) => this.ask({ model }));
-    this.choices = make("div", { class: "wbx-choices" }, this.animal.element, this.model.element);
+    const choices = [this.animal, this.model, this.along].map(({ element }) => element);
+    this.choices = make("div", { class: "wbx-choices" }, ...choices);
     this.state = make("p", { class: "wbx-state", role: "status" });
     this.picture = make("div", { class: "wbx-picture" });
     this.pushButton = make("button", { type: "button", class: "wbx-push", hidden: true, onclick: () => this.push() });
@@ -68,29 +72,36 @@ export class Face {
 
   // What the page hands over ----------------------------------------------------------------------------------------
 
-  setChoices({ animals, models }, { animal, model }) {
-    this.asked = { speed: this.asked?.speed, animal, model };
-    for (const [{ select }, options, chosen] of [[this.animal, animals, animal], [this.model, models, model]]) {
+  // `axes`: what the curves of the animal run along.
+  setChoices({ animals, models, axes = [SPEED] }, { animal, model, along = SPEED.name }) {
+    this.asked = { at: this.asked?.at, animal, model, along };
+    const sliders = axes.map(({ name, label }) => ({ name, title: capital(label) }));
+    const all = [[this.animal, animals, animal], [this.along, sliders, along], [this.model, models, model]];
+    for (const [{ select }, options, chosen] of all) {
       select.replaceChildren(...options.map(({ name, title }) => make("option", { value: name }, title)));
       select.value = chosen;
     }
+    this.along.element.hidden = axes.length < 2;
     this.tour.offer();
   }
 
-  showCurve(data) {
-    this.curve.show(data);
+  showCurve(data, axis = SPEED) {
+    const turned = axis.name !== this.curve.axis.name;
+    this.curve.show(data, axis);
+    if (turned) this.own.show();
     this.tour.heardCurve();
   }
 
   showAnswer(answer) {
     this.answer = answer;
-    this.asked = { animal: answer.species, model: answer.model, speed: answer.speed };
+    const { name: along } = this.curve.axis;
+    this.asked = { animal: answer.species, model: answer.model, along, at: answer[along] };
     this.animal.select.value = answer.species;
     this.model.select.value = answer.model;
     this.pins.now(answer);
     this.say("");
     this.show();
-    if (this.pushing && this.pushSpeed(answer) === answer.speed) this.push();
+    if (this.pushing && this.isPushed(answer)) this.push();
     else this.linked.heard();
     // After the page's source has done what belongs to this answer; a provisional one is no ground for a tour's words.
     if (!answer.provisional) queueMicrotask(() => this.tour.heard());
@@ -128,15 +139,22 @@ export class Face {
     this.viewer?.setTheme(theme);
   }
 
-  // Whether the page has flights of this animal and model, or can compute them; with `push`, also through gusts.
-  has({ animal, model, push }) {
+  // Whether the page has flights of this animal and model along this axis, or can compute them; with `push`, also
+  // through gusts.
+  has({ animal, model, along = SPEED.name, push }) {
     const known = ({ select }, name) => [...select.options].some((option) => option.value === name);
-    return known(this.animal, animal) && known(this.model, model) && !(push && !this.onpush);
+    return [[this.animal, animal], [this.along, along], [this.model, model]].every((each) => known(...each)) && !(push && !this.onpush);
   }
 
-  // The speed [m/s] at which the flight of an answer can be pushed; undefined if at none.
-  pushSpeed(answer) {
-    return this.onpush && answer.status === "converged" ? answer.speed : undefined;
+  // The value on the axis at which the flight of an answer can be pushed; undefined if at none.
+  pushedAt(answer) {
+    return this.onpush && answer.status === "converged" ? answer[this.curve.axis.name] : undefined;
+  }
+
+  // Whether this very answer can be pushed.
+  isPushed(answer) {
+    const at = this.pushedAt(answer);
+    return at !== undefined && at === answer[this.curve.axis.name];
   }
 
   // Inside ----------------------------------------------------------------------------------------------------------
@@ -147,20 +165,19 @@ export class Face {
     this.onask({ ...this.asked });
   }
 
-  // Have the flight pushed; if another speed has the gusts, at that one.
+  // Have the flight pushed; if another one of the curve has the gusts, that one.
   push() {
-    const speed = this.pushSpeed(this.answer);
-    this.pushing = speed !== this.answer.speed;
-    if (this.pushing) this.ask({ speed });
+    this.pushing = !this.isPushed(this.answer);
+    if (this.pushing) this.ask({ at: this.pushedAt(this.answer) });
     else this.onpush();
   }
 
   tellPush() {
     const { answer } = this;
-    const speed = this.pushSpeed(answer);
-    this.pushButton.hidden = speed === undefined || Boolean(answer.scene?.pushes);
-    if (speed === undefined) return;
-    const where = speed === answer.speed ? "" : `, at ${short(speed)} m/s`;
+    const at = this.pushedAt(answer);
+    this.pushButton.hidden = at === undefined || Boolean(answer.scene?.pushes);
+    if (at === undefined) return;
+    const where = this.isPushed(answer) ? "" : `, at ${withUnit(at, this.curve.axis.unit)}`;
     this.pushButton.textContent = `Push it with a gust${where}`;
   }
 
@@ -171,7 +188,7 @@ export class Face {
     this.root.dataset.status = answer.status;
     this.verdict.show(answer);
     this.gauges.show(answer.gauges, pinned?.gauges);
-    this.curve.mark(answer.speed);
+    this.curve.mark(answer[this.curve.axis.name]);
     this.curve.pin(pinned?.status === "converged" ? pinned : undefined);
     this.numbers.replaceChildren(...rows(answer, pinned));
     this.picture.hidden = !answer.scene;

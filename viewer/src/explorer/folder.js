@@ -1,8 +1,9 @@
-// The static explorer: a folder with a catalogue and a file of data for each animal and model. Each is a script that calls
+// The static explorer: a folder with a catalogue and a file of data for each animal, model and axis. Each is a script that calls
 // `open` or `hold`, because a page that opens from disk may not fetch.
 
 import { Between } from "./between.js";
 import { Face } from "./face.js";
+import { SPEED } from "./numbers.js";
 import { make } from "./shared.js";
 
 export class Folder {
@@ -13,11 +14,11 @@ export class Folder {
     this.asked = catalogue.start;
     this.face = new Face(element, {});
     this.face.onask = (asked) => this.ask(asked);
-    this.face.curve.onslide = (speed) => this.slide(speed);
+    this.face.curve.onslide = (value) => this.slide(value);
     this.face.onpush = () => this.push();
     this.face.onpushed = () => this.link();
-    this.face.has = ({ animal, model, push }) => catalogue.files.includes(file(animal, model, push));
-    this.face.pushSpeed = ({ species, model }) => this.pushSpeed(species, model);
+    this.face.has = (asked) => this.has(asked);
+    this.face.pushedAt = ({ species: animal, model, axis = SPEED }) => this.pushedAt({ animal, model, along: axis.name });
     window.addEventListener("hashchange", () => this.follow());
     this.follow();
   }
@@ -36,69 +37,87 @@ export class Folder {
     const found = {};
     if (this.catalogue.animals.some(({ name }) => name === given.get("animal"))) found.animal = given.get("animal");
     if (this.catalogue.models.some(({ name }) => name === given.get("model"))) found.model = given.get("model");
-    if (Number.isFinite(parseFloat(given.get("speed")))) found.speed = parseFloat(given.get("speed"));
+    for (const { name } of this.catalogue.axes) {
+      if (Number.isFinite(parseFloat(given.get(name)))) [found.along, found.at] = [name, parseFloat(given.get(name))];
+    }
     if (given.get("push")) found.push = given.get("push");
     return found;
   }
 
-  // The models with which an animal was computed.
-  models(animal) {
-    return this.catalogue.models.filter(({ name }) => this.catalogue.files.includes(file(animal, name)));
+  // Whether there is a file of these flights; with `push`, of their gusts.
+  has({ push = false, ...asked }) {
+    return this.catalogue.files.includes(`${stem(asked)}${push ? "-pushes" : ""}.js`);
+  }
+
+  // What the curves of an animal run along.
+  axes(animal) {
+    const { axes, models } = this.catalogue;
+    return axes.filter(({ name: along }) => models.some(({ name: model }) => this.has({ animal, model, along })));
+  }
+
+  // The models with which an animal was computed along an axis.
+  models(animal, along) {
+    return this.catalogue.models.filter(({ name: model }) => this.has({ animal, model, along }));
   }
 
   ask(asked) {
-    const models = this.models(asked.animal);
+    const { animal } = asked;
+    const axes = this.axes(animal);
+    const along = axes.some(({ name }) => name === asked.along) ? asked.along : axes[0].name;
+    const models = this.models(animal, along);
     const model = models.some(({ name }) => name === asked.model) ? asked.model : models[0].name;
-    // Another animal begins at a speed of its own; another model of the same animal keeps the speed.
-    const speed = asked.animal === this.asked.animal ? asked.speed : undefined;
-    this.asked = { ...asked, model, speed };
-    if (this.listed !== asked.animal) this.face.setChoices({ animals: this.catalogue.animals, models }, this.asked);
-    this.listed = asked.animal;
+    // Another animal, and another axis, begin at a value of their own; another model of the same animal keeps it.
+    const isSame = animal === this.asked.animal && along === asked.along;
+    this.asked = { animal, along, model, at: isSame ? asked.at : undefined };
+    const listed = `${animal}/${along}`;
+    if (this.listed !== listed) this.face.setChoices({ animals: this.catalogue.animals, models, axes }, this.asked);
+    this.listed = listed;
     this.load();
   }
 
   load() {
-    const { asked } = this;
-    const key = `${asked.animal}/${asked.model}`;
-    if (this.lattices.has(key)) return this.show(this.lattices.get(key));
+    const name = stem(this.asked);
+    if (this.lattices.has(name)) return this.show(this.lattices.get(name));
     this.face.say("Loading …");
-    this.read(file(asked.animal, asked.model));
+    this.read(name);
   }
 
   read(name) {
-    const failed = () => this.face.say(`The file data/${name} could not be read.`);
-    document.head.append(make("script", { src: `data/${name}`, onerror: failed }));
+    const src = `data/${name}.js`;
+    document.head.append(make("script", { src, onerror: () => this.face.say(`The file ${src} could not be read.`) }));
   }
 
-  async hold(animal, model, text) {
+  // `name`: that of the file, without its end.
+  async hold(name, text) {
     const lattice = await this.decompressed(text);
     if (!lattice) return;
-    for (const { gauges } of lattice.answers) for (const gauge of gauges) gauge.source ??= lattice.sources[gauge.name];
-    this.lattices.set(`${animal}/${model}`, lattice);
-    if (this.asked.animal === animal && this.asked.model === model) this.show(lattice);
+    for (const answer of lattice.answers) {
+      answer.axis = lattice.axis;
+      for (const gauge of answer.gauges) gauge.source ??= lattice.sources[gauge.name];
+    }
+    this.lattices.set(name, lattice);
+    if (stem(this.asked) === name) this.show(lattice);
   }
 
   // Flights through gusts lie in a file of their own, and are of the flight that an animal begins with.
-  pushSpeed(animal, model) {
-    const lattice = this.lattices.get(`${animal}/${model}`);
-    return this.catalogue.files.includes(file(animal, model, true)) ? lattice?.speed : undefined;
+  pushedAt(asked) {
+    return this.has({ ...asked, push: true }) ? this.lattices.get(stem(asked))?.first : undefined;
   }
 
   push() {
-    const { animal, model } = this.asked;
-    const held = this.pushes.get(`${animal}/${model}`);
+    const name = stem(this.asked);
+    const held = this.pushes.get(name);
     if (held) return this.face.showPushes(held);
     this.face.say("Loading the gusts …");
-    this.read(file(animal, model, true));
+    this.read(`${name}-pushes`);
   }
 
-  async holdPushes(animal, model, text) {
+  async holdPushes(name, text) {
     const pushes = await this.decompressed(text);
     if (!pushes) return;
-    this.pushes.set(`${animal}/${model}`, pushes);
+    this.pushes.set(name, pushes);
     const { asked } = this;
-    const wanted = asked.animal === animal && asked.model === model && asked.speed === this.pushSpeed(animal, model);
-    if (wanted) this.face.showPushes(pushes);
+    if (stem(asked) === name && asked.at === this.pushedAt(asked)) this.face.showPushes(pushes);
   }
 
   async decompressed(text) {
@@ -110,23 +129,24 @@ export class Folder {
     }
   }
 
-  // Show the answer that is nearest in speed.
+  // Show the answer that is nearest on the axis.
   show(lattice) {
-    const away = ({ speed }) => Math.abs(speed - (this.asked.speed ?? lattice.speed));
+    const { name } = lattice.axis;
+    const away = (answer) => Math.abs(answer[name] - (this.asked.at ?? lattice.first));
     const answer = lattice.answers.reduce((best, each) => (away(each) < away(best) ? each : best));
     if (this.shown !== lattice) {
-      this.face.showCurve(lattice.curve);
-      this.between = new Between(lattice.answers);
+      this.face.showCurve(lattice.curve, lattice.axis);
+      this.between = new Between(lattice.answers, lattice.axis);
     }
     this.shown = lattice;
-    this.asked.speed = answer.speed;
+    this.asked.at = answer[name];
     this.face.showAnswer(answer);
     this.link();
   }
 
-  // While the point is on its way, the animal flies between two computed speeds; the numbers stay those of the nearest.
-  slide(speed) {
-    this.sliding = speed;
+  // While the point is on its way, the animal flies between two computed flights; the numbers stay those of the nearest.
+  slide(value) {
+    this.sliding = value;
     this.due ??= requestAnimationFrame(() => {
       this.due = undefined;
       const flight = this.sliding === undefined ? undefined : this.between?.at(this.sliding);
@@ -137,16 +157,16 @@ export class Folder {
 
   // Write what is shown into the page's address.
   link() {
-    const { animal, model, speed } = this.asked;
+    const { animal, model, along, at } = this.asked;
     const push = this.face.linked.name;
-    history.replaceState(null, "", `#${new URLSearchParams({ animal, model, speed, ...(push && { push }) })}`);
+    history.replaceState(null, "", `#${new URLSearchParams({ animal, model, [along]: at, ...(push && { push }) })}`);
   }
 }
 
-// What a link asks for: an animal begins at a speed of its own.
-function chosen(before, { animal, model, speed }) {
-  const asked = animal ? { animal, speed } : { animal: before.animal, speed: speed ?? before.speed };
-  return { ...asked, model: model ?? before.model };
+// What a link asks for: an animal begins at a value of its own.
+function chosen(before, { animal, model, along, at }) {
+  const kept = animal ? { animal, along, at } : { animal: before.animal, along: along ?? before.along, at: at ?? before.at };
+  return { ...kept, model: model ?? before.model };
 }
 
 async function decompressed(text) {
@@ -155,6 +175,7 @@ async function decompressed(text) {
   return JSON.parse(await new Response(stream).text());
 }
 
-function file(animal, model, push = false) {
-  return `${animal}-${model}${push ? "-pushes" : ""}.js`;
+// The name of a lattice's file, without its end; that of speeds does not say what changes.
+function stem({ animal, model, along = SPEED.name }) {
+  return [animal, model, ...(along === SPEED.name ? [] : [along])].join("-");
 }

@@ -21,7 +21,7 @@ export class LinkedPush {
   heard() {
     const { answer, viewer } = this.face;
     if (!this.wanted || !answer || answer.provisional) return;
-    if (!viewer || this.face.pushSpeed(answer) !== answer.speed) this.wanted = "";
+    if (!viewer || !this.face.isPushed(answer)) this.wanted = "";
     else if (!answer.scene.pushes) this.face.onpush();
     else {
       const { wanted } = this;

@@ -2,8 +2,17 @@
 
 import { short } from "./shared.js";
 
+// What a curve runs along if nothing else is said.
+export const SPEED = { name: "speed", unit: "m/s", label: "speed" };
+
 export function withUnit(value, unit, digits = 3) {
   return unit ? `${short(value, digits)} ${unit}` : short(value, digits);
+}
+
+// Where an answer flies, and what its hinge or other number along the curve is.
+export function place({ speed, axis = SPEED, ...answer }) {
+  const more = axis.name === SPEED.name ? "" : `, ${axis.label} ${withUnit(answer[axis.name], axis.unit)}`;
+  return `at ${short(speed)} m/s${more}`;
 }
 
 // The two ends of a number that may be one value or a range.

@@ -1,6 +1,7 @@
 // The reader's own files: measured flights behind the curve, a wing's motion in the plots, species files and polars.
 
 import { Faults, isPolar, tableOf, tooLarge } from "./csv.js";
+import { SPEED } from "./numbers.js";
 import { flightsOf, kindOf, motionOf } from "./own_tables.js";
 import { make } from "./shared.js";
 
@@ -171,6 +172,8 @@ export class OwnData {
 
   words({ title, points, curves, left: undrawn }) {
     const { viewer, blind } = this.face;
+    const { axis } = this.face.curve;
+    if (points && axis.name !== SPEED.name) return `${title}: not drawn, because this curve shows the ${axis.label}, not the speed`;
     if (points) return `${title}: ${points.length} ${points.length === 1 ? "point" : "points"} behind the curve${undrawn}`;
     if (!viewer) return `${title}: ${blind ? "not drawn, because the page has no picture" : "drawn with the first picture"}`;
     const [found, others] = [true, false].map((drawn) => {

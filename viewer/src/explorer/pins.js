@@ -1,6 +1,7 @@
 // Comparison: one answer is pinned, and stays beside those that follow.
 
-import { make, short } from "./shared.js";
+import { place } from "./numbers.js";
+import { make } from "./shared.js";
 
 export class Pins {
   // `act` is called when the pinned answer or the way to show it changes. A page that keeps pinned answers itself sets
@@ -57,6 +58,6 @@ export class Pins {
   }
 }
 
-export function title({ title, speed, model_title: model }) {
-  return `${title} at ${short(speed)} m/s, model: ${model}`;
+export function title(answer) {
+  return `${answer.title} ${place(answer)}, model: ${answer.model_title}`;
 }

@@ -7,18 +7,19 @@ import { coefficients, hovering } from "./stories_of_power.js";
 
 export const STORIES = [hovering, coefficients, robot, tumbling];
 
-// Speeds that a step can ask for, chosen among the certified points of a curve.
-export const SPEEDS = {
-  slowest: (points) => points[0].speed,
-  fastest: (points) => points.at(-1).speed,
-  cheapest: (points) => cheapest(points).speed,
-  slow: (points) => nearest(points, 0.75 * points[0].speed + 0.25 * cheapest(points).speed).speed,
+// Points that a step can ask for, chosen among the certified ones of a curve; `name` is that of the axis.
+export const PLACES = {
+  first: (points) => points[0],
+  last: (points) => points.at(-1),
+  cheapest,
+  early: (points, name) => nearest(points, name, 0.75 * points[0][name] + 0.25 * cheapest(points)[name]),
 };
 
 function cheapest(points) {
   return points.reduce((best, each) => (each.power < best.power ? each : best));
 }
 
-function nearest(points, wanted) {
-  return points.reduce((best, each) => (Math.abs(each.speed - wanted) < Math.abs(best.speed - wanted) ? each : best));
+function nearest(points, name, wanted) {
+  const away = (point) => Math.abs(point[name] - wanted);
+  return points.reduce((best, each) => (away(each) < away(best) ? each : best));
 }

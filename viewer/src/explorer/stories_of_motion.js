@@ -25,7 +25,7 @@ export const robot = {
     {
       name: "weight",
       title: "Start from the weight",
-      flight: { ...ROBOT, speed: "cheapest" },
+      flight: { ...ROBOT, at: "cheapest" },
       view: { camera: "front", arrows: false },
       look: "picture",
       tell: ({ now, semiSpan }) => [
@@ -37,7 +37,7 @@ export const robot = {
     {
       name: "gait",
       title: "Find a gait that closes",
-      flight: { ...ROBOT, speed: "cheapest" },
+      flight: { ...ROBOT, at: "cheapest" },
       view: { camera: "side", arrows: true },
       look: "picture",
       tell: ({ now }) => [
@@ -49,7 +49,7 @@ export const robot = {
     {
       name: "motor",
       title: "What the motor must give",
-      flight: { ...ROBOT, speed: "cheapest" },
+      flight: { ...ROBOT, at: "cheapest" },
       view: { camera: "side", arrows: true },
       look: "gauges",
       tell: ({ now }) => [
@@ -61,7 +61,7 @@ export const robot = {
     {
       name: "slow",
       title: "Slow flight",
-      flight: { ...ROBOT, speed: "slowest" },
+      flight: { ...ROBOT, at: "first" },
       view: { camera: "oblique", arrows: true },
       look: "curve",
       tell: ({ now, seen }) => [
@@ -75,7 +75,7 @@ export const robot = {
     {
       name: "fast",
       title: "Fast flight",
-      flight: { ...ROBOT, speed: "fastest" },
+      flight: { ...ROBOT, at: "last" },
       view: { camera: "oblique", arrows: true },
       look: "curve",
       tell: ({ now, seen }) => [
@@ -90,7 +90,7 @@ export const robot = {
   ],
 };
 
-const PIGEON = { animal: "pigeon", model: ["paper", "animal"], speed: "pushed" };
+const PIGEON = { animal: "pigeon", model: ["paper", "animal"], at: "pushed" };
 const FREE = { direction: "tail", feedback: false };
 
 export const tumbling = {

@@ -11,7 +11,7 @@ export const hovering = {
     {
       name: "cheap",
       title: "The cheapest flight",
-      flight: { animal: "annas-hummingbird", model: "animal", speed: "cheapest" },
+      flight: { animal: "annas-hummingbird", model: "animal", at: "cheapest" },
       view: { camera: "side", arrows: true },
       look: "curve",
       tell: ({ now }) => [
@@ -23,7 +23,7 @@ export const hovering = {
     {
       name: "slow",
       title: "Slower, with less air to push",
-      flight: { animal: "annas-hummingbird", model: "animal", speed: "slow" },
+      flight: { animal: "annas-hummingbird", model: "animal", at: "early" },
       view: { camera: "side", arrows: true },
       look: "curve",
       tell: ({ now, seen }) => [
@@ -34,7 +34,7 @@ export const hovering = {
     {
       name: "hover",
       title: "No wind but its own",
-      flight: { animal: "annas-hummingbird", model: "animal", speed: "slowest" },
+      flight: { animal: "annas-hummingbird", model: "animal", at: "first" },
       view: { camera: "oblique", arrows: true },
       look: "curve",
       tell: ({ now, seen }) => [
@@ -47,7 +47,7 @@ export const hovering = {
     {
       name: "fast",
       title: "Fast flight",
-      flight: { animal: "annas-hummingbird", model: "animal", speed: "fastest" },
+      flight: { animal: "annas-hummingbird", model: "animal", at: "last" },
       view: { camera: "side", arrows: true },
       look: "curve",
       tell: ({ now, seen }) => [
@@ -65,7 +65,7 @@ export const hovering = {
     {
       name: "muscle",
       title: "Can its muscle do it?",
-      flight: { animal: "annas-hummingbird", model: "animal", speed: "slowest" },
+      flight: { animal: "annas-hummingbird", model: "animal", at: "first" },
       view: { camera: "front", arrows: false },
       look: "gauges",
       tell: ({ now }) => [
@@ -76,7 +76,7 @@ export const hovering = {
   ],
 };
 
-const PLATE = { animal: "bat", model: "paper", speed: "cheapest" };
+const PLATE = { animal: "bat", model: "paper", at: "cheapest" };
 const FLY = { ...PLATE, model: "dickinson" };
 
 export const coefficients = {
@@ -100,7 +100,7 @@ export const coefficients = {
       name: "fly",
       title: "The same bat, a fruit fly's wing",
       flight: FLY,
-      speedOf: "plate",
+      placeOf: "plate",
       view: { camera: "oblique", arrows: true },
       pin: "plate",
       look: "picture",
@@ -114,7 +114,7 @@ export const coefficients = {
     {
       name: "fast",
       title: "Faster, on plates",
-      flight: { ...PLATE, speed: "fastest" },
+      flight: { ...PLATE, at: "last" },
       view: { camera: "side", arrows: true },
       look: "curve",
       tell: ({ now, seen }) => [
@@ -125,8 +125,8 @@ export const coefficients = {
     {
       name: "fastFly",
       title: "Faster, with the fruit fly's wing",
-      flight: { ...FLY, speed: "fastest" },
-      speedOf: "fast",
+      flight: { ...FLY, at: "last" },
+      placeOf: "fast",
       view: { camera: "side", arrows: true },
       pin: "fast",
       look: "curve",

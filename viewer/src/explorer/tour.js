@@ -1,7 +1,8 @@
 // Runs a guided tour: asks for the flight of a step, sets the view, and says what the reader sees.
 
+import { SPEED } from "./numbers.js";
 import { make, setView, viewOf } from "./shared.js";
-import { SPEEDS, STORIES } from "./stories.js";
+import { PLACES, STORIES } from "./stories.js";
 import { emphasised } from "./words.js";
 
 const MOST_TRIES = 6; // of asking for the flight of one step; a page that shows another one every time has it not
@@ -93,9 +94,10 @@ export class Tour {
 
   // The flight of a step, with the first of its models that the page has; nothing if it has none.
   flight({ flight }) {
-    const push = flight.speed === "pushed";
-    const model = [flight.model].flat().find((each) => this.face.has({ animal: flight.animal, model: each, push }));
-    return model && { ...flight, model };
+    const push = flight.at === "pushed";
+    const asked = { animal: flight.animal, along: flight.along ?? SPEED.name };
+    const model = [flight.model].flat().find((each) => this.face.has({ ...asked, model: each, push }));
+    return model && { ...asked, model };
   }
 
   // Show a step, or the next one in this direction whose flight the page has.
@@ -129,17 +131,18 @@ export class Tour {
     if (this.step && this.waitsForCurve && !this.face.answer.provisional) this.ask();
   }
 
-  // Ask for the animal and the model, then, when their curve is known, for the speed, then for flights through gusts.
+  // Ask for animal, axis and model, then, when their curve is known, for the place on it, then for flights through gusts.
   ask() {
     const { face, step } = this;
-    const { animal, model } = this.flight(step);
+    const { animal, along, model } = this.flight(step);
     const { answer } = face;
-    if (answer?.species !== animal || answer.model !== model) return this.request({ animal, model });
+    const isThere = answer?.species === animal && answer.model === model && face.curve.axis.name === along;
+    if (!isThere) return this.request({ animal, along, model });
     const { pending = [], points } = face.curve.data;
     this.waitsForCurve = pending.length > 0;
-    if (this.waitsForCurve) return this.say([`Computing the curve; ${pending.length} more speeds to go.`]);
-    const speed = this.speed(points.filter((point) => point.certified));
-    if (speed !== undefined && Math.abs(speed - answer.speed) > 1e-9) return this.request({ speed });
+    if (this.waitsForCurve) return this.say([`Computing the curve; ${pending.length} more flights to go.`]);
+    const at = this.place(points.filter((point) => point.certified));
+    if (at !== undefined && Math.abs(at - answer[along]) > 1e-9) return this.request({ at });
     if (step.push && !answer.scene?.pushes && answer.status === "converged") {
       this.say(["Flying through the gusts …"]);
       return face.onpush();
@@ -153,11 +156,13 @@ export class Tour {
     else this.face.ask(change);
   }
 
-  speed(points) {
+  // The value on the axis that the step asks for.
+  place(points) {
     const { step, seen, face } = this;
-    if (step.flight.speed === "pushed") return face.pushSpeed(face.answer);
-    if (seen[step.speedOf]) return seen[step.speedOf].speed;
-    return points.length ? SPEEDS[step.flight.speed](points) : undefined;
+    const { name } = face.curve.axis;
+    if (step.flight.at === "pushed") return face.pushedAt(face.answer);
+    if (seen[step.placeOf]) return seen[step.placeOf][name];
+    return points.length ? PLACES[step.flight.at](points, name)[name] : undefined;
   }
 
   arrive(answer) {
@@ -231,5 +236,5 @@ export class Tour {
 }
 
 function same(one, other) {
-  return ["species", "model", "speed"].every((name) => one[name] === other[name]);
+  return ["species", "model", "speed", one.axis?.name].every((name) => one[name] === other[name]);
 }

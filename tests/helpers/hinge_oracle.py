@@ -69,18 +69,31 @@ def _laws(beat, t):
 
 def _numbers(flier):
     """All numbers as arrays, with span fraction, full chord and mass of each strip."""
-    wing = flier.vehicle["wing"]
+    wing = dict(flier.vehicle["wing"])
     eta = (np.arange(flier.strips) + 0.5) / flier.strips
     stations = np.atleast_1d(np.asarray(wing["chord"], float))
     chord = np.interp(eta, np.linspace(0.0, 1.0, len(stations)), stations)
     share = (1.0 - eta) ** wing["mass_exponent"]
+    table = {name: wing.pop(name, None) for name in ("mass_stations", "station_masses")}
+    axes, gyrations = wing.pop("station_axes", None), wing.pop("station_gyrations", None)
+    if table["mass_stations"] is None:
+        pieces = {"eta": eta, "chord": chord, "mass": wing["mass"] * share / share.sum()}
+    else:  # the pieces themselves, not strips of their mass
+        place = np.asarray(table["mass_stations"])
+        there = np.interp(place, np.linspace(0.0, 1.0, len(stations)), stations)
+        pieces = {"eta": place, "chord": there, "mass": table["station_masses"]}
+    pieces["axis"] = (wing["mass_axis"] if axes is None else np.asarray(axes)) * np.ones_like(pieces["chord"])
+    pieces["gyration"] = (wing["mass_gyration"] if gyrations is None else np.asarray(gyrations)) + 0.0 * pieces[
+        "eta"
+    ]
     parts = {
         "body": flier.vehicle["body"],
         "wing": {name: value for name, value in wing.items() if name != "chord"},
         "beat": {name: value for name, value in flier.wingbeat.items() if isinstance(value, float)},
         "hinge": flier.hinge,
         "air": flier.air,
-        "strips": {"eta": eta, "chord": chord, "mass": wing["mass"] * share / share.sum()},
+        "strips": {"eta": eta, "chord": chord},
+        "pieces": pieces,
     }
     return jax.tree_util.tree_map(lambda a: jnp.asarray(a, dtype=float), parts)
 
@@ -97,22 +110,22 @@ def places(numbers, q, t):
     arm = stroke @ _flap(laws["flap"]) @ _ahead(laws["sweep"])
     hand = stroke @ _flap(laws["flap"] - beat["fold_amplitude"] * laws["recovery"]) @ _ahead(laws["sweep"])
 
-    def strip(e, c):
+    def framed(e):
         inner, outer = jnp.minimum(e, beat["wrist"]), jnp.maximum(e - beat["wrist"], 0.0)
         angle = root * (1.0 + (beat["twist_ratio"] - 1.0) * e) + (beat["twist_mean"] + tau * theta) * e
         turned = jnp.where(e <= beat["wrist"], arm, hand) @ _nose_up(angle)
-        axis, fore = shoulder + length * (inner * arm[:, 1] + outer * hand[:, 1]), turned[:, 0]
-        quarter = axis + (wing["pitch_axis"] - 0.25) * c * fore
-        centre, reach = (wing["pitch_axis"] - wing["mass_axis"]) * c * fore, wing["mass_gyration"] * c * fore
-        return {
-            "quarter": quarter,
-            "front": axis + centre + reach,
-            "rear": axis + centre - reach,
-            "e_c": fore,
-            "e_n": turned[:, 2],
-        }
+        return shoulder + length * (inner * arm[:, 1] + outer * hand[:, 1]), turned[:, 0], turned[:, 2]
 
-    return jax.vmap(strip)(numbers["strips"]["eta"], numbers["strips"]["chord"])
+    def strip(one):
+        axis, fore, normal = framed(one["eta"])
+        return {"quarter": axis + (wing["pitch_axis"] - 0.25) * one["chord"] * fore, "e_c": fore, "e_n": normal}
+
+    def piece(one):
+        axis, fore, _ = framed(one["eta"])
+        centre, reach = ((wing["pitch_axis"] - one["axis"]) * fore, one["gyration"] * fore)
+        return {side: axis + one["chord"] * (centre + sign * reach) for side, sign in (("front", 1), ("rear", -1))}
+
+    return jax.vmap(strip)(numbers["strips"]) | jax.vmap(piece)(numbers["pieces"])
 
 
 def lagrangian(numbers, q, v, t):
@@ -123,7 +136,7 @@ def lagrangian(numbers, q, v, t):
 
 def energies(numbers, q, v, t):
     """Kinetic energy and that of gravity."""
-    body, mass, gravity = numbers["body"], numbers["strips"]["mass"], numbers["air"]["gravity"]
+    body, mass, gravity = numbers["body"], numbers["pieces"]["mass"], numbers["air"]["gravity"]
     at, moving = jax.jvp(lambda a, b: places(numbers, a, b), (q, t), (v, jnp.ones_like(t)))
     kinetic = 0.5 * body["mass"] * (v[0] ** 2 + v[1] ** 2) + 0.5 * body["pitch_inertia"] * v[2] ** 2
     potential = body["mass"] * gravity * q[1]

@@ -235,8 +235,8 @@ def test_twist_applies_to_the_whole_pitch_angle():
 
 def test_chord_list_is_piecewise_linear_between_equal_stations():
     wing = dataclasses.replace(VEHICLE.wing, chord=(0.1, 0.2, 0.0 + 1e-3))
-    fraction, chord, _ = strips_of(wing, 10)
-    close(chord, np.interp(fraction, [0.0, 0.5, 1.0], [0.1, 0.2, 1e-3]), 1e-15)
+    cut = strips_of(wing, 10)
+    close(cut.chord, np.interp(cut.span_fraction, [0.0, 0.5, 1.0], [0.1, 0.2, 1e-3]), 1e-15)
     assert wing.mean_chord == pytest.approx((0.1 / 2 + 0.2 + 1e-3 / 2) / 2)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from dataclasses import dataclass
 from typing import Any
@@ -51,6 +52,10 @@ class Body:
 
 # Places on a wing's chords; records leave them out at their defaults, which need no term.
 CHORDWISE = ("pitch_axis", "mass_axis", "mass_gyration")
+# The columns of a table of masses.
+STATIONS = ("mass_stations", "station_masses", "station_axes", "station_gyrations")
+# How far the stations' masses may miss the wing's, as a share: scales and rounded files.
+_WEIGHED = 1e-3
 
 
 @register_record(optional=CHORDWISE)
@@ -71,11 +76,18 @@ class Wing:
     mass_axis : where the strips' centres of mass lie, behind the leading edge, in chords.
     mass_gyration : their radius of gyration about a line along the span through that centre, in chords; the default
         is that of a uniform strip.
+    mass_stations : places of point masses along the span, as fractions of the wing's length, in any order; some may
+        be equal, such as a piece of a spar and one of the skin. They replace the law of `mass_exponent`; None for
+        that law.
+    station_masses : the mass at each of them [kg]; they add up to `mass`.
+    station_axes : where its centre lies, behind the leading edge, in chords; None for `mass_axis` everywhere.
+    station_gyrations : its radius of gyration as in `mass_gyration`; None for that one everywhere.
 
     Raises
     ------
     InvalidInputError : a length or mass that is not positive, a negative exponent, fewer than two stations of the
-        chord, a shoulder that is not three numbers, an axis off the chord, a number that is not finite.
+        chord, a shoulder that is not three numbers, an axis off the chord, a number that is not finite, station
+        masses that do not add up to the mass, columns of unequal length, or a number that they replace.
 
     >>> import wingbeat as wb
     >>> wing = wb.Wing(semi_span=0.3, chord=(0.12, 0.10, 0.04), mass=0.02, mass_exponent=2.0)
@@ -92,6 +104,10 @@ class Wing:
     pitch_axis: float = 0.25
     mass_axis: float = 0.5
     mass_gyration: float = 0.5 / math.sqrt(3.0)
+    mass_stations: tuple[float, ...] | None = None
+    station_masses: tuple[float, ...] | None = None
+    station_axes: tuple[float, ...] | None = None
+    station_gyrations: tuple[float, ...] | None = None
 
     def __post_init__(self) -> None:
         faults = FaultList()
@@ -119,13 +135,63 @@ class Wing:
         faults.number("wing.mass_axis", self.mass_axis, at_least=0, at_most=1, fix=behind)
         fix = "a uniform strip has 0.2887 chords"
         faults.number("wing.mass_gyration", self.mass_gyration, at_least=0, at_most=0.5, fix=fix)
+        self._check_stations(faults)
         faults.raise_if_any()
 
+    def _check_stations(self, faults: FaultList) -> None:
+        given = [name for name in STATIONS if getattr(self, name) is not None]
+        if not given:
+            return
+        least = {"station_masses": {"above": 0, "unit": "kg"}, "station_gyrations": {"at_least": 0, "at_most": 0.5}}
+        for name in dict.fromkeys((*STATIONS[:2], *given)):
+            column = getattr(self, name)
+            if not isinstance(column, list | tuple):
+                fix = "give mass_stations and station_masses, lists of equal length"
+                faults.add(f"wing.{name}", column, "must be a list of numbers in a table of masses", fix)
+                return
+            object.__setattr__(self, name, tuple(column))
+            for i, number in enumerate(column):
+                faults.number(f"wing.{name}[{i}]", number, **least.get(name, {"at_least": 0, "at_most": 1}))
+            if len(column) != (count := len(self.mass_stations or ())):
+                rule = f"has {len(column)} numbers, wing.mass_stations has {count}"
+                faults.add(f"wing.{name}", column, rule, "give one number for each station")
+        for name, column in self.replaced.items():
+            if not at_default(self, name):
+                fix = f"leave it out, or set it to {getattr(Wing, name)!r}"
+                faults.add(f"wing.{name}", getattr(self, name), f"has no effect beside wing.{column}", fix)
+        if faults.faults or self.mass_stations is None or self.station_masses is None:
+            return
+        if len({*self.mass_stations}) < 3:
+            fix = "cut the wing into more pieces"
+            faults.add("wing.mass_stations", self.mass_stations, "are fewer than three different places", fix)
+        if abs((total := math.fsum(self.station_masses)) - self.mass) > _WEIGHED * self.mass:
+            fix = "correct one of them; in a file, leave wing.mass out"
+            faults.add("wing.mass", self.mass, f"is not the sum of wing.station_masses, {total:.6g} kg", fix)
+
+    @property
+    def replaced(self) -> dict[str, str]:
+        """Return the numbers that a table of masses replaces, with its columns that do."""
+        pairs = zip(("mass_exponent", "mass_axis", "mass_gyration"), STATIONS[1:], strict=True)
+        return {name: column for name, column in pairs if getattr(self, column) is not None}
+
+    def weighing(self, mass: float) -> Wing:
+        """Return this wing with another mass; those of its stations change in proportion.
+
+        Parameters
+        ----------
+        mass : [kg].
+
+        >>> wing = Wing(0.3, 0.1, 0.02, mass_stations=(0.1, 0.5, 0.9), station_masses=(0.01, 0.006, 0.004))
+        >>> wing.weighing(0.04).station_masses
+        (0.02, 0.012, 0.008)
+        """
+        masses = self.station_masses and tuple(one * mass / self.mass for one in self.station_masses)
+        return dataclasses.replace(self, mass=mass, station_masses=masses)
+
     def told(self) -> dict[str, Any]:
-        """Return its numbers by name, in SI units; places on the chord are left out at their defaults."""
-        return {
-            name: value for name, value in vars(self).items() if name not in CHORDWISE or not at_default(self, name)
-        }
+        """Return its numbers by name, in SI units; what is at its default on the chord, or None, is left out."""
+        off = {name for name in CHORDWISE if at_default(self, name)}
+        return {name: value for name, value in vars(self).items() if name not in off and value is not None}
 
     @property
     def mean_chord(self) -> float:

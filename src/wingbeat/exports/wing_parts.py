@@ -18,8 +18,7 @@ from wingbeat._base import Fault, FaultList, InvalidInputError
 from wingbeat.animal.kinematics import LAWS, Wingbeat
 from wingbeat.animal.pitch_hinge import PitchHinge
 from wingbeat.animal.vehicle import Wing
-from wingbeat.mechanics.wing_motion import strips_of
-from wingbeat.mechanics.wing_shape import twist_factors
+from wingbeat.mechanics.wing_shape import mass_behind, mass_gyration, strips_of, twist_factors
 
 if TYPE_CHECKING:
     from wingbeat.exports.gait import Laws
@@ -77,7 +76,7 @@ class Part:
 
         Each strip is a rod along its chord. `sign` is that of the side, from `SIDES`.
         """
-        if not self.strips:
+        if sum(strip.mass for strip in self.strips) < NOTHING:
             return NOTHING, np.zeros(3), np.diag([NOTHING] * 3)
         station, mass, x, gyration = (np.array([strip[i] for strip in self.strips]) for i in (1, 3, 5, 6))
         y, whole = sign * station, mass.sum()
@@ -142,11 +141,13 @@ def wing_parts(wing: Wing, wingbeat: Wingbeat, count: int) -> Part:
         rule = "on a wing that sweeps cannot be represented by hinges one after another"
         fix = "export the gait as .csv, .mat or .c3d"
         raise InvalidInputError([Fault("wingbeat.fold_amplitude", wingbeat.fold_amplitude, rule, fix)])
-    fraction, chord, mass = (np.asarray(a) for a in strips_of(wing, count))
+    cut = strips_of(wing, count)
+    fraction, quarter = np.asarray(cut.span_fraction), (wing.pitch_axis - 0.25) * np.asarray(cut.chord)
+    own = quarter, quarter - mass_behind(wing, cut), np.sqrt(mass_gyration(wing, cut))
+    columns = [np.asarray(column) for column in (cut.chord, cut.mass, *own)]
 
     def strip(i: int, station: float) -> Strip:
-        ahead = wing.pitch_axis - 0.25, wing.pitch_axis - wing.mass_axis
-        return Strip(i + 1, station, chord[i], mass[i], *(chord[i] * a for a in (*ahead, wing.mass_gyration)))
+        return Strip(i + 1, station, *(column[i] for column in columns))
 
     shoulder = [Joint("flap", False, _FLAP, {"flap": 1.0})]
     if _sweeps(wingbeat):

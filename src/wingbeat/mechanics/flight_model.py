@@ -15,20 +15,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from wingbeat._base import Fault, FaultList, InvalidInputError
-from wingbeat._jax.arrays import (
-    at_default,
-    elementwise_jvp,
-    fusion_barrier,
-    jnp,
-    register_record,
-    unchecked,
-)
+from wingbeat._jax.arrays import at_default, elementwise_jvp, fusion_barrier, jnp, register_record, unchecked
 from wingbeat.aero.blade_element import BladeElement, blade_element_of
 from wingbeat.aero.closed_forms import body_drag, check_descent, disc_area, induced_flow
 from wingbeat.aero.strip_forces import StripForces
 from wingbeat.aero.wake import WakeLag
 from wingbeat.animal.kinematics import PitchHinge, Wingbeat
-from wingbeat.animal.vehicle import Air, Vehicle
+from wingbeat.animal.vehicle import Air, Vehicle, Wing
 from wingbeat.mechanics.strip_air import (
     StripWake,
     body_air,
@@ -39,18 +32,18 @@ from wingbeat.mechanics.strip_air import (
     velocity_at_wings,
 )
 from wingbeat.mechanics.wing_motion import WingMotion, stroke_attitude, wing_motion
-from wingbeat.mechanics.wing_shape import UnturnedShapes, dot, from_world, quarter_turn, sum_over_strips, to_world
+from wingbeat.mechanics.wing_shape import (
+    UnturnedShapes,
+    dot,
+    from_world,
+    quarter_turn,
+    strips_of,
+    sum_over_strips,
+    to_world,
+)
 
 if TYPE_CHECKING:
-    from wingbeat._jax.arrays import (
-        BodyAcceleration,
-        Component,
-        Pair,
-        PerStrip,
-        Phases,
-        Scalar,
-        Triple,
-    )
+    from wingbeat._jax.arrays import BodyAcceleration, Component, Pair, PerStrip, Phases, Scalar, Triple
     from wingbeat.aero.coefficient_model import Kernel
 
 
@@ -131,6 +124,7 @@ class FlightModel:
         self, vehicle: Vehicle, aero: Any, air: Air | None = None, velocity: tuple[float, float] | None = None
     ) -> None:
         loads, air = blade_element_of(aero), air or Air()
+        _check_stations(vehicle.wing, loads.strips)
         fields = {
             "vehicle": vehicle.passive,
             "air": air,
@@ -145,6 +139,20 @@ class FlightModel:
         }
         for name, value in fields.items():
             object.__setattr__(self, name, value)
+
+
+def _check_stations(wing: Wing, count: int) -> None:
+    """Refuse a table of masses that so many strips cannot hold."""
+    if wing.mass_stations is None:
+        return
+    cut = strips_of(wing, count)
+    place, mass = np.asarray(cut.span_fraction), np.asarray(cut.mass)
+    own = np.array(wing.station_masses) * wing.mass / sum(wing.station_masses or ())
+    short = [abs(mass @ place**n - own @ np.array(wing.mass_stations) ** n) > 1e-9 * wing.mass for n in range(3)]
+    if not mass.min() >= 0 or any(short):
+        rule = f"is too few to keep the moments of wing.station_masses: one would weigh {mass.min():.3g} kg"
+        fix = "take more strips, cut the wing into more pieces, or count what sits at the shoulder to the body"
+        raise InvalidInputError([Fault("aero.strips", count, rule, fix)])
 
 
 def _checked_flow(

@@ -57,15 +57,7 @@ from wingbeat.mechanics.wing_shape import (
 )
 
 if TYPE_CHECKING:
-    from wingbeat._jax.arrays import (
-        BodyAcceleration,
-        Pair,
-        PerStrip,
-        PerStripBroadcast,
-        Phases,
-        PitchState,
-        Triple,
-    )
+    from wingbeat._jax.arrays import BodyAcceleration, Pair, PerStrip, PerStripBroadcast, Phases, PitchState, Triple
 
 
 class PartialMotion(NamedTuple):
@@ -120,7 +112,7 @@ class _Chords(NamedTuple):
 
 
 def _chords(wing: Wing, strips: Strips, shape: WingShape) -> _Chords:
-    behind, fore = mass_behind(wing, strips.chord), shape.chordwise
+    behind, fore = mass_behind(wing, strips), shape.chordwise
     x, y, z = (place - behind * ahead for place, ahead in zip(shape.quarter_chord, fore, strict=True))
     return _Chords(shape, (x, y, z), fore)
 
@@ -156,7 +148,7 @@ def hinge_alone(
     velocity = jax.jvp(by_angle, (hinge.angle,), (jnp.ones_like(hinge.angle),))[1]
     along = _along(vehicle.wing, here, rates, accelerations, velocity, strips)
     of_mass = dot(velocity.centre, velocity.centre)
-    of_mass = of_mass + mass_gyration(vehicle.wing, strips.chord) * dot(velocity.fore, velocity.fore)
+    of_mass = of_mass + mass_gyration(vehicle.wing, strips) * dot(velocity.fore, velocity.fore)
     inertia = sum_over_strips(2.0 * strips.mass * of_mass)
     if not is_unsteady(model):
         return along, inertia
@@ -210,7 +202,7 @@ def _along(
     wing: Wing, here: _Chords, rates: _Chords, accelerations: _Chords, velocity: _Chords, strips: Strips
 ) -> PartialMotion:
     # The mass of a strip is spread along its chord about its centre.
-    mass, gyration = 2.0 * strips.mass, mass_gyration(wing, strips.chord)
+    mass, gyration = 2.0 * strips.mass, mass_gyration(wing, strips)
 
     def in_plane(chords: _Chords) -> tuple[Pair, Pair]:
         return (chords.centre[0], chords.centre[2]), (chords.fore[0], chords.fore[2])

@@ -124,7 +124,7 @@ def wing_motion(
     def places_of(shape: WingShape) -> tuple[WingShape, Pair, Pair]:
         # The shape, and in-plane components of the centres of mass and of vectors from there to the leading edge.
         fore = shape.chordwise[0], shape.chordwise[2]
-        behind = mass_behind(vehicle.wing, strips.chord)
+        behind = mass_behind(vehicle.wing, strips)
         return shape, (shape.ahead - behind * fore[0], shape.above - behind * fore[1]), fore
 
     def strip_places(at: Phases) -> tuple[WingShape, Pair, Pair]:
@@ -138,7 +138,7 @@ def wing_motion(
     (shape_rate, speed, fore_rate), (shape_second, acceleration, fore_acceleration) = rates, accelerations
 
     # The mass of a strip is spread along its chord about its centre.
-    mass, gyration = 2.0 * strips.mass, mass_gyration(vehicle.wing, strips.chord)
+    mass, gyration = 2.0 * strips.mass, mass_gyration(vehicle.wing, strips)
     second = dot(place, place) + gyration * dot(fore, fore)
     half_rate = dot(place, speed) + gyration * dot(fore, fore_rate)
     turning = dot(quarter_turn(place), acceleration) + gyration * dot(quarter_turn(fore), fore_acceleration)

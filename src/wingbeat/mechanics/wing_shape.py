@@ -29,6 +29,7 @@ from wingbeat.animal.kinematics import (
 )
 from wingbeat.animal.pitch_hinge import HeldHinge
 from wingbeat.animal.vehicle import Vehicle, Wing
+from wingbeat.mechanics.mass_stations import Strips, from_stations
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import (
@@ -88,14 +89,6 @@ def mass_moments(mass: PerStripBroadcast | float, rows: Sequence[PerStrip]) -> S
     """Return the sums over the strips of each row times the strips' mass, shape (rows, ...)."""
     # A single sum for all rows compiles in a third of the time that one sum per row needs.
     return sum_over_strips(jnp.stack([mass * row for row in rows], axis=1))
-
-
-class Strips(NamedTuple):
-    """Numbers of one wing's strips that are constant in time, shape (N,), or (N, 1, ...) to match axes of time."""
-
-    span_fraction: PerStripBroadcast  # distance of the strip's centre from the shoulder over the semi-span
-    chord: PerStripBroadcast  # [m]
-    mass: PerStripBroadcast  # [kg]
 
 
 class WingShape(NamedTuple):
@@ -163,9 +156,12 @@ class WingShape(NamedTuple):
 
 
 def strips_of(wing: Wing, count: int) -> Strips:
-    """Cut a wing into equal strips, whose mass goes as ``(1 - s/L)**p``. Theory: equation ``strip-mass``."""
+    """Cut a wing into equal strips, with masses by its law or its table. Theory: equation ``strip-mass``."""
     span_fraction = (jnp.arange(count) + 0.5) / count
     chord = chord_at(wing, span_fraction)
+    if wing.mass_stations is not None:
+        there = chord_at(wing, jnp.asarray(wing.mass_stations, dtype=float))
+        return from_stations(wing, span_fraction, chord, there)
     share = (1.0 - span_fraction) ** wing.mass_exponent
     return Strips(span_fraction, chord, wing.mass * share / jnp.sum(share))
 
@@ -202,14 +198,13 @@ def padded(strips: Strips, vector: int) -> Strips:
     """Return the strips, padded to a multiple of `vector` with strips without chord and mass."""
     # At a single time, XLA on CPU vectorises along the strips; left-over strips cost more than a full vector.
     more = (0, -strips.span_fraction.size % vector)
-    return Strips(
-        jnp.pad(strips.span_fraction, more, "edge"), jnp.pad(strips.chord, more), jnp.pad(strips.mass, more)
-    )
+    empty = jax.tree_util.tree_map(lambda a: jnp.pad(a, more), strips)
+    return empty._replace(span_fraction=jnp.pad(strips.span_fraction, more, "edge"))
 
 
 def with_time_axes(strips: Strips, phase: Phases) -> Strips:
     """Return the strips with an axis of length one for each axis of `phase`."""
-    return Strips(*(jnp.expand_dims(a, tuple(range(1, 1 + jnp.ndim(phase)))) for a in strips))
+    return jax.tree_util.tree_map(lambda a: jnp.expand_dims(a, tuple(range(1, 1 + jnp.ndim(phase)))), strips)
 
 
 def twist_factors(wingbeat: Wingbeat, span_fraction: PerStripBroadcast) -> PerStripBroadcast:
@@ -267,13 +262,18 @@ def _about_axis(wing: Wing, strips: Strips, shape: WingShape) -> WingShape:
     return shape._replace(ahead=x, left=y, above=z)
 
 
-def mass_behind(wing: Wing, chord: PerStripBroadcast) -> PerStripBroadcast:
+def mass_behind(wing: Wing, strips: Strips) -> PerStripBroadcast:
     """Return how far the strips' centres of mass are behind the quarter chords [m]. Theory: ``mass-points``."""
-    return 0.25 * chord if at_default(wing, "mass_axis") else (wing.mass_axis - 0.25) * chord
+    if strips.behind is not None:
+        return strips.behind
+    return 0.25 * strips.chord if at_default(wing, "mass_axis") else (wing.mass_axis - 0.25) * strips.chord
 
 
-def mass_gyration(wing: Wing, chord: PerStripBroadcast) -> PerStripBroadcast:
+def mass_gyration(wing: Wing, strips: Strips) -> PerStripBroadcast:
     """Return the strips' radius of gyration squared [m2]. Theory: equation ``mass-points``."""
+    if strips.gyration is not None:
+        return strips.gyration
+    chord = strips.chord
     if at_default(wing, "mass_gyration"):
         return chord * chord / 12.0
     return wing.mass_gyration * wing.mass_gyration * (chord * chord)
@@ -289,7 +289,11 @@ def mass_points(wing: Wing, shape: WingShape, strips: Strips) -> Triple:
     """Return the mass points in stroke axes [m], shape (2, N, ...). Theory: equation ``mass-points``."""
     # Two points of half a strip's mass, a radius of gyration from its centre, have its second moment; for a uniform
     # strip, the radius is c/(2 sqrt 3).
-    if at_default(wing, "mass_axis") and at_default(wing, "mass_gyration"):
+    if strips.gyration is not None:
+        turns = strips.gyration > 0  # a square root has no derivative at 0
+        radius = jnp.where(turns, jnp.sqrt(jnp.where(turns, strips.gyration, 1.0)), 0.0)
+        offsets = jnp.stack([side * radius - mass_behind(wing, strips) for side in (1.0, -1.0)])
+    elif at_default(wing, "mass_axis") and at_default(wing, "mass_gyration"):
         offsets = jnp.stack([strips.chord * (-0.25 + half / math.sqrt(3)) for half in (0.5, -0.5)])
     else:
         offsets = jnp.stack(

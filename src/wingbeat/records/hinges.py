@@ -10,7 +10,7 @@ import numpy as np
 from wingbeat.aero import BladeElement
 from wingbeat.animal.kinematics import Wingbeat, held_at
 from wingbeat.animal.vehicle import Vehicle
-from wingbeat.mechanics.wing_shape import giving_share, mass_gyration, strips_of
+from wingbeat.mechanics.wing_shape import giving_share, mass_behind, mass_gyration, strips_of
 from wingbeat.orbits.flight.beat import Beat, mean_positive
 from wingbeat.records.numbers import beat_mean
 
@@ -77,8 +77,8 @@ def hinge_inertia(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> float:
     """Return the inertia of both wings, without air, that a hinge at rest turns [kg m2]."""
     wing, of_wing = vehicle.wing, strips_of(vehicle.wing, strips)
     share = np.asarray(giving_share(held_at(wingbeat, 0.0, 0.0, 0.0, 0.0), of_wing.span_fraction))
-    behind = (wing.mass_axis - wing.pitch_axis) * of_wing.chord
-    return float(np.sum(2.0 * of_wing.mass * share**2 * (behind**2 + mass_gyration(wing, of_wing.chord))))
+    behind = mass_behind(wing, of_wing) + (0.25 - wing.pitch_axis) * of_wing.chord
+    return float(np.sum(2.0 * of_wing.mass * share**2 * (behind**2 + mass_gyration(wing, of_wing))))
 
 
 def prescribed_numbers(beat: Beat) -> dict[str, float | None]:

@@ -140,6 +140,7 @@ def test_numbers_stand_at_their_paths_in_the_order_of_the_record(load: Any) -> N
         *("crank", "stiffness", "rest_angle", "series_compliance"),
         *("cells", "capacity", "internal_resistance", "cutoff_voltage", "max_current", "cell_voltage"),
         *("damping", "stop_angle", "stop_stiffness", "twist_share", "pitch_axis", "mass_axis", "mass_gyration"),
+        *("mass_stations", "station_masses", "station_axes", "station_gyrations"),
         *("chord_retraction", "twist_mean", "sweep_harmonics", "chord_harmonics", "twist_harmonics"),
     }
 

@@ -15,7 +15,9 @@ from wingbeat.animal.species.numbers import (
     NOTHING,
     OUTSIDE,
     PARTS,
+    STATION_MASSES,
     TAIL_PATHS,
+    WING,
     Key,
     Number,
     Numbers,
@@ -26,9 +28,9 @@ from wingbeat.animal.species.numbers import (
     spoken,
     words,
 )
-from wingbeat.animal.vehicle import CHORDWISE, Air, Vehicle
+from wingbeat.animal.vehicle import CHORDWISE, STATIONS, Air, Vehicle
 
-WHOLE, BODY, WING = "vehicle.mass", "vehicle.body.mass", "vehicle.wing.mass"
+WHOLE, BODY = "vehicle.mass", "vehicle.body.mass"
 HINGE = "vehicle.pitch_hinge"  # a part in files; the record of the wingbeat holds it, in place of the pitch law
 # The class of each record, by the path of its numbers; the parts of a vehicle in the order of its fields.
 _RECORDS: dict[str, Any] = {
@@ -40,7 +42,7 @@ _OF_PARTS = {key.path: key for keys in PARTS.values() for key in keys}
 UNNAMED_PATHS = (
     *_OF_PARTS,
     *(f"wingbeat.{name}" for name in NAMED_IF_ON),
-    *(f"vehicle.wing.{name}" for name in CHORDWISE),
+    *(f"vehicle.wing.{name}" for name in (*CHORDWISE, *STATIONS)),
 )
 _DEFAULTS: dict[str, Any] = {
     f"{section}.{field.name}": field.default
@@ -114,6 +116,21 @@ def check_parts(numbers: Mapping[str, Number], faults: FaultList) -> None:
 def lacks_muscle(numbers: Mapping[str, Number]) -> bool:
     """Return whether the numbers include some of a flight muscle, but not all that it needs."""
     return has_part(numbers, "muscle") and any(k.required and k.path not in numbers for k in PARTS["muscle"])
+
+
+def weigh_wing(numbers: dict[str, Number], given: Mapping[str, Number]) -> None:
+    """Set the wing's mass to the sum of its stations', or scale those by a mass of the wing that alone is given."""
+    column, old = numbers.get(STATION_MASSES), numbers.get(WING)
+    if column is None or (WING in given and STATION_MASSES in given):
+        return
+    masses = column.value if isinstance(column.value, tuple) else (column.value,)
+    total = math.fsum(masses)
+    if WING not in given or old is None:
+        source = "sum of wing.station_masses"
+        numbers[WING] = old._replace(value=total, source=source) if old else Number(total, "kg", source)
+    elif isinstance(old.value, float) and old.value > 0 and total > 0:
+        scaled, told = tuple(mass * old.value / total for mass in masses), "scaled to wing.mass: "
+        numbers[STATION_MASSES] = column._replace(value=scaled, source=told + column.source.removeprefix(told))
 
 
 def derive_body(numbers: dict[str, Number], given: Numbers, faults: FaultList) -> None:

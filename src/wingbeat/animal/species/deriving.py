@@ -14,6 +14,8 @@ from wingbeat._base import FaultList
 from wingbeat.animal.species import scaling
 from wingbeat.animal.species.numbers import (
     PLAUSIBLE,
+    STATION_MASSES,
+    WING,
     Alternative,
     Bound,
     Number,
@@ -146,7 +148,8 @@ def derive(
         amplitude = scaling.ROBOT_FLAP_AMPLITUDE.number()
     found |= {"wingbeat.frequency": frequency, "wingbeat.flap_amplitude": amplitude}
     for path, number in found.items():
-        numbers.setdefault(path, number)
+        if STATION_MASSES not in numbers or path not in (WING, "vehicle.wing.mass_exponent"):
+            numbers.setdefault(path, number)
     usual = [single(numbers["wingbeat.frequency"])]
     if numbers["wingbeat.frequency"] is frequency:
         usual.append(scaling.BIRD_FREQUENCY(mass, span, area, *air))

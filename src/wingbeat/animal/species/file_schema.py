@@ -182,7 +182,7 @@ SpeciesFile = _table(
     ["vehicle", "wingbeat"],
     title="wingbeat species file",
     description="Values are in SI units and radians; a key that ends in _deg is in degrees. Give either "
-    "vehicle.mass or vehicle.body.mass.",
+    "vehicle.mass or vehicle.body.mass, and vehicle.wing.mass or its station_masses.",
 )
 
 

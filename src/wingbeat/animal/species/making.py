@@ -22,6 +22,7 @@ from wingbeat.animal.species.building import (
     find_warnings,
     lacks_muscle,
     plain,
+    weigh_wing,
 )
 from wingbeat.animal.species.deriving import BAT, BIRD, ROBOT, Kind, bat_beat, derive, single
 from wingbeat.animal.species.file_schema import has_shape
@@ -86,6 +87,9 @@ def load_species(name_or_path: str | os.PathLike[str]) -> Species:
 def species_of(content: SpeciesText, faults: FaultList) -> Species:
     """Return the species that a text describes, or refuse it with the faults noted before and all others."""
     numbers: dict[str, Number] = dict(content.numbers)
+    weigh_wing(numbers, content.numbers)
+    for other in content.alternatives.values():
+        weigh_wing(other.numbers, other.numbers)
     if WHOLE in numbers:
         derive_body(numbers, content.numbers, faults)
     path = _PATH | content.path

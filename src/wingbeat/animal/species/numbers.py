@@ -10,8 +10,10 @@ from typing import Any, NamedTuple
 
 from wingbeat._base import FIRST_ORDER, HARMONIC_NAMES, IN_RADIANS, Fault, find, plain, plain_unit
 from wingbeat.animal.kinematics import HINGE_NAMES, PitchHinge
+from wingbeat.animal.vehicle import STATIONS
 
 DEFAULT = "not given: the default"
+WING, STATION_MASSES = "vehicle.wing.mass", "vehicle.wing.station_masses"  # either may be given, or both
 FREQUENCY = "wingbeat.frequency"
 
 
@@ -59,9 +61,10 @@ KEYS = (
     *_keys("vehicle.body", "pitch_inertia", "drag_area crossflow_area"),
     *_keys("vehicle.wing", "semi_span"),
     *_keys("vehicle.wing", "chord", shape="stations"),
-    *_keys("vehicle.wing", "mass", "mass_exponent"),
+    *_keys("vehicle.wing", optional="mass mass_exponent"),
     *_keys("vehicle.wing", optional="shoulder", shape="vector"),
     *_keys("vehicle.wing", optional="stroke_plane_angle pitch_axis mass_axis mass_gyration"),
+    *_keys("vehicle.wing", optional=" ".join(STATIONS), shape="list"),
     *_keys("vehicle.pitch_hinge", "stiffness", "damping rest_angle stop_angle stop_stiffness twist_share"),
     *_keys("vehicle.tail", "area arm lift_slope", "drag_coefficient height incidence"),
     *_keys("vehicle.muscle", "mass elevator_share strain_per_angle max_strain_rate isometric_stress curvature"),

@@ -18,6 +18,8 @@ from wingbeat.animal.species.numbers import (
     PATH,
     PLAUSIBLE,
     SHAPE,
+    STATION_MASSES,
+    WING,
     Alternative,
     Bound,
     Key,
@@ -50,12 +52,13 @@ def template() -> str:
 
 
 def robot_tables() -> str:
-    """Return the template's commented tables of parts that a robot may have: all but those of an animal.
+    """Return the template's commented tables of parts and wings that a robot may have: all but those of an animal.
 
     >>> "# [vehicle.motor]" in robot_tables(), "# [vehicle.muscle]" in robot_tables()
     (True, False)
     """
-    optional = [part for part in template().split("\n\n") if "\n# [vehicle." in part]
+    wings = template().replace("\n\n# Behind", "\n\n# [vehicle.wing]\n# Behind")
+    optional = [part for part in wings.split("\n\n") if "# [vehicle." in part]
     return "\n\n".join(part.rstrip() for part in optional if "# [vehicle.muscle]" not in part) + "\n"
 
 
@@ -164,8 +167,10 @@ def _shape(raw: dict[str, Any], faults: FaultList) -> ShapeText | None:
 
 
 def _note_missing(raw: dict[str, Any], faults: FaultList) -> None:
+    weighed = _leaf(raw, STATION_MASSES) is not None
     for key in KEYS:
-        if key.required and all(_leaf(raw, path) is None for path in key.spellings):
+        needed = key.required or (key.path == WING and not weighed)
+        if needed and all(_leaf(raw, path) is None for path in key.spellings):
             section = _leaf(raw, key.path.rpartition(".")[0])
             if isinstance(section, dict) or (section is None and key.part not in PARTS):
                 names = " or ".join(key.spellings)

@@ -6,15 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from wingbeat._base import Block, Line, Report, Row, Table, cf, for_people
-from wingbeat.animal.species.numbers import (
-    ALL_SPEEDS,
-    Bound,
-    Number,
-    OwnFrequency,
-    Range,
-    bound_cells,
-    display,
-)
+from wingbeat.animal.species.numbers import ALL_SPEEDS, Bound, Number, OwnFrequency, Range, bound_cells, display
 
 
 def species_report(animal: Any) -> Report:

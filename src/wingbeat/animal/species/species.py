@@ -8,22 +8,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, cast
 
-from wingbeat._base import (
-    TRACED,
-    FaultList,
-    Report,
-    Reported,
-    is_traced,
-    plain_unit,
-    suggest,
-)
+from wingbeat._base import TRACED, FaultList, Report, Reported, is_traced, plain_unit, suggest
 from wingbeat.animal.kinematics import FREE_NAMES, Wingbeat
 from wingbeat.animal.species.building import (
     BODY,
     BY_HAND,
     HINGE,
     WHOLE,
-    WING,
     build_records,
     check_parts,
     complete_parts,
@@ -34,6 +25,7 @@ from wingbeat.animal.species.building import (
     plain,
     set_by_hand,
     settable,
+    weigh_wing,
 )
 from wingbeat.animal.species.file_schema import has_shape
 from wingbeat.animal.species.numbers import (
@@ -41,6 +33,7 @@ from wingbeat.animal.species.numbers import (
     FREQUENCY,
     KEYS,
     UNKNOWN,
+    WING,
     Alternative,
     Number,
     Numbers,
@@ -423,6 +416,7 @@ class Species(Reported):
 
     def _rebuilt(self, numbers: dict[str, Number], given: Numbers, faults: FaultList) -> Species:
         """Return a copy with other numbers; records are checked, whole mass and warnings computed again."""
+        weigh_wing(numbers, given)
         complete_parts(numbers)
         check_parts(numbers, faults)
         records = build_records(numbers, given, faults)

@@ -20,15 +20,7 @@ from wingbeat.animal.vehicle import Vehicle
 from wingbeat.mechanics.flight_model import FlightModel
 from wingbeat.mechanics.state_rates import GivingStroke, body_rates, rate_table, rates_by_wake, slopes_with_hinge
 from wingbeat.mechanics.wing_motion import WingMotion, strips_of
-from wingbeat.mechanics.wing_shape import (
-    LEADING,
-    TRAILING,
-    Strips,
-    flap_angles,
-    has_room,
-    lateral_corner,
-    lateral_corners,
-)
+from wingbeat.mechanics.wing_shape import LEADING, TRAILING, flap_angles, has_room, lateral_corner, lateral_corners
 from wingbeat.orbits.flight.lagged import InnerStart, RepeatingStates, chained
 from wingbeat.orbits.flight.march import (
     ALONG,
@@ -124,7 +116,7 @@ def least_distances(vehicle: Vehicle, wingbeat: Wingbeat, strips: int) -> Stroke
     phase = place / _SAMPLES
     trailing, corner = jnp.divmod(series[: 2 * QUARTERS], 2 * strips)
     outer, strip = jnp.divmod(corner, strips)
-    of_corners = Strips(*(a[strip] for a in strips_of(vehicle.wing, strips)))
+    of_corners = jax.tree_util.tree_map(lambda a: a[strip], strips_of(vehicle.wing, strips))
 
     def distance(at: Samples) -> Samples:
         share, side = jnp.where(trailing, TRAILING, LEADING), 2.0 * outer - 1.0

@@ -12,7 +12,7 @@ from wingbeat.aero import CoefficientModel
 from wingbeat.animal.kinematics import FREE_NAMES, HINGE_NAMES, Wingbeat, in_use, parameter, with_parameters
 from wingbeat.animal.species.numbers import path_of
 from wingbeat.animal.species.species import Species
-from wingbeat.animal.vehicle import CHORDWISE
+from wingbeat.animal.vehicle import CHORDWISE, STATIONS, Wing
 
 if TYPE_CHECKING:
     from wingbeat.orbits.problem.problem import OrbitProblem
@@ -60,6 +60,8 @@ def with_number(record: Any, place: Place, value: float) -> Any:
     if isinstance(head, int):
         return (*record[:head], with_number(record[head], rest, value), *record[head + 1 :])
     changed = with_number(getattr(record, head), rest, value)
+    if isinstance(record, Wing) and head == "mass":
+        return record.weighing(changed)
     if isinstance(record, Species):
         return record.with_record(changed)
     # Nothing else changes with the speed: neither an animal's own frequency nor its posture.
@@ -130,17 +132,19 @@ def _made(path: str, value: float, place: Place, size: float = 1.0) -> Parameter
 
 def _every(problem: OrbitProblem) -> Iterator[Parameter]:
     wing = problem.vehicle.wing
+    # A table of masses counts by the wing's mass alone, and what it replaces not at all.
+    left_out = *_NO_PARAMETERS, *STATIONS, *wing.replaced
     sizes = {"drag_area": wing.semi_span * wing.mean_chord, "arm": wing.mean_chord, "height": wing.mean_chord}
     for part, record in vars(problem.vehicle).items():
         for name, value in ({} if record is None else vars(record)).items():  # None: no tail
             path, place = f"{part}.{name}", ("species", "vehicle", part, name)
+            if name in left_out:
+                continue
             if isinstance(value, tuple):
                 for i, item in enumerate(value):
                     here = f"{path}.{'xyz'[i]}" if name == "shoulder" else f"{path}[{i}]"
                     yield _made(here, item, (*place, i), size=wing.mean_chord)
-            elif name not in _NO_PARAMETERS and (
-                _through_hinge(problem, path) or not (name in _OFF and at_default(record, name))
-            ):
+            elif _through_hinge(problem, path) or not (name in _OFF and at_default(record, name)):
                 yield _made(path, value, place, size=sizes.get(name, 1.0))
     wingbeat = problem.species.wingbeat
     for name in FREE_NAMES:

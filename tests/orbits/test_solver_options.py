@@ -46,7 +46,7 @@ NOT_TUNING = {
     "_EQUAL": "units in the definition of the gust response",
     "_STEADY": "where the gust response, which has no value beyond 1, goes over into a penalty",
     "_BEYOND": "slope of that penalty",
-    "_WEIGHTS": "scales of the conditions of stability, as `scale` of other quantities",
+    "_WEIGHT": "scale of one of the conditions of stability, as `scale` of other quantities",
     "_CENTRAL": "weights of a difference quotient",
     "_UPWARDS": "weights of a difference quotient",
 }

@@ -1,6 +1,7 @@
 """Limits of quantities of the stroke map: their derivatives, and stable orbits."""
 
 import dataclasses
+import itertools
 
 import numpy as np
 import pytest
@@ -46,7 +47,13 @@ def test_changes_of_the_stroke_map_are_those_of_flights_beside(problem, blocks):
         assert np.abs(own - expected).max() < 1e-4 * np.abs(expected).max()
 
 
-maps = arrays(float, (4, 4), elements=st.floats(-1.2, 1.2, allow_nan=False))
+def maps_of(*sizes):
+    """Return stroke maps of four states, and of six where a hinge gives way."""
+    squares = [arrays(float, (n, n), elements=st.floats(-1.2, 1.2, allow_nan=False)) for n in sizes]
+    return st.one_of(squares)
+
+
+maps = maps_of(4, 6)
 
 
 @settings(deadline=None)  # the first call compiles
@@ -61,10 +68,20 @@ def test_smooth_excess_is_positive_just_where_a_multiplier_leaves_the_circle(str
         assert not inside
 
 
-def test_smooth_excess_has_a_derivative_where_two_multipliers_meet():
+@given(maps)
+def test_the_last_excess_is_a_product_over_pairs_of_multipliers(stroke_map):
+    pairs = itertools.combinations(np.linalg.eigvals(stroke_map / 0.999), 2)
+    factors = np.array([1.0 - one * other for one, other in pairs])
+    size = 64.0 * np.abs(factors).prod()
+    assert float(-RADIUS.excess(stroke_map)[-1]) == pytest.approx(64.0 * factors.prod().real, abs=1e-7 * (1 + size))
+
+
+@pytest.mark.parametrize("hinge", [(), (0.03, -0.01)])
+def test_smooth_excess_has_a_derivative_where_two_multipliers_meet(hinge):
     import jax
 
-    stroke_map = np.array([[0.999, 1.0, 0, 0], [0, 0.999, 0, 0], [0, 0, 0.5, 0], [0, 0, 0, 0.2]])
+    stroke_map = np.diag([0.999, 0.999, 0.5, 0.2, *hinge])
+    stroke_map[0, 1] = 1.0
     slopes = np.asarray(jax.jacfwd(RADIUS.excess)(stroke_map))
     assert np.isfinite(slopes).all()
     assert np.abs(slopes).max() > 0.1
@@ -75,9 +92,9 @@ def test_smooth_excess_has_a_derivative_where_two_multipliers_meet():
 def test_gust_response_is_the_sum_over_all_earlier_gusts(stroke_map):
     radius = np.abs(np.linalg.eigvals(stroke_map)).max()
     stroke_map = stroke_map * 0.9 / max(radius, 0.9)
-    gust = (np.eye(4) - stroke_map)[:, 1:3]
+    gust = (np.eye(len(stroke_map)) - stroke_map)[:, 1:3]
     covariance = scipy.linalg.solve_discrete_lyapunov(stroke_map, gust @ gust.T)
-    expected = np.sqrt(np.diag(covariance) @ np.array([0.1, 1.0, 1.0, 2.0]) ** -2)
+    expected = np.sqrt(np.diag(covariance)[:4] @ np.array([0.1, 1.0, 1.0, 2.0]) ** -2)
     assert float(RESPONSE.of(stroke_map)) == pytest.approx(expected, rel=1e-8)
 
 

@@ -126,11 +126,11 @@ EndJacobian = Float[Any, "6 unknowns"]
 PathJacobian = Float[Any, "samples components unknowns"]
 # Derivatives of the pitch state's rates by the pitch state, states first.
 RatesByState = Float[Any, "4 4 samples"]
-# The pitch state after a beat by that before it, and what is computed from its eigenvalues.
-StrokeMatrix = Float[Any, "4 4"]
-Moduli = Float[Any, "4"]
-FourCoefficients = Float[Any, "4"]
-FiveExcesses = Float[Any, "5"]
+# The pitch state and a hinge after a beat by those before it, and what is computed from its eigenvalues.
+StrokeMatrix = Float[Any, "states states"]
+Moduli = Float[Any, "states"]
+CoefficientsOfMap = Float[Any, "states"]
+Excesses = Float[Any, "conditions"]
 # Distances of the stroke from its limits.
 StrokeSeries = Float[Any, "series samples"]
 StrokeRows = Float[Any, "rows"]

@@ -96,7 +96,7 @@ def uncertainty(
     named = [quantity_of(name, problem.free) for name in asked_for]
     known = list({quantity.name: quantity for quantity in named}.values())  # each once
     of_beat = [quantity for quantity in known if not quantity.parameter]
-    if unknown := check_quantities(of_beat, problem.aero, problem.vehicle.drive):
+    if unknown := check_quantities(of_beat, problem.aero, problem.vehicle.drive, problem.map_states):
         raise InvalidInputError(unknown)
     slopes = []
     for one in problems:

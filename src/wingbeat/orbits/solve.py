@@ -361,7 +361,7 @@ def tightened(programme: Transcription, start: np.ndarray) -> np.ndarray:
     Each limit moves from the quantity's value at the start in steps of equal ratio; a short search follows each.
     """
     problem, options = programme.problem, programme.options
-    stroke_map = np.asarray(programme.fly(start[4:], start[:4]).end_jacobian)[2:, :4]
+    stroke_map = programme.fly(start[4:], start[:4]).stroke_map
     for share in np.linspace(0.0, 1.0, options.search.tightening_steps + 1)[1:].tolist():
         limits = []
         for constraint in problem.subject_to:

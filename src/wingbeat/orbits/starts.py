@@ -16,6 +16,7 @@ import numpy as np
 
 from wingbeat.animal.kinematics import parameter
 from wingbeat.orbits.options import DEFAULTS
+from wingbeat.orbits.problem.outputs import value_count
 from wingbeat.orbits.problem.quantities import QUANTITIES, Constraint, Frequency
 from wingbeat.orbits.problem.quantity import MAP_QUANTITIES, STABLE_RADIUS, MapQuantity
 from wingbeat.orbits.search_options import SearchOptions
@@ -30,7 +31,8 @@ def start_count(problem: OrbitProblem, starts: int | None = None, options: Searc
         return starts
     if asks_for_stability(problem):
         return start_count(easier(problem), None, options)
-    if problem.minimises_peaks or problem.has_own_bounds:
+    peaks = value_count(problem.minimise, problem.aero.strips, problem.vehicle.drive, problem.map_states) > 1
+    if peaks or problem.has_own_bounds:
         return options.starts_of_many_optima
     if problem.has_outputs and not problem.subject_to and problem.own_frequency:
         return options.starts_at_own_frequency

@@ -38,6 +38,10 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
     beat, price = solution.beat(), {}  # of stability, if also solved without the limits of stability
     if solution.free_objective is not None:
         price = {"free_objective": solution.free_objective, "price_of_stability": solution.price_of_stability}
+    inner: dict[str, Any] = {} if certificate.wake is None else {"wake_closure": certificate.wake_miss}
+    if certificate.hinge is not None:
+        start = dict(zip(HINGE_STATE, certificate.hinge[0].tolist(), strict=True))
+        inner = {"hinge_start": start, "hinge_closure": certificate.hinge_miss}
     record = {
         "status": solution.status.value,
         "message": solution.message,
@@ -57,8 +61,7 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         "initial_state": dict(zip(State._fields, certificate.states[0].tolist(), strict=True)),
         "active_bounds": list(solution.active_bounds),
         "closure": dict(solution.closure),
-        **({} if certificate.wake is None else {"wake_closure": certificate.wake_miss}),
-        **({} if certificate.hinge is None else _hinge_start(certificate.hinge, certificate.hinge_miss)),
+        **inner,
         "failed_balance": [{**vars(s), "unit": s.unit} for s in solution.deficits],
         "relaxations": [dict(vars(r)) for r in solution.relaxations],
         "optimality": solution.optimality,
@@ -84,10 +87,6 @@ def orbit_record(solution: Solution) -> dict[str, Any]:
         rows = ((i, step._replace(objective=step.objective * unit)) for i, step in solution.steps)
         record["trace"] = [{"search": i, **step._asdict()} for i, step in rows]
     return finite_or_none(record)
-
-
-def _hinge_start(motion: np.ndarray, miss: float | None) -> dict[str, Any]:
-    return {"hinge_start": dict(zip(HINGE_STATE, motion[0].tolist(), strict=True)), "hinge_closure": miss}
 
 
 # The wake matters at speeds up to about three times the induced velocity of hover. At that speed it changes alpha

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import functools
-import math
+import operator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +10,7 @@ import numpy as np
 
 from wingbeat._base import Report, Reported
 from wingbeat.orbits.flight.certificate import multipliers_of
+from wingbeat.orbits.flight.period import inner_start
 from wingbeat.orbits.options import DEFAULTS as SOLVER
 from wingbeat.orbits.options import SolverOptions
 from wingbeat.orbits.problem.quantity import MAP_QUANTITIES, MapQuantity
@@ -26,15 +26,6 @@ if TYPE_CHECKING:
     from wingbeat.results.orbit import Orbit
 
 _RADIUS = MAP_QUANTITIES["spectral_radius"]
-
-
-def _entry(place: tuple[int, int], stroke_map: Any) -> Any:
-    return stroke_map[place]
-
-
-def _entries(states: int) -> list[MapQuantity]:
-    places = np.ndindex(states, states)
-    return [MapQuantity(f"stroke_map{place}", functools.partial(_entry, place)) for place in places]
 
 
 @dataclass(frozen=True)
@@ -116,7 +107,7 @@ def stability_sensitivities(orbit: Orbit, options: SolverOptions = SOLVER) -> St
 
     A multiplier moves by ``w^H dA v / (w^H v)``, with its right and left eigenvectors v and w (Magnus 1985, doi
     10.1017/S0266466600011129). Here dA is the change of the stroke map while the optimum moves along; with the lag
-    of the wake, the map has the states of the wake, too.
+    of the wake or a hinge that gives way, the map has their states, too.
 
     >>> import wingbeat as wb
     >>> orbit = wb.solve_orbit(wb.OrbitProblem(wb.load_species("pigeon"), speed=12.0), starts=2)
@@ -124,8 +115,9 @@ def stability_sensitivities(orbit: Orbit, options: SolverOptions = SOLVER) -> St
     >>> found.sensitivities.ranked("spectral_radius")[0].parameter.path
     'wing.shoulder.x'
     """
-    model = orbit.problem.model
-    entries = _entries(4 if model.wake is None else 4 + 2 * model.strips)
+    states = 4 + inner_start(orbit.problem.model, orbit.wingbeat).size
+    places = np.ndindex(states, states)
+    entries = [MapQuantity(f"stroke_map{place}", operator.itemgetter(place)) for place in places]
     found = differentiated(orbit, [_RADIUS, *entries], options)
     slopes, prices = (
         [one._replace(quantities={_RADIUS.name: one.quantities[_RADIUS.name]}) for one in part]
@@ -135,8 +127,7 @@ def stability_sensitivities(orbit: Orbit, options: SolverOptions = SOLVER) -> St
     alone = Sensitivities(found.problem, found.unknowns, *radius, slopes, prices)
 
     def matrix(numbers: dict[str, float]) -> np.ndarray:
-        flat = np.array([numbers[one.name] for one in entries])
-        return flat.reshape(math.isqrt(flat.size), -1)
+        return np.reshape([numbers[one.name] for one in entries], (states, states))
 
     stroke_map = matrix(found.values)
     by_parameter = {s.parameter.path: multiplier_slopes(stroke_map, matrix(s.quantities)) for s in found.slopes}

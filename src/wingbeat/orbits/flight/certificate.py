@@ -18,7 +18,7 @@ from wingbeat.animal.kinematics import Wingbeat, parameter
 from wingbeat.mechanics.flight_model import FlightModel, State
 from wingbeat.mechanics.flights import RTOL, Steps, fly_through
 from wingbeat.mechanics.state_rates import body_rates, hinge_states, rate_table
-from wingbeat.orbits.flight.lagged import InnerStart
+from wingbeat.orbits.flight.lagged import InnerStart, RepeatingStates
 from wingbeat.orbits.flight.march import ALONG, PLACES, WEIGHTS
 from wingbeat.orbits.flight.period import Flown, flier, inner_start
 from wingbeat.orbits.search_options import WAKE, WakeOptions
@@ -200,7 +200,7 @@ def _state_maps(
         (_, _, change), _ = jax.lax.scan(stage, (state, nothing, nothing), stages)
         return state + seconds * change, None
 
-    apart = np.concatenate([_BESIDE, np.full(path.shape[1] - len(_BESIDE), _BESIDE[1])])
+    apart = _apart(path.shape[1])
     beside = jnp.concatenate([jnp.zeros((1, len(apart))), jnp.diag(apart)])
     there, _ = jax.lax.scan(step, path.T + beside[..., None], jnp.arange(_STEPS))
     return ((there[1:] - there[0]) / apart[:, None, None]).transpose(2, 1, 0)
@@ -289,11 +289,28 @@ def stroke_map(
 def map_and_changes(
     fly: Callable[..., Flown], values: np.ndarray, start: np.ndarray, blocks: int, flown: Flown
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return the stroke map of (body_pitch, u, w, pitch_rate), (4, 4), and its derivatives, (unknowns, 4, 4)."""
-    # Second derivatives of the flight do not depend on the order of differentiation. So we shift each of the four
-    # states in turn, and take the change of the exact first derivatives by all unknowns. This takes four flights
+    """Return the stroke map of the pitch state and of a hinge, (S, S), and its derivatives, (unknowns, S, S)."""
+    # Second derivatives of the flight do not depend on the order of differentiation. So we shift each of the S
+    # states in turn, and take the change of the exact first derivatives by all unknowns. This takes S flights
     # beside the one `flown`, however many parameters are free.
-    here = np.asarray(flown.end_jacobian)[2:]
-    beside = [np.asarray(fly(values, start + step, blocks).end_jacobian)[2:] for step in np.diag(_BESIDE)]
-    changes = [(there - here) / step for there, step in zip(beside, _BESIDE, strict=True)]
-    return here[:, :4], np.stack(changes, axis=-1).transpose(1, 0, 2)
+    along = None
+    if isinstance(fly, RepeatingStates):
+        if flown.inner is None:  # the flight diverges
+            size = start.size + fly.size
+            return np.full((size, size), np.nan), np.full((start.size + values.size, size, size), np.nan)
+        start, along, fly = np.concatenate([start, flown.inner.states]), flown.inner.along, fly.disturbed
+        flown = fly(values, start, blocks)
+    size, here = start.size, np.asarray(flown.end_jacobian)[2:]
+    apart = _apart(size)
+    beside = [np.asarray(fly(values, start + step, blocks).end_jacobian)[2:] for step in np.diag(apart)]
+    changes = [(there - here) / step for there, step in zip(beside, apart, strict=True)]
+    by_unknowns = np.stack(changes, axis=-1).transpose(1, 0, 2)
+    if along is not None:  # the states of a hinge that repeat move with the unknowns
+        by_body, by_inner, by_free = np.split(by_unknowns, [4, size])
+        by_unknowns = np.concatenate([by_body, by_free]) + np.tensordot(along, by_inner, (0, 0))
+    return here[:, :size], by_unknowns
+
+
+def _apart(states: int) -> np.ndarray:
+    """Return by how much flights beside a path are off it, for each state."""
+    return np.append(_BESIDE, np.full(states - _BESIDE.size, _BESIDE[1]))

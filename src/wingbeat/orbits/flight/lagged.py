@@ -92,11 +92,13 @@ class InnerStart(NamedTuple):
     """The inner states at phase 0 of a flight, whether they repeat, and the flight's stroke map.
 
     The map is the derivative of (body_pitch, u, w, pitch_rate) and inner states after a beat by those before it.
+    `along` is the derivative of the states that repeat by the unknowns.
     """
 
     states: np.ndarray
     repeats: bool
     stroke_map: np.ndarray
+    along: np.ndarray
 
     @property
     def slopes(self) -> np.ndarray:
@@ -107,14 +109,14 @@ class InnerStart(NamedTuple):
 class RepeatingStates:
     """A flier of the body alone: it finds the inner states that repeat, and condenses the derivatives.
 
-    `fly` flies all states of one period, in blocks; `first` are inner states to begin with; `whole` says whether
-    the path has all states, or body pitch. A flier predicts the states from its last flight, so a search has a copy
-    of its own.
+    `fly` flies all states of one period, in blocks, and is kept as `disturbed`; `first` are inner states to begin
+    with; `whole` says whether the path has all states, or body pitch. A flier predicts the states from its last
+    flight, so a search has a copy of its own.
     """
 
     def __init__(self, fly: Callable[..., Any], first: np.ndarray, whole: bool, options: WakeOptions) -> None:
-        self._fly, self._first, self._whole, self._options = fly, first, whole, options
-        self._size = first.size
+        self.disturbed, self._first, self._whole, self._options = fly, first, whole, options
+        self.size = first.size
         self._last: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None
 
     def __call__(self, values: np.ndarray, start: np.ndarray, blocks: int = 1) -> Any:
@@ -123,16 +125,16 @@ class RepeatingStates:
         states, options = self._predicted(place), self._options
         flown: Any = None
         repeats = False
-        step, along, jacobian = np.zeros((self._size, 1)), np.zeros((self._size, place.size)), np.zeros((0, 0))
+        step, along, jacobian = np.zeros((self.size, 1)), np.zeros((self.size, place.size)), np.zeros((0, 0))
         for _ in range(options.most_flights):
-            flown = self._fly(values, np.concatenate([start, states]), blocks)
+            flown = self.disturbed(values, np.concatenate([start, states]), blocks)
             jacobian, miss = np.asarray(flown.end_jacobian), np.asarray(flown.end)[6:] - states
             largest = np.maximum(np.abs(jacobian).max(initial=0.0), np.abs(miss).max())
             if not largest < options.diverged:  # or not a number
-                return self._condensed(flown, np.zeros(self._size), np.zeros((self._size, place.size)))
+                return self._condensed(flown, np.zeros(self.size), np.zeros((self.size, place.size)))
             slopes, others = self._split(jacobian[6:])
             step, along = np.split(
-                np.linalg.solve(np.eye(self._size) - slopes, np.column_stack([miss, others])), [1], axis=1
+                np.linalg.solve(np.eye(self.size) - slopes, np.column_stack([miss, others])), [1], axis=1
             )
             repeats = bool(np.abs(step).max() <= options.near)
             if repeats:
@@ -141,7 +143,7 @@ class RepeatingStates:
             far = np.abs(step).max() > options.far * (1.0 + np.abs(states).max())
             states = states + (miss if far else step[:, 0])
         self._last = place, states + step[:, 0], along
-        start_of = InnerStart(self._last[1], repeats, jacobian[2:, : 4 + self._size])
+        start_of = InnerStart(self._last[1], repeats, jacobian[2:, : 4 + self.size], along)
         return self._condensed(flown, step[:, 0], along)._replace(inner=start_of)
 
     def _predicted(self, place: np.ndarray) -> np.ndarray:
@@ -153,7 +155,7 @@ class RepeatingStates:
 
     def _split(self, jacobian: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the columns of the wake's states, and the others."""
-        end = 4 + self._size
+        end = 4 + self.size
         return jacobian[..., 4:end], np.concatenate([jacobian[..., :4], jacobian[..., end:]], axis=-1)
 
     def _condensed(self, flown: Any, step: np.ndarray, along: np.ndarray) -> Any:

@@ -80,7 +80,8 @@ class Transcription(Programme):
         self.outputs = None
         if problem.has_outputs:
             objective = [] if problem.minimise.parameter else [problem.minimise]
-            self.outputs = Outputs(objective, problem.subject_to, problem.aero.strips, problem.vehicle.drive)
+            shapes = problem.aero.strips, problem.vehicle.drive, problem.map_states
+            self.outputs = Outputs(objective, problem.subject_to, *shapes)
             velocity = problem.speed, problem.climb
             self._reader = beat_reader(self.model, stock, free, velocity, self.outputs.fields)
         # Number of outputs that belong to the objective.

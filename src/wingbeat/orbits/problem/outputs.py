@@ -34,10 +34,10 @@ SAMPLES = 1 + 2 * PARTS
 
 # Tracing a function takes 2.5 ms, and every problem of a curve or study needs the shapes.
 @functools.lru_cache(256)
-def given_by(function: Callable[[Any], Any], strips: int, drive: Any, of_map: bool) -> Any:
-    """Return the shapes that a function of a beat, with a drive of this tree, or of a stroke map returns."""
-    if of_map:
-        return jax.eval_shape(function, jax.ShapeDtypeStruct((4, 4), jnp.float64))
+def given_by(function: Callable[[Any], Any], strips: int, drive: Any, states: int) -> Any:
+    """Return the shapes that a function of a beat, with a drive of this tree, or of a map of `states` returns."""
+    if states:
+        return jax.eval_shape(function, jax.ShapeDtypeStruct((states, states), jnp.float64))
     return jax.eval_shape(function, _any_beat(strips, drive))
 
 
@@ -125,7 +125,7 @@ class _OfBeat:
         self.function = function
         self._drive = jax.tree.map(float, drive)  # a whole number would make another program
         self.fields = fields_read(function, strips, jax.tree.structure(drive))
-        self.count = count_of(function, strips, drive, of_map=False)
+        self.count = count_of(function, strips, drive)
         # By number of samples, because a bound program takes arrays of one shape.
         self._bound: dict[int, Callable[..., Any]] = {}
 
@@ -151,15 +151,15 @@ class _OfBeat:
 
 
 class _OfMap:
-    """A function of the stroke map divided by `over`; `smooth_for` is the upper limit whose smooth excess it is."""
+    """A function of the map of `states` over `over`; `smooth_for` is the upper limit whose smooth excess it is."""
 
     fields = ()
 
     def __init__(
-        self, function: Callable[[Any], Any], over: float = 1.0, smooth_for: Constraint | None = None
+        self, function: Callable[[Any], Any], states: int, over: float = 1.0, smooth_for: Constraint | None = None
     ) -> None:
         self.function, self._over, self._smooth_for = function, over, smooth_for
-        self.count = count_of(function, 0, Drive(), of_map=True)
+        self.count = count_of(function, 0, Drive(), states)
 
     def value(self, read: Read) -> np.ndarray:
         return np.asarray(_value(self.function, read.stroke_map / self._over))
@@ -181,21 +181,27 @@ class Outputs:
     """The values of several quantities and limits that a flight decides, each divided by its scale.
 
     Those of the objective come first (`of_objective` of all `count`). `limits` are upper limits of the constraints'
-    values; `of_beat` and `of_map` say whether any reads the beat (its `fields`), or the stroke map.
+    values; `of_beat` and `of_map` say whether any reads the beat (its `fields`), or the map of so many `states`.
     """
 
     def __init__(
-        self, quantities: Sequence[Quantity], constraints: Sequence[Constraint], strips: int, drive: Drive
+        self,
+        quantities: Sequence[Quantity],
+        constraints: Sequence[Constraint],
+        strips: int,
+        drive: Drive,
+        states: int = 4,
     ) -> None:
         def reader(quantity: Quantity, function: Callable[[Any], Any]) -> _OfBeat | _OfMap:
-            return _OfMap(function) if isinstance(quantity, MapQuantity) else _OfBeat(function, strips, drive)
+            of_map = isinstance(quantity, MapQuantity)
+            return _OfMap(function, states) if of_map else _OfBeat(function, strips, drive)
 
         def kept(limit: Constraint) -> tuple[_OfBeat | _OfMap, float]:
             quantity = limit.quantity
             if not limit.at_most:
                 return reader(quantity, _Lacking(quantity.of)), -limit.limit
             if isinstance(quantity, MapQuantity) and quantity.excess is not None:
-                return _OfMap(quantity.excess, limit.limit, limit), 0.0
+                return _OfMap(quantity.excess, states, limit.limit, limit), 0.0
             return reader(quantity, quantity.of), limit.limit
 
         within = [kept(constraint) for constraint in constraints]
@@ -238,19 +244,23 @@ class Outputs:
         return [i for i in range(len(self._counts)) if active[self.values_of(i)].any()]
 
 
-def value_count(quantity: Quantity, strips: int, drive: Drive) -> int:
-    """Return how many values a quantity has: 1 if its function gives a number."""
-    return count_of(quantity.of, strips, drive, isinstance(quantity, MapQuantity))
+def value_count(quantity: Quantity, strips: int, drive: Drive, states: int) -> int:
+    """Return how many values a quantity of the beat, or of the map of `states`, has: 1 if it is a number."""
+    return count_of(quantity.of, strips, drive, states if isinstance(quantity, MapQuantity) else 0)
 
 
-def count_of(function: Callable[[Any], Any], strips: int, drive: Drive, of_map: bool) -> int:
-    """Return how many values a function of a beat or of a stroke map has."""
-    shape = given_by(function, strips, jax.tree.structure(drive), of_map).shape
-    return math.prod(shape) if of_map or not shape else PARTS * math.prod(shape[1:])
+def count_of(function: Callable[[Any], Any], strips: int, drive: Drive, states: int = 0) -> int:
+    """Return how many values a function of a beat, or of a map of `states`, has."""
+    shape = given_by(function, strips, jax.tree.structure(drive), states).shape
+    return math.prod(shape) if states or not shape else PARTS * math.prod(shape[1:])
 
 
 def check_quantities(
-    quantities: Sequence[Quantity], aero: BladeElement, drive: Drive, minimised: Quantity | None = None
+    quantities: Sequence[Quantity],
+    aero: BladeElement,
+    drive: Drive,
+    states: int,
+    minimised: Quantity | None = None,
 ) -> list[Fault]:
     """Return the faults of quantities whose functions fail, have the wrong shape, or cannot be minimised."""
     faults = []
@@ -278,7 +288,7 @@ def check_quantities(
         said = "MapQuantity" if of_map else "Beat"
         fix = f"write the function in JAX-compatible Python; `{said}` documents the function's argument"
         try:
-            found = given_by(quantity.of, aero.strips, jax.tree.structure(drive), of_map)
+            found = given_by(quantity.of, aero.strips, jax.tree.structure(drive), states if of_map else 0)
         except Exception as error:  # whatever a user's function raises
             reason = f"fails: {first_line(error)}"
             faults.append(Fault(where, getattr(quantity.of, "__name__", quantity.of), reason, fix))

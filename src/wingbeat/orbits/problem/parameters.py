@@ -86,17 +86,11 @@ def parameters_of(problem: OrbitProblem) -> list[Parameter]:
         if plausible is not None:
             size = abs(one.value) or plausible[1] - plausible[0]
             one = one._replace(size=size, plausible=plausible)
-        elif _is_guessed(problem, one):
+        elif f"vehicle.{one.path}" not in problem.species.numbers and _through_hinge(problem, one.path):
             ends = max(one.value - _AROUND, 0.0), min(one.value + _AROUND, 1.0)
             one = one._replace(plausible=ends, guessed=True)
         found.append(one)
     return found
-
-
-def _is_guessed(problem: OrbitProblem, parameter: Parameter) -> bool:
-    """Return whether a hinge makes this number matter of which the species file says nothing."""
-    silent = f"vehicle.{parameter.path}" not in problem.species.numbers
-    return silent and _through_hinge(problem, parameter.path)
 
 
 def _through_hinge(problem: OrbitProblem, path: str) -> bool:

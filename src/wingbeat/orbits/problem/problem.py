@@ -36,6 +36,7 @@ from wingbeat.animal.species.posture import with_pitch_given_way, with_posture
 from wingbeat.animal.species.species import Species
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import FlightModel
+from wingbeat.mechanics.state_rates import hinge_states
 from wingbeat.orbits.flight.period import PATH_NAMES, PITCH_STATE
 from wingbeat.orbits.problem.origin import (
     TERMS,
@@ -45,7 +46,7 @@ from wingbeat.orbits.problem.origin import (
     model_rows,
     place_in_words,
 )
-from wingbeat.orbits.problem.outputs import check_quantities, value_count
+from wingbeat.orbits.problem.outputs import check_quantities
 from wingbeat.orbits.problem.quantities import (
     FASTEST,
     FASTEST_CLIMB,
@@ -58,7 +59,6 @@ from wingbeat.orbits.problem.quantities import (
     plausible_limits,
     read_limits,
 )
-from wingbeat.orbits.problem.quantity import refuse_with_hinge
 
 
 @dataclass(frozen=True)
@@ -161,9 +161,11 @@ class OrbitProblem(Reported):
         faults.raise_if_any()
         hinge = self.species.wingbeat.pitch_hinge
         aero = blade_element_of(self.aero, "quarter-chord" if hinge is None else "centre-of-pressure")
-        if hinge is not None:
-            refuse_with_hinge(aero.wake, self._quantities(), faults)
-        faults.faults.extend(check_quantities(self._quantities(), aero, self.vehicle.drive, self.minimise))
+        if hinge is not None and aero.wake != "none":
+            rule = "is not built for a wing whose pitch gives way"
+            faults.add("aero.wake", aero.wake, rule, "leave the lag of the wake out, or prescribe the pitch")
+        shapes = self.vehicle.drive, self.map_states
+        faults.faults.extend(check_quantities(self._quantities(), aero, *shapes, self.minimise))
         faults.raise_if_any()
         object.__setattr__(self, "aero", aero)
         object.__setattr__(self, "air", self.air or self.species.air)
@@ -268,6 +270,11 @@ class OrbitProblem(Reported):
         return [*objective, *(constraint.quantity for constraint in self.subject_to)]
 
     @property
+    def map_states(self) -> int:
+        """Number of states of the stroke map: those of the body, and of a hinge that gives way."""
+        return len(PITCH_STATE) + hinge_states(self.species.wingbeat)
+
+    @property
     def has_outputs(self) -> bool:
         """Whether objective or constraints depend on the flown wingbeat, not only on the unknowns."""
         return bool(self._quantities())
@@ -281,11 +288,6 @@ class OrbitProblem(Reported):
     def has_own_bounds(self) -> bool:
         """Whether a free parameter of the wingbeat has other bounds than the species'."""
         return any(tuple(self.bounds[name]) != self.species.bounds.get(name) for name in self.free)
-
-    @property
-    def minimises_peaks(self) -> bool:
-        """Whether the objective is the largest value of a series."""
-        return value_count(self.minimise, self.aero.strips, self.vehicle.drive) > 1
 
     def _report(self) -> Report:
         """Return what is to fly, what is minimised within which limits, and the bounds of the free parameters."""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from wingbeat._base import NOMENCLATURE, FaultList, plain
 from wingbeat._jax.arrays import jax, jnp
@@ -25,7 +27,7 @@ from wingbeat.animal.actuators import (
 from wingbeat.animal.drive import Springs
 
 if TYPE_CHECKING:
-    from wingbeat._jax.arrays import FiveExcesses, FourCoefficients, Moduli, Scalar, StrokeMatrix
+    from wingbeat._jax.arrays import CoefficientsOfMap, Excesses, Moduli, Scalar, StrokeMatrix
     from wingbeat.orbits.flight.beat import Beat
 
 
@@ -95,8 +97,8 @@ _STEADY = 0.999
 # The solver's limit of the spectral radius is lower than the user's by this share. Where two multipliers meet at a
 # limit, they exceed it by the square root of the residual that the solver's tolerances allow.
 _INSET = 1e-3
-# Weights of the conditions of stability; the first is the product of four distances from 1, which are small.
-_WEIGHTS = (100.0, 1.0, 1.0, 1.0, 1.0)
+# Weight of the first condition of stability: a product of distances from 1, some of which are small.
+_WEIGHT = 100.0
 # Slope of the response above the radius `_STEADY`: steep, so that a search turns back.
 _BEYOND = 1e3
 
@@ -110,7 +112,8 @@ class MapQuantity(Quantity):
     name, unit, parameter, in_hover, needs : as of a `Quantity`.
     scale : a difference that matters, so that the optimiser sees numbers near one.
     of : function of the derivative of (body_pitch, u, w, pitch_rate) after a beat by the same four before it, shape
-        (4, 4), in JAX-compatible Python; returns a number, or several, of which the largest counts.
+        (4, 4), in JAX-compatible Python; returns a number, or several, of which the largest counts. A hinge that
+        gives way adds (hinge_angle, hinge_rate): shape (6, 6).
     excess : a smooth function, for a quantity that is proportional to the stroke map. It takes the stroke map
         divided by an upper limit, and returns numbers that are all at most 0 if the quantity keeps to the limit. In
         a search, it replaces an `of` that has kinks.
@@ -129,47 +132,67 @@ class MapQuantity(Quantity):
 
 
 def _moduli(stroke_map: StrokeMatrix) -> Moduli:
-    """Return the moduli of the four multipliers."""
+    """Return the moduli of all multipliers."""
     return jnp.sort(jnp.abs(jnp.linalg.eigvals(stroke_map)))
 
 
-def _characteristic(stroke_map: StrokeMatrix) -> FourCoefficients:
-    """Return the coefficients of z^3, z^2, z and 1 in the characteristic polynomial (Faddeev and LeVerrier)."""
-    found, power = [], jnp.eye(4)
-    for order in range(1, 5):
+def _characteristic(stroke_map: StrokeMatrix) -> CoefficientsOfMap:
+    """Return the coefficients of the characteristic polynomial without the first, by Faddeev and LeVerrier."""
+    found, power = [], jnp.eye(len(stroke_map))
+    for order in range(1, len(stroke_map) + 1):
         product = stroke_map @ power
         found.append(-jnp.trace(product) / order)
-        power = product + found[-1] * jnp.eye(4)
+        power = product + found[-1] * jnp.eye(len(stroke_map))
     return jnp.stack(found)
 
 
-def _beyond_circle(over_limit: StrokeMatrix) -> FiveExcesses:
+def _beyond_circle(over_limit: StrokeMatrix) -> Excesses:
     """Return numbers at most 0 only if no multiplier exceeds 1. Theory: equation ``stability-conditions``.
 
-    The map ``z = (1 + s) / (1 - s)`` takes the left half-plane of s to the unit disc of multipliers z. All roots s
-    of ``b4 s^4 + ... + b0`` lie in the left half-plane if b0, b2, b3, b4 and Hurwitz's third determinant are
-    positive (Lienard and Chipart). Unlike each multiplier, these are smooth where two multipliers meet. With a row
-    for b1, which is then positive too, the conditions would be dependent where two meet at 1.
+    The map ``z = (1 + s) / (1 - s)`` takes the left half-plane of s to the unit disc of multipliers z. All n roots
+    of ``c0 s^n + c1 s^(n-1) + ... + cn`` lie in the left half-plane if c0, c1, c2, c4, ..., cn and the Hurwitz
+    determinants of odd order are positive (Lienard and Chipart). Unlike each multiplier, these are smooth where two
+    multipliers meet. With a row for c(n-1), which is then positive too, they would be dependent where two meet
+    at 1.
     """
-    a3, a2, a1, a0 = _characteristic(over_limit / (1.0 - _INSET))
-    b0, b4 = 1.0 + a3 + a2 + a1 + a0, 1.0 - a3 + a2 - a1 + a0
-    b1, b3 = 4.0 + 2.0 * a3 - 2.0 * a1 - 4.0 * a0, 4.0 - 2.0 * a3 + 2.0 * a1 - 4.0 * a0
-    b2 = 6.0 - 2.0 * a2 + 6.0 * a0
-    determinant = b1 * b2 * b3 - b4 * b1**2 - b0 * b3**2
-    return -jnp.stack([b0, b2, b3, b4, determinant]) * jnp.asarray(_WEIGHTS)
+    size, found = len(over_limit), [*_characteristic(over_limit / (1.0 - _INSET))]
+    plus, minus = np.polynomial.Polynomial([1.0, 1.0]), np.polynomial.Polynomial([1.0, -1.0])
+    shares = np.stack([(plus ** (size - k) * minus**k).coef for k in range(size + 1)], axis=1)
+    c = [_combined(row, found) for row in shares[::-1]]
+    third = c[3] * c[2] * c[1] - c[0] * c[3] ** 2 - c[4] * c[1] ** 2
+    rows = [*c[:1:-2], c[1], c[0], third]
+    if size > 4:
+        rows[-1] = third + c[0] * c[1] * c[5]
+        places = 1 + 2 * np.arange(5) - np.arange(5)[:, None]
+        hurwitz = [[c[k] if 0 <= k <= size else 0.0 for k in row] for row in places]
+        # Both determinants of highest order are products over pairs of multipliers; this gives them one scale.
+        rows.append(jnp.linalg.det(jnp.asarray(hurwitz)) / 2**9)
+    return -jnp.stack(rows) * jnp.asarray([_WEIGHT] + [1.0] * (len(rows) - 1))
+
+
+def _combined(shares: Sequence[float], parts: Sequence[Scalar]) -> Scalar:
+    """Return the first share plus the products of the others with the parts."""
+    total: Any = float(shares[0])
+    for share, part in zip(shares[1:], parts, strict=True):
+        if share:
+            product = part if abs(share) == 1.0 else abs(float(share)) * part
+            total = total + product if share > 0.0 else total - product
+    return total
 
 
 def _gust_response(stroke_map: StrokeMatrix) -> Scalar:
-    """Return the root mean square of the disturbance under gusts of 1 m/s. Theory: equation ``gust-response``.
+    """Return the root mean square of the body's disturbance in gusts of 1 m/s. Theory: equation ``gust-response``.
 
     Gusts change at random every beat. The covariance P of the disturbances solves ``P = A P A' + G G'`` with
     ``G = (I - A)[:, (u, w)]`` for the stroke map A.
     """
     radius = _moduli(stroke_map)[-1]
     steady = stroke_map * jnp.minimum(1.0, _STEADY / jax.lax.stop_gradient(radius))
-    gust = (jnp.eye(4) - stroke_map)[:, 1:3]
-    covariance = jnp.linalg.solve(jnp.eye(16) - jnp.kron(steady, steady), (gust @ gust.T).ravel()).reshape(4, 4)
-    response = jnp.sqrt(jnp.diagonal(covariance) @ jnp.asarray(_EQUAL) ** -2)
+    size = len(stroke_map)
+    gust = (jnp.eye(size) - stroke_map)[:, 1:3]
+    later = jnp.eye(size**2) - jnp.kron(steady, steady)
+    covariance = jnp.linalg.solve(later, (gust @ gust.T).ravel()).reshape(size, size)
+    response = jnp.sqrt(jnp.diagonal(covariance)[: len(_EQUAL)] @ jnp.asarray(_EQUAL) ** -2)
     return response + _BEYOND * jnp.maximum(radius - _STEADY, 0.0)
 
 
@@ -182,23 +205,9 @@ MAP_QUANTITIES = {
 }
 
 
-def refuse_with_hinge(wake: str, quantities: Iterable[Quantity], faults: FaultList) -> None:
-    """Refuse what is not built for a wing whose pitch gives way: the lag of the wake, and limits of stability."""
-    rule = "is not built for a wing whose pitch gives way"
-    if wake != "none":
-        faults.add("aero.wake", wake, rule, "leave the lag of the wake out, or prescribe the pitch")
-    for quantity in quantities:
-        if isinstance(quantity, MapQuantity):
-            fix = "leave it out, and read in the record whether the orbit is stable"
-            faults.add("minimise and subject_to", quantity.name, rule, fix)
-
-
-_NO_SPRINGS = Springs()
-
-
 def driven(beat: Beat) -> Driven:
     """Return torque, rate and acceleration of the flap actuators, with the vehicle's springs taken into account."""
-    springs = beat.drive.springs or _NO_SPRINGS
+    springs = beat.drive.springs or Springs()
     return actuated(springs, beat.flap, beat.flap_rate, beat.flap_torque, 1.0 / beat.frequency)
 
 
@@ -323,23 +332,15 @@ def _flight_range(beat: Beat, need: Driven) -> Any:
 
 
 @dataclass(frozen=True)
-class _Size:
-    """The absolute value of a series of the motor."""
+class _OfMotor:
+    """The absolute value of a series of the motor, or its root mean square."""
 
     name: str
+    mean: bool = False
 
     def __call__(self, beat: Beat, need: Driven) -> Any:
-        return jnp.abs(getattr(_motor_series(beat, need), self.name))
-
-
-@dataclass(frozen=True)
-class _RootMeanSquare:
-    """The root mean square of a series of the motor."""
-
-    name: str
-
-    def __call__(self, beat: Beat, need: Driven) -> Any:
-        return jnp.sqrt(beat.mean(getattr(_motor_series(beat, need), self.name) ** 2))
+        series = getattr(_motor_series(beat, need), self.name)
+        return jnp.sqrt(beat.mean(series**2)) if self.mean else jnp.abs(series)
 
 
 # Functions of a beat by the names of their quantities, each with a difference that matters.
@@ -356,12 +357,12 @@ OF_MUSCLE: dict[str, tuple[DriveQuantity, float]] = {
 }
 OF_MOTOR: dict[str, tuple[DriveQuantity, float]] = {
     "electrical_power": (DriveQuantity(_electrical_power), 2.0),
-    "peak_motor_torque": (DriveQuantity(_Size("torque")), 0.01),
-    "rms_motor_torque": (DriveQuantity(_RootMeanSquare("torque")), 0.01),
-    "peak_motor_speed": (DriveQuantity(_Size("speed")), 100.0),
-    "peak_motor_voltage": (DriveQuantity(_Size("voltage")), 1.0),
-    "peak_motor_current": (DriveQuantity(_Size("current")), 0.5),
-    "rms_motor_current": (DriveQuantity(_RootMeanSquare("current")), 0.5),
+    "peak_motor_torque": (DriveQuantity(_OfMotor("torque")), 0.01),
+    "rms_motor_torque": (DriveQuantity(_OfMotor("torque", mean=True)), 0.01),
+    "peak_motor_speed": (DriveQuantity(_OfMotor("speed")), 100.0),
+    "peak_motor_voltage": (DriveQuantity(_OfMotor("voltage")), 1.0),
+    "peak_motor_current": (DriveQuantity(_OfMotor("current")), 0.5),
+    "rms_motor_current": (DriveQuantity(_OfMotor("current", mean=True)), 0.5),
 }
 OF_BATTERY: dict[str, tuple[DriveQuantity, float]] = {
     "peak_battery_current": (DriveQuantity(_OfDischarge("peak_current")), 0.5),

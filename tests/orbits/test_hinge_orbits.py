@@ -210,6 +210,24 @@ def test_error_bars_of_first_order_are_those_of_orbits_drawn():
     assert drawn.deviation == pytest.approx(slopes.error_bar(power, share=0.05).deviation, rel=0.25)
 
 
+def test_a_hinge_as_built_does_not_fly_every_wing_that_the_ranges_allow():
+    """A wing of twice the mass has no orbit on the best spring of the nominal one, also from many starts."""
+    built = {"pitch_hinge.stiffness": 1.49, "pitch_hinge.damping": 0.0163}
+    orbit = wb.solve_orbit(problem(numbers=built), starts=2)
+    one = wb.uncertainty_by_samples(wb.sensitivities(orbit), ["frequency"], samples=16)["frequency"]
+    assert one.unsolved is not None
+    assert one.certified + one.unsolved.draws == one.drawn == 16
+    assert 4 <= one.certified <= 8
+    assert sum(one.unsolved.short.values()) == one.unsolved.draws
+    # The range of the wing's mass is 0.4 to 2.5 times its value.
+    (path, (flown, without)), *_ = one.unsolved.differ.items()
+    assert path == "wing.mass"
+    assert without > 1.5 * flown
+    assert one.guessed == ("wing.pitch_axis", "wing.mass_axis")
+    heavy = problem(numbers=built | {"wing.mass": 2.1 * problem().vehicle.wing.mass})
+    assert wb.solve_orbits([heavy], starts=12)[0].status is wb.Status.INFEASIBLE
+
+
 def test_the_best_spring_beats_the_one_that_was_given():
     orbit = orbit_of()
     best = wb.solve_orbit(problem(free=OWN), starts=1, start=orbit)

@@ -14,7 +14,7 @@ from tests.helpers.hasty import make_hasty
 from wingbeat._base import InvalidInputError
 from wingbeat.aero.model_file import FittedCurve, FittedModel, FittedWing
 from wingbeat.cli import main
-from wingbeat.cli.uncertainty import _plain, _print
+from wingbeat.cli.uncertainty import _plain, _print, _tell_unsolved
 from wingbeat.orbits.flight.certificate import certify
 from wingbeat.orbits.flight.time_series import flown_beat
 from wingbeat.orbits.nlp.newton_kkt import NewtonKKT
@@ -25,6 +25,7 @@ from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.solution import correct_guess
 from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.orbits.uncertainty import ErrorBar, OptimumSlopes, ParameterSpread, first_order
+from wingbeat.records.shares import unsolved
 from wingbeat.results.error_bars import Comparison, _compared
 from wingbeat.results.sensitivities import _of_fit
 
@@ -300,6 +301,8 @@ def test_the_command_uncertainty_prints_both_ways(capsys, monkeypatch):
     assert main([*words, "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert told["frequency"]["certified"] == 10
+    assert told["frequency"]["unsolved"] == {"draws": 0, "drawn": 10, "short": {}, "differ": {}}
+    assert told["frequency"]["guessed"] == []
     assert main([*words, "--quantities", "frequency"]) == 0
     shown = capsys.readouterr()
     assert "To first order, not yet checked by 10 draws:\n  frequency 9.4" in shown.err
@@ -313,6 +316,22 @@ def test_the_command_uncertainty_prints_both_ways(capsys, monkeypatch):
     assert "infeasible" in capsys.readouterr().err
 
 
+def test_draws_without_an_orbit_are_told_with_their_reasons(capsys):
+    """The mass sets them apart, the span does not; with no orbit at all there is nothing to compare."""
+    certified = np.arange(20) < 8
+    mass, span = np.where(certified, 0.03, 0.06), np.tile([0.4, 0.5], 10)
+    short = [*([""] * 8), *(["thrust"] * 9), *(["lift"] * 3)]
+    drawn = np.stack([mass + 1e-3 * np.sin(np.arange(20)), span], axis=1)
+    found = unsolved(certified, short, drawn, ("wing.mass", "wing.semi_span"))
+    assert (found.draws, found.drawn, found.short) == (12, 20, {"thrust": 9, "lift": 3})
+    assert found.differ == {"wing.mass": pytest.approx((0.03, 0.06), abs=1e-3)}
+    bar = ErrorBar("frequency", "Hz", 6.8, 0.1, 0.0, {"wing.mass": 0.1})
+    _tell_unsolved(Comparison(bar, 6.8, 0.1, 0.0, 1.0, 8, 20, unsolved=found))
+    told = "12 of 20 draws have no orbit: the balance that fails most is thrust in 9, lift in 3; mean of wing.mass"
+    assert capsys.readouterr().out.startswith(told)
+    assert unsolved(np.zeros(20, bool), short, drawn, ("wing.mass", "wing.semi_span")).differ == {}
+
+
 def test_a_quantity_that_a_limit_holds_has_no_deviation(capsys):
     """Within plausible ranges each draw may have the largest frequency that is plausible."""
     bar = ErrorBar("frequency", "Hz", 6.8, 3e-13, 0.0, {"body.mass": 3e-13}, set_by_limit=True)
@@ -323,7 +342,8 @@ def test_a_quantity_that_a_limit_holds_has_no_deviation(capsys):
         np.ones(3, dtype=bool),
         np.ones((3, 1), dtype=bool),
     )
-    slope = types.SimpleNamespace(quantities={"frequency": 0.0})
+    mass = types.SimpleNamespace(path="body.mass", value=0.3, guessed=False)
+    slope = types.SimpleNamespace(quantities={"frequency": 0.0}, parameter=mass)
     found = _compared(bar, drawn, 0, {"body.mass": slope})
     assert (found.mean, found.deviation, found.standard_error, found.explained) == (
         pytest.approx(6.8),

@@ -131,6 +131,7 @@ def uncertainty(
     else:
         for one in compared.values():
             _print(one, Console())
+        _tell_unsolved(next(iter(compared.values())))
         print(_QUOTE)
     return EXIT_GOOD
 
@@ -179,8 +180,16 @@ def _tell_differences(found: dict[str, Difference], against: str, json: bool) ->
     console = Console()
     for one in found.values():
         _print_difference(one, against, console)
+    first = next(iter(found.values()))
+    _tell_unsolved(first.here)
+    _tell_unsolved(first.there, f"with {against}, ")
     for exact in dict.fromkeys(path for one in found.values() for path in one.exact):
         console.print(f"{exact} differs as asked, so it counts as exact", markup=False, highlight=False)
+
+
+def _tell_unsolved(one: Comparison, where: str = "") -> None:
+    if one.unsolved is not None and one.unsolved.draws:
+        Console().print(f"{where}{one.unsolved}", markup=False, highlight=False, soft_wrap=True)
 
 
 def _print_difference(one: Difference, against: str, console: Console) -> None:
@@ -215,7 +224,8 @@ def _plain(one: Comparison) -> dict[str, Any]:
     told = one.first_order._asdict() if holds else one.first_order.ranked()
     stable = None if one.stable is None else one.stable.record()
     plain = one._asdict() | {"first_order": told, "first_order_holds": holds}
-    return plain | {"limited": one.limited._asdict(), "stable": stable}
+    lost = None if one.unsolved is None else one.unsolved._asdict()
+    return plain | {"limited": one.limited._asdict(), "stable": stable, "unsolved": lost}
 
 
 def _print(one: Comparison, console: Console) -> None:

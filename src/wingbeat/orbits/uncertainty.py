@@ -374,6 +374,7 @@ class Samples(NamedTuple):
         without an orbit.
     certified : whether a draw has a certified orbit, shape (n,).
     at_limit : whether a bound or limit of a quantity's own has set it, shape (n, Q); None if not known.
+    short : of each draw without an orbit, the balance that fails most, such as ``thrust``; otherwise empty.
 
     >>> import numpy as np, wingbeat as wb
     >>> deviations, frequencies = np.array([[-0.02], [0.0], [0.02]]), np.array([[9.3], [9.5], [np.nan]])
@@ -387,6 +388,7 @@ class Samples(NamedTuple):
     quantities: np.ndarray
     certified: np.ndarray
     at_limit: np.ndarray | None = None
+    short: tuple[str, ...] = ()
 
 
 def sample_orbits(
@@ -421,10 +423,10 @@ def sample_orbits(
             moved = parameter.changed(moved, parameter.value + deviation)
         drawn.append((moved, guess))
     work = functools.partial(_read_off, quantities=tuple(quantities), seed=seed, options=options, starts=starts)
-    found = in_processes(work, drawn, processes, progress)
-    values, at_limit = (np.array(each) for each in zip(*found, strict=True))
+    each, at_limit, short = zip(*in_processes(work, drawn, processes, progress), strict=True)
+    values, paths = np.array(each), tuple(p.path for p in parameters)
     certified = np.asarray(np.isfinite(values).all(axis=1))
-    return Samples(tuple(p.path for p in parameters), deviations, values, certified, at_limit)
+    return Samples(paths, deviations, values, certified, np.array(at_limit), short)
 
 
 def _read_off(
@@ -433,13 +435,14 @@ def _read_off(
     seed: int,
     options: SolverOptions,
     starts: int,
-) -> tuple[list[float], list[bool]]:
-    """Return quantities of the orbit of one draw, not-a-number if there is none, and whether limits set them."""
+) -> tuple[list[float], list[bool], str]:
+    """Return quantities of a draw's orbit, whether limits set them, and without one the balance that fails most."""
     problem, guess = drawn
     found = correct_guess(problem, guess, options=options) or search_near(problem, guess, options=options)
     if found is None and starts:
-        found = find_orbit(problem, Settings(starts, seed, starts, options=options), threads=1)
+        found = find_orbit(problem, Settings(starts, seed, starts, advise=False, options=options), threads=1)
     if found is None or found.status is not Status.CONVERGED:
-        return [math.nan] * len(quantities), [False] * len(quantities)
+        short = "" if found is None or not found.deficits else found.deficits[0].law
+        return [math.nan] * len(quantities), [False] * len(quantities), short
     limited = found.limited
-    return [found.value_of(q) for q in quantities], [q.name in limited for q in quantities]
+    return [found.value_of(q) for q in quantities], [q.name in limited for q in quantities], ""

@@ -1,8 +1,10 @@
-"""Shares of random draws: at a limit, which is printed instead of an error bar, and stable, with an interval."""
+"""Shares of random draws: at a limit, printed instead of an error bar; stable, with an interval; and unsolved."""
 
 from __future__ import annotations
 
 import math
+from collections import Counter
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -125,3 +127,51 @@ class StableShare(NamedTuple):
 def stable_share(radii: np.ndarray, drawn: int) -> StableShare:
     """Count the stable orbits."""
     return StableShare(int(np.sum(np.asarray(radii) < 1.0)), len(radii), drawn)
+
+
+class Unsolved(NamedTuple):
+    """Random draws without a certified orbit, and why; made by `uncertainty_by_samples`.
+
+    Attributes
+    ----------
+    draws : number of draws without a certified orbit.
+    drawn : number of all draws.
+    short : in how many of them each balance fails most: lift, thrust or pitching moment.
+    differ : numbers whose means differ by more than chance, the surest first: with an orbit, without.
+
+    >>> print(Unsolved(9, 16, {"thrust": 9}, {}))
+    9 of 16 draws have no orbit: the balance that fails most is thrust in 9
+    >>> print(Unsolved(9, 16, {}, {"wing.mass": (0.031, 0.0634)}))
+    9 of 16 draws have no orbit: mean of wing.mass there 0.0634, with an orbit 0.031
+    """
+
+    draws: int
+    drawn: int
+    short: dict[str, int]
+    differ: dict[str, tuple[float, float]]
+
+    def __str__(self) -> str:
+        """Return the count and the reasons as a sentence."""
+        fails = ", ".join(f"{law} in {count}" for law, count in self.short.items())
+        means = self.differ.items()
+        apart = [f"mean of {path} there {there:.3g}, with an orbit {flown:.3g}" for path, (flown, there) in means]
+        told = "; ".join([f"the balance that fails most is {fails}"][: len(self.short)] + apart)
+        return f"{self.draws} of {self.drawn} draws have no orbit{f': {told}' if told else ''}"
+
+
+# Standard errors by which two means differ beyond chance: among a few dozen numbers, chance names one in ten runs.
+_BEYOND_CHANCE = 3.0
+
+
+def unsolved(certified: np.ndarray, short: Sequence[str], drawn: np.ndarray, paths: tuple[str, ...]) -> Unsolved:
+    """Count the draws without an orbit, and find the numbers that set them apart; `drawn` has shape (n, P)."""
+    lost = ~certified
+    differ: dict[str, tuple[float, float]] = {}
+    if certified.any() and lost.any():
+        with_one, without = drawn[certified].mean(axis=0), drawn[lost].mean(axis=0)
+        error = drawn.std(axis=0) * math.sqrt(1 / certified.sum() + 1 / lost.sum())
+        sure = np.abs(without - with_one) / np.where(error > 0, error, np.inf)
+        for i in (i for i in np.argsort(-sure) if sure[i] > _BEYOND_CHANCE):
+            differ[paths[i]] = float(with_one[i]), float(without[i])
+    counts = Counter(law for law in short if law)
+    return Unsolved(int(lost.sum()), len(lost), dict(counts.most_common()), differ)

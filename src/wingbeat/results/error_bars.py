@@ -22,7 +22,7 @@ from wingbeat.orbits.uncertainty import (
     first_order,
     sample_orbits,
 )
-from wingbeat.records.shares import LimitShare, StableShare, limit_share, stable_share
+from wingbeat.records.shares import LimitShare, StableShare, Unsolved, limit_share, stable_share, unsolved
 from wingbeat.results.sensitivities import QUANTITIES, Sensitivities, quantity_of
 
 # Share of the draws' variance that the first-order estimate must predict. At a tenth and at three tenths of every
@@ -46,6 +46,8 @@ class Comparison(NamedTuple):
     certified, drawn : number of certified draws, and number of all draws.
     stable : of the quantity ``spectral_radius``, how many of the orbits are stable; otherwise None.
     limited : how many of the orbits have the quantity at a bound or limit of its own.
+    unsolved : how many draws have no certified orbit, and why.
+    guessed : names of the numbers drawn from a range that is our guess, because the species file is silent.
     """
 
     first_order: ErrorBar
@@ -57,6 +59,8 @@ class Comparison(NamedTuple):
     drawn: int
     stable: StableShare | None = None
     limited: LimitShare = LimitShare((), 0, 0, None)
+    unsolved: Unsolved | None = None
+    guessed: tuple[str, ...] = ()
 
     @property
     def first_order_holds(self) -> bool:
@@ -128,7 +132,11 @@ def _compared(bar: ErrorBar, drawn: Samples, column: int, slopes: Mapping[str, S
     size, count = float(np.abs(values[drawn.certified]).max(initial=0.0)), len(values)
     found = _judged(bar, drawn.certified, values, predicted, held, size)
     stable = stable_share(values[drawn.certified], count) if bar.quantity == "spectral_radius" else None
-    return found._replace(stable=stable)
+    numbers = [slopes[path].parameter for path in drawn.paths]
+    centre = [number.value for number in numbers]
+    lost = unsolved(drawn.certified, drawn.short, centre + drawn.deviations, drawn.paths)
+    guessed = tuple(number.path for number in numbers if number.guessed)
+    return found._replace(stable=stable, unsolved=lost, guessed=guessed)
 
 
 def _judged(

@@ -10,7 +10,7 @@ import pytest
 from tests.helpers.places import ROOT
 
 SRC = ROOT / "src"
-MOST_FILES, MOST_LINES, MOST_FLOORS = 300, 57_840, 21
+MOST_FILES, MOST_LINES, MOST_FLOORS = 300, 57_950, 21
 parse = functools.cache(ast.parse)
 # What a worker process runs comes by name, through a pipe.
 BY_NAME = {"wingbeat._workers.process"}

@@ -2,6 +2,7 @@
 
 JAX's own cache stores what XLA compiled. To find an entry, JAX must first trace the function, which takes seconds.
 Here the traced program itself (`jax.export`) is stored. Its name is a digest of everything that could change it.
+The traced programs of the usual first questions come with the package.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ import os
 import pickle
 import platform
 import threading
-from collections.abc import Callable
+import zlib
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -39,6 +41,10 @@ _SOON_ON_CPU: dict[str, str | bool] = (
     {"xla_cpu_use_fusion_emitters": False} if jax.__version_info__ < (0, 12) else {}
 )
 _NOTHING = np.zeros(0)
+_PACKAGE = Path(__file__).parents[1]
+# Traced programs that come with the package, made by benchmarks/shipped_programs.py, and all that they depend on.
+SHIPPED = _PACKAGE / "data" / "programs"
+EQUATIONS = ("_jax", "aero", "animal", "mechanics", "orbits/flight", "orbits/search_options.py")
 
 # Whether this process had run JAX when it was last forked, and whether it is such a fork.
 _has_run = False
@@ -157,12 +163,13 @@ class StoredFunction:
     def _load(self, tree: Any, shapes: tuple[Any, ...], rest: tuple[Any, ...], static: dict[str, Any]) -> _Ready:
         sizes = [sum(math.prod(shape) for shape in part) for part in (shapes, rest)]
         arguments = [jax.ShapeDtypeStruct((size,), jnp.float64) for size in sizes]
-        name = self._kept_name(tree, (shapes, rest), static) if self._kept else ""
-        if self._kept and (kept := kept_program(name)) is not None:
+        name = self.name(tree, (shapes, rest), static, _here()) if self._kept else ""
+        for find in (kept_program, self._shipped(tree, (shapes, rest), static)) if self._kept else ():
             with suppress(Exception):  # if JAX can no longer read it, it is traced again
-                program, out_tree, out_shapes = pickle.loads(kept)
-                exported = jax.export.deserialize(bytearray(program))
-                return _Ready(_compiled(exported.call, arguments, self._hot), out_tree, out_shapes)
+                if (found := find(name)) is not None:
+                    program, out_tree, out_shapes = pickle.loads(found)
+                    exported = jax.export.deserialize(bytearray(program))
+                    return _Ready(_compiled(exported.call, arguments, self._hot), out_tree, out_shapes)
         outcome = []
 
         def flat(held: Any, more: Any) -> Any:
@@ -181,16 +188,23 @@ class StoredFunction:
         keep_program(name, pickle.dumps((bytes(exported.serialize()), *outcome[0])))
         return _Ready(_compiled(exported.call, arguments, self._hot), *outcome[0])
 
-    def _kept_name(self, tree: Any, shapes: Any, static: dict[str, Any]) -> str:
+    def _shipped(self, tree: Any, shapes: Any, static: dict[str, Any]) -> Callable[[str], bytes | None]:
+        """Return a function that reads the traced program from the package, and keeps it under a name."""
+
+        def find(name: str) -> bytes | None:
+            place = SHIPPED / self.name(tree, shapes, static, equations_digest())
+            if not place.is_file():
+                return None
+            program = zlib.decompress(place.read_bytes())
+            keep_program(name, program)
+            return program
+
+        return find
+
+    def name(self, tree: Any, shapes: Any, static: dict[str, Any], made_by: Any) -> str:
         """Return the name of the traced program's file: a digest of everything that could change the program."""
-        what = (
-            f"{self._function.__module__}.{self._function.__qualname__}",
-            str(tree),
-            shapes,
-            sorted(static.items()),
-            (__version__, _source_digest(), jax.__version__, platform.python_version()),
-            jax.default_backend(),
-        )
+        which = f"{self._function.__module__}.{self._function.__qualname__}"
+        what = which, str(tree), shapes, sorted(static.items()), made_by, jax.default_backend()
         return f"traced-{hashlib.sha256(repr(what).encode()).hexdigest()}"
 
 
@@ -240,11 +254,21 @@ def _unpacked(held: Any, shapes: tuple[Any, ...]) -> list[Any]:
 
 
 @functools.cache
-def _source_digest() -> str:
-    """Return a digest of the package's own sources, so that a function is traced again if an equation changes."""
+def _here() -> tuple[str, ...]:
+    """Return what may change any traced program here; a function is traced again if an equation changes."""
+    return __version__, _digest_of(_PACKAGE.rglob("*.py")), jax.__version__, platform.python_version()
+
+
+@functools.cache
+def equations_digest() -> str:
+    """Return a digest of the sources on which shipped programs depend."""
+    return _digest_of(path for part in EQUATIONS for path in [_PACKAGE / part, *(_PACKAGE / part).rglob("*.py")])
+
+
+def _digest_of(paths: Iterable[Path]) -> str:
     digest = hashlib.sha256()
-    for path in sorted(Path(__file__).parents[1].rglob("*.py")):
-        digest.update(path.read_bytes())
+    for path in sorted(path for path in paths if path.suffix == ".py"):
+        digest.update(path.read_bytes().replace(b"\r\n", b"\n"))
     return digest.hexdigest()
 
 

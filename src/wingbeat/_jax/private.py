@@ -50,6 +50,8 @@ def without_repeats(program: jax.export.Exported) -> jax.export.Exported:
     """Return the traced program with equal operations, and equal calls of its functions, merged into one."""
     with make_ir_context():
         module = ir.Module.parse(program.mlir_module())
+        # Without the places in source files, programs are smaller and the same wherever the package is installed.
+        passmanager.PassManager.parse("builtin.module(strip-debuginfo)").run(module.operation)
         merge = passmanager.PassManager.parse("builtin.module(cse)")
         merge.run(module.operation)
         while _merge_calls(module):  # merged calls make more operations equal, and so more calls

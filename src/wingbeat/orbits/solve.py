@@ -35,6 +35,7 @@ from wingbeat.orbits.starts import (
     start_point,
     starts_in_words,
     usual_most_starts,
+    wingbeat_with_all_laws,
 )
 
 if TYPE_CHECKING:
@@ -93,7 +94,7 @@ def find_orbit(
     programme = Transcription(problem, options)
     programme.steps = [] if settings.trace else None
     own = None if settings.start is None else np.array([*settings.start.values.values()])
-    load_programs(programme, start_point(problem, 0, seed, options.search))
+    load_programs(programme, start_point(problem, 0, seed, options.search), wingbeat_with_all_laws(problem))
     free: list[Candidate] = []  # where the searches without limits of stability end, if there are such limits
     unlimited: list[Candidate] = []  # and those without any limits
     if asks_for_stability(problem):

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from wingbeat.animal.kinematics import parameter
+from wingbeat.animal.kinematics import Wingbeat, parameter
 from wingbeat.orbits.options import DEFAULTS
 from wingbeat.orbits.problem.outputs import value_count
 from wingbeat.orbits.problem.quantities import QUANTITIES, Constraint, Frequency
@@ -117,6 +117,16 @@ def structured_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.s
         if not any(np.array_equal(start, other) for other in found):
             found.append(start)
     return found
+
+
+def wingbeat_with_all_laws(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search) -> Wingbeat:
+    """Return a wingbeat near the first start in which no law with a free parameter is off, as in most optima.
+
+    A law that is off is no part of the programs, so those for the start itself would serve no optimum.
+    """
+    unknowns, first = problem.unknowns(), start_point(problem, 0, 0, options)
+    away = options.random_margin * (unknowns.upper - unknowns.lower)
+    return problem.wingbeat(np.where(first + away < unknowns.upper, first + away, first - away))
 
 
 def minimises_map(problem: OrbitProblem) -> bool:

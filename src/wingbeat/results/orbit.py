@@ -15,17 +15,16 @@ from wingbeat._base import Fault, FaultList, InvalidInputError, Report, Reported
 from wingbeat.animal.kinematics import Wingbeat
 from wingbeat.experiment.film_fit import FilmedBeat
 from wingbeat.mechanics.flight_model import State
-from wingbeat.mechanics.flights import Steps
 from wingbeat.orbits.batch import find_orbits, find_series
 from wingbeat.orbits.changes import Relaxation
-from wingbeat.orbits.flight.certificate import SAMPLES, certify, floquet_multipliers
-from wingbeat.orbits.flight.period import inner_start
+from wingbeat.orbits.flight.certificate import certify
 from wingbeat.orbits.flight.time_series import flown_beat
+from wingbeat.orbits.nlp.transcription import load_record_programs
 from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status, check_certified
 from wingbeat.orbits.problem.problem import OrbitProblem
 from wingbeat.orbits.solution import Solution
 from wingbeat.orbits.solve import Progress, Settings, check_search, find_orbit
-from wingbeat.orbits.starts import start_count
+from wingbeat.orbits.starts import start_count, wingbeat_with_all_laws
 from wingbeat.orbits.uncertainty import OptimumSlopes
 from wingbeat.plots.draw_wingbeat import wingbeat_page
 from wingbeat.records.flight_dataset import evaluate, flight_dataset
@@ -385,17 +384,10 @@ def solve_orbit(
     check_search(starts, seed)
     with ThreadPoolExecutor(1) as pool:
         if not flown_beat.loaded:  # read or compiled while the search goes on
-            pool.submit(_load_record_programs, problem)
+            pool.submit(load_record_programs, problem, wingbeat_with_all_laws(problem))
         settings = Settings(starts, seed, options=options, start=own, trace=trace)
         solution = find_orbit(problem, settings, progress)
     return Orbit.of(solution, starts, seed)
-
-
-def _load_record_programs(problem: OrbitProblem) -> None:
-    model, wingbeat = problem.model, problem.species.wingbeat
-    size = 4 + inner_start(model, wingbeat).size
-    flown_beat(model, wingbeat, np.zeros(SAMPLES + 1), np.zeros((SAMPLES + 1, size)), (0.0, 0.0))
-    floquet_multipliers(model, wingbeat, Steps(np.linspace(0.0, 1.0, 3), np.zeros((3, 2 + size))))
 
 
 def solve_orbits(

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from wingbeat.animal.kinematics import Wingbeat
+from wingbeat.mechanics.flights import Steps
 from wingbeat.orbits.flight.beat import Beat, highest_sample, peak_weights
-from wingbeat.orbits.flight.certificate import Certificate, certify, map_and_changes, monodromy
+from wingbeat.orbits.flight.certificate import SAMPLES, Certificate, certify, map_and_changes, monodromy
 from wingbeat.orbits.flight.lagged import InnerStart
 from wingbeat.orbits.flight.period import CLOSURE_SCALE, Flown, StrokeLimits, flier, fly_part, inner_start
 from wingbeat.orbits.flight.time_series import beat_reader, flown_beat
@@ -339,17 +340,26 @@ class Transcription(Programme):
         return unit * self.unknowns.scale / self.problem.minimise.scale
 
 
-def load_programs(programme: Transcription, start: np.ndarray) -> None:
-    """Load or compile the programs of a local search and of the certificate in parallel, once per process."""
+def load_programs(programme: Transcription, start: np.ndarray, wingbeat: Wingbeat) -> None:
+    """Load or compile the programs of a local search and of the certificate in parallel, once per process.
+
+    `start` is one of the search, `wingbeat` one like the optimum.
+    """
     if fly_part.loaded:
         return
-    wingbeat = programme.problem.wingbeat(start)
     with ThreadPoolExecutor(2) as pool:
         # The program of the search compiles the longest, so it goes first.
         searching = pool.submit(programme.closure_jacobian, programme.scaled(start))
         once = dataclasses.replace(programme.options.wake, certifying_flights=1)
         pool.submit(certify, programme.model, wingbeat, start[:4], lag=once).result()
         searching.result()
+
+
+def load_record_programs(problem: OrbitProblem, wingbeat: Wingbeat) -> None:
+    """Load or compile the programs of a record's time series and multipliers, for a wingbeat like the optimum."""
+    model, size = problem.model, 4 + inner_start(problem.model, wingbeat).size
+    flown_beat(model, wingbeat, np.zeros(SAMPLES + 1), np.zeros((SAMPLES + 1, size)), (0.0, 0.0))
+    monodromy(model, wingbeat, Steps(np.linspace(0.0, 1.0, 3), np.zeros((3, 2 + size))))
 
 
 def certified_beat(problem: OrbitProblem, wingbeat: Wingbeat, flown: Certificate) -> Beat:

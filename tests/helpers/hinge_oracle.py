@@ -81,7 +81,7 @@ def _numbers(flier):
     else:  # the pieces themselves, not strips of their mass
         place = np.asarray(table["mass_stations"])
         there = np.interp(place, np.linspace(0.0, 1.0, len(stations)), stations)
-        pieces = {"eta": place, "chord": there, "mass": table["station_masses"]}
+        pieces = {"eta": place, "chord": there, "mass": np.asarray(table["station_masses"])}
     pieces["axis"] = (wing["mass_axis"] if axes is None else np.asarray(axes)) * np.ones_like(pieces["chord"])
     pieces["gyration"] = (wing["mass_gyration"] if gyrations is None else np.asarray(gyrations)) + 0.0 * pieces[
         "eta"

@@ -138,29 +138,29 @@ def test_accelerations_are_those_of_lagrange(air, twist_share):
 @pytest.mark.parametrize("air", UNSTEADY)
 def test_pieces_of_a_rigid_wing_move_as_lagrange_says(air):
     """Of spar, skin and joints; the oracle has the pieces themselves, the package ten strips."""
-    uniform = np.random.default_rng(58).uniform
-    rigid, compared = {"twist_ratio": 1.0, "twist_mean": 0.0, "fold_amplitude": 0.0}, 0
-    for case, _ in cases(air, 0.0, 4):
-        masses = uniform(1e-4, 1e-3, 24)
+    uniform, compared = np.random.default_rng(58).uniform, 0
+    aero = wb.aero.BladeElement(wb.aero.SuFan(), 10, "centre-of-pressure", **UNSTEADY[air])
+    plain = {"mass_exponent": 0.0, "mass_axis": 0.5, "mass_gyration": wb.Wing.mass_gyration}
+    rigid = {"twist_ratio": 1.0, "twist_mean": 0.0, "fold_amplitude": 0.0}
+    while compared < 4:
+        case, masses = draw(uniform, air, 0.0), uniform(1e-4, 1e-3, 24)
         table = {
             "mass_stations": tuple(uniform(0.0, 1.0, 24)),
             "station_masses": tuple(masses),
             "station_axes": tuple(uniform(0.0, 0.8, 24)),
             "station_gyrations": tuple(uniform(0.1, 0.3, 24)),
         }
-        plain = {"mass_exponent": 0.0, "mass_axis": 0.5, "mass_gyration": wb.Wing.mass_gyration}
         wing = dataclasses.replace(case.model.vehicle.wing, mass=float(masses.sum()), **plain, **table)
-        vehicle = dataclasses.replace(case.model.vehicle, wing=wing)
-        aero = wb.aero.BladeElement(wb.aero.SuFan(), 10, "centre-of-pressure", **UNSTEADY[air])
-        beat = dataclasses.replace(case.wingbeat, **rigid)
-        case = dataclasses.replace(case, model=wb.FlightModel(vehicle, aero), wingbeat=beat)
+        model = wb.FlightModel(dataclasses.replace(case.model.vehicle, wing=wing), aero)
+        case = dataclasses.replace(case, model=model, wingbeat=dataclasses.replace(case.wingbeat, **rigid))
         try:
             wanted = case.wanted()
-        except ValueError:  # within a blend
+        except ValueError as error:
+            if "blend" not in str(error):
+                raise
             continue
         np.testing.assert_allclose(found(case), wanted, rtol=TOLERANCE, atol=TOLERANCE)
         compared += 1
-    assert compared >= 2
 
 
 @pytest.mark.slow

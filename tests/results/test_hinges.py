@@ -1,6 +1,8 @@
 """What a record says of pitch hinges: of those that give way, and of those that a prescribed pitch needs."""
 
+import dataclasses
 import json
+import re
 import shlex
 from types import SimpleNamespace
 
@@ -15,6 +17,7 @@ from wingbeat.cli.problem_options import with_settings
 from wingbeat.mechanics.hinge_torques import hinge_alone
 from wingbeat.orbits.problem.quantities import parse_wingbeat_limit
 from wingbeat.records.hinges import hinge_inertia, hinge_names, hinge_warnings, prescribed_numbers
+from wingbeat.records.orbit_record import crossing
 from wingbeat.words.orbit_words import hinge_rows, power_rows, prescribed_rows
 
 TURN = 2 * np.pi * np.linspace(0.0, 1.0, 257)
@@ -122,11 +125,6 @@ def test_the_path_in_the_file_names_a_free_parameter():
         ROBOT.with_free(["pitch_hinge.stiffness"])
 
 
-def test_limits_of_stability_are_refused():
-    with pytest.raises(wb.InvalidInputError, match="spectral_radius"):
-        wb.OrbitProblem(GIVING, 8.0, minimise="mean_positive_power", subject_to=["spectral_radius<=0.99"])
-
-
 def warned(angle, force_point="centre-of-pressure", alpha=0.3, **numbers):
     hinge = PitchHinge(1.4, **numbers)
     beat = SimpleNamespace(alpha=np.full((257, 5), alpha), lift=np.full((257, 5), 2.0), drag=np.full((257, 5), 0.5))
@@ -232,3 +230,17 @@ def test_a_robot_says_what_pitches_its_wings():
     said = dict(power_rows(record))["electrical power"]
     assert "would pitch the wings: no motor does" in said
     assert dict(prescribed_rows(record))
+
+
+def test_wings_that_meet_where_the_hinge_flies_draw_a_warning(passive_orbit):
+    """The shoulder is moved so near that the flown wing crosses by 2 mm; with its hinge at rest it does not."""
+    flown = wb.certify(passive_orbit.problem.model, passive_orbit.wingbeat, passive_orbit.initial_state[2:])
+    vehicle, hinge = passive_orbit.problem.vehicle, (flown.phase, flown.hinge[:, 0])
+    least = float(passive_orbit.dataset["strip_corner"].values[..., 1].min())
+    near = (vehicle.wing.shoulder[0], vehicle.wing.shoulder[1] - least - 2e-3, vehicle.wing.shoulder[2])
+    narrow = dataclasses.replace(vehicle, wing=dataclasses.replace(vehicle.wing, shoulder=near))
+    place = passive_orbit.problem.aero.strips, passive_orbit.wingbeat, (-2.0, 2.0)
+    assert crossing(vehicle, *place, hinge) == crossing(narrow, *place) == []
+    (note,) = crossing(narrow, *place, hinge)
+    across = float(re.search(r"by up to (\S+) mm", note)[1])
+    assert across == pytest.approx(2.0, abs=0.15)

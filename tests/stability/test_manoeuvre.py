@@ -196,6 +196,13 @@ def test_an_orbit_without_certificate_is_refused():
         wb.manoeuvre(wb.solve_orbit(wb.OrbitProblem(heavy, 3.0), starts=1), [5.0])
 
 
+def test_a_wing_that_gives_way_is_refused_before_the_first_orbit_is_searched(capsys, monkeypatch):
+    monkeypatch.delattr("wingbeat.cli.manoeuvre.solve_orbit")
+    given = ["robofalcon2", "--speed", "8", "--to", "9", "--set", "pitch_hinge.stiffness=1.4"]
+    assert main(["manoeuvre", *given]) == 2
+    assert "gives way, and manoeuvres do not know the hinge" in " ".join(capsys.readouterr().err.split())
+
+
 def test_the_record_and_the_page(plan):
     record = json.loads(json.dumps(plan.record(), allow_nan=False))
     assert record["status"] == "converged"

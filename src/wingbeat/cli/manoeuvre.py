@@ -14,6 +14,7 @@ from wingbeat.results.flight import Flight
 from wingbeat.results.orbit import solve_orbit
 from wingbeat.stability.manoeuvres import Manoeuvre, check_manoeuvre
 from wingbeat.stability.manoeuvres import manoeuvre as find
+from wingbeat.stability.options import check_no_hinge
 from wingbeat.stability.reports import manoeuvre_report
 
 
@@ -64,6 +65,8 @@ def manoeuvre(
             faults.add("--speed", speed, "is missing", "give the speed at the start in m/s, or a saved orbit")
             faults.raise_if_any()
         problem = model.problem(species, float(speed or 0.0), set_, climb=climb)
+        check_no_hinge(faults, problem.species.wingbeat)  # before the first orbit, which takes a while
+        faults.raise_if_any()
         with progress_bar(f"{problem.species.name}, first orbit") as progress:
             orbit = solve_orbit(problem, starts, seed, progress)
         if orbit.status is not Status.CONVERGED:

@@ -98,7 +98,7 @@ def simulate(
     given = {"u": u, "w": w, "pitch_rate": pitch_rate}
     given["body_pitch"] = None if body_pitch_deg is None else math.radians(body_pitch_deg)
     disturbed = {name: value for name, value in given.items() if value is not None}
-    beat = prescribed = flown_by = None
+    beat = prescribed = flown_by = given_way = None
     doubts: list[str] = []
     start, hinge = State(u=10.0), None
     if from_ is not None:
@@ -139,12 +139,13 @@ def simulate(
         wind = options.wind_of(gust, turbulence, wind_seed, math.hypot(start.u, start.w))
         flight = fly(flown_by, wingbeat, start, beats, samples, wind=wind, species=animal, hinge=hinge)
         rows, completed = beat_rows(flight, samples), flight.completed
+        given_way = None if flight.hinge is None else (flight.phase, flight.hinge[:, 0])
         if beat is not None:
             for row, error in zip(rows, _errors(flight, beat, beats, samples, wind), strict=True):
                 row["mean_power_se"] = error
         record = {"completed": completed, "beats": rows}
         report = functools.partial(_print, rows, completed)
-    notes = [*crossing(flight.model.vehicle, flight.model.strips, wingbeat, reach)]
+    notes = [*crossing(flight.model.vehicle, flight.model.strips, wingbeat, reach, given_way)]
     notes += doubts
     record |= {"warnings": notes} | ({} if beat is None else {"kinematics": filmed.film_record(beat)})
     with answer() as told:

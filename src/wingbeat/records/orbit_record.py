@@ -11,7 +11,7 @@ from wingbeat._base import NOMENCLATURE, __version__
 from wingbeat.aero import CamberedCoefficients, CoefficientModel, FamilyCoefficients
 from wingbeat.aero.wake import ATTACHED_SHARE
 from wingbeat.animal.actuators import Discharge
-from wingbeat.animal.kinematics import ANGLES, Wingbeat
+from wingbeat.animal.kinematics import ANGLES, Wingbeat, held_at
 from wingbeat.animal.species.scaling import BIRD_FREQUENCY
 from wingbeat.animal.vehicle import Air, Vehicle
 from wingbeat.mechanics.flight_model import State
@@ -169,7 +169,8 @@ def orbit_warnings(solution: Solution, beat: Beat) -> list[str]:
             f"the body pitches by {math.degrees(swing):.0f} degrees within each wingbeat; "
             "no flying animal that we know of pitches so much"
         )
-    notes += crossing(vehicle, aero.strips, solution.wingbeat, problem.bounds["flap"])
+    place, flown = (vehicle, aero.strips, solution.wingbeat, problem.bounds["flap"]), solution.certificate
+    notes += crossing(*place, None if flown.hinge is None else (flown.phase, flown.hinge[:, 0]))
     if is_at_lower_bound(problem, solution.unknowns, solution.options.search.bound_tolerance):
         if solution.status is Status.CONVERGED:
             notes.append(
@@ -254,12 +255,22 @@ def rivals(solution: Solution) -> list[str]:
     ]
 
 
-def crossing(vehicle: Vehicle, strips: int, wingbeat: Wingbeat, flap: tuple[float, float]) -> list[str]:
+def crossing(
+    vehicle: Vehicle,
+    strips: int,
+    wingbeat: Wingbeat,
+    flap: tuple[float, float],
+    flown: tuple[np.ndarray, np.ndarray] | None = None,
+) -> list[str]:
     """Warn of wings that cross the plane of symmetry, and so each other, or that flap beyond their range [rad].
 
-    The solver avoids both; a prescribed wingbeat, such as a filmed one, may not.
+    `flown` has phases, and the angles there of a hinge that gives way. The solver avoids both, but knows such a
+    hinge at its rest angle only; a prescribed wingbeat, such as a filmed one, may do both.
     """
     phase = np.arange(_STROKE_SAMPLES) / _STROKE_SAMPLES
+    if flown is not None:
+        phase, still = flown[0] % 1.0, np.zeros(len(flown[0]))
+        wingbeat = held_at(wingbeat, phase, flown[1], still, still)
     leading, trailing = lateral_corners(vehicle.passive, wingbeat, phase, count=strips)
     pitch_axis = 0.75 * leading + 0.25 * trailing
     nearest = np.minimum(leading, trailing) if has_room(vehicle) else pitch_axis

@@ -272,9 +272,9 @@ def manoeuvre(
 
     Raises
     ------
-    InvalidInputError : an orbit that is not certified or has the lag of the wake, speeds that are missing or out
-        of range, beats that are no whole number from 2 to 300, a delay that is none from 0 to 4, inputs that
-        `linearise` refuses.
+    InvalidInputError : an orbit that is not certified, has the lag of the wake or a hinge that gives way, speeds
+        that are missing or out of range, beats that are no whole number from 2 to 300, a delay that is none from 0
+        to 4, inputs that `linearise` refuses.
 
     The search is direct multiple shooting (Bock & Plitt 1984, doi 10.1016/S1474-6670(17)61205-9).
 

@@ -239,10 +239,10 @@ def check_no_wake(faults: FaultList, wake: str) -> None:
 
 
 def check_no_hinge(faults: FaultList, wingbeat: Wingbeat) -> None:
-    """Note a hinge that gives way, where only a prescribed pitch is known."""
+    """Note a hinge that gives way, whose angle and rate the beats of a manoeuvre do not hand on."""
     if wingbeat.pitch_hinge is not None:
-        fix = "use feedback from beat to beat (wb.feedback, `wingbeat feedback --delay 1`), or prescribe the pitch"
-        faults.add("pitch_hinge", "the wing's pitch", "gives way, which this feedback does not know", fix)
+        fix = "hold one speed with wb.feedback or wb.feedback_in_beat (`wingbeat feedback`), or prescribe the pitch"
+        faults.add("pitch_hinge", "the wing's pitch", "gives way, and manoeuvres do not know the hinge", fix)
 
 
 def check_delay(faults: FaultList, delay: int) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import dataclasses
 import time
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
@@ -324,7 +324,7 @@ def stable_searches(programme: Transcription, free: list[Candidate], threads: in
 
 
 def search_from_starts(
-    programme: Transcription, indices: Iterable[int], seed: int, threads: int, own: np.ndarray | None = None
+    programme: Transcription, indices: Sequence[int], seed: int, threads: int, own: np.ndarray | None = None
 ) -> Iterator[Candidate]:
     """Search from these starts in parallel threads, and yield in order where each local search ends.
 
@@ -344,8 +344,8 @@ def search_from_starts(
     yield from _side_by_side(one, indices, threads)
 
 
-def _side_by_side(work: Callable[[T], Candidate], items: Iterable[T], threads: int) -> Iterator[Candidate]:
-    if threads == 1:
+def _side_by_side(work: Callable[[T], Candidate], items: Sequence[T], threads: int) -> Iterator[Candidate]:
+    if threads == 1 or len(items) == 1:
         yield from map(work, items)
         return
     # Compiled flights release the interpreter lock, so threads run in parallel.

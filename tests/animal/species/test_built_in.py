@@ -6,6 +6,8 @@ from typing import Any
 import pytest
 
 import wingbeat as wb
+from wingbeat._base import FaultList
+from wingbeat.animal.species.file_schema import check_shape
 from wingbeat.animal.species.reading import packaged_text, species_names
 
 # Alternatives meant to lie outside the range: what a reader of the paper would assume; a warning says so.
@@ -62,3 +64,10 @@ def _leaves(table: dict[str, Any], path: str = "") -> dict[str, dict[str, Any]]:
 def _inside(value: Any, limits: list[float]) -> bool:
     low, high = limits
     return low < high and all(low <= each <= high for each in (value if isinstance(value, list) else [value]))
+
+
+@pytest.mark.parametrize("text", map(packaged_text, [*species_names(), "template"]))
+def test_a_file_of_the_package_has_the_shape_that_loading_takes_for_granted(text: str) -> None:
+    faults = FaultList()
+    check_shape(tomllib.loads(text), faults)
+    assert faults.faults == []

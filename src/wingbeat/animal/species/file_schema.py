@@ -155,35 +155,38 @@ def _shape() -> Any:
     return _table("Shape", fields, required), None
 
 
-_Alternative = create_model(
-    "Alternative",
-    __config__=_STRICT,
-    reason=(str, Field(default="", description="one line: why to try this")),
-    **_sections(complete=False),
-)
-SpeciesFile = _table(
-    "SpeciesFile",
-    {
-        "name": (str, Field(default=None, min_length=1)),
-        "common_name": (str, ""),
-        "scientific_name": (str, ""),
-        "kind": (Literal[KINDS], Field(default=None, description="kind of flyer; selects the scaling laws")),
-        **_sections(complete=True),
-        "free": (_table("Free", _leaves(FREE, lambda _: _bare_or_table(_Pair, BoundTable)), []), None),
-        "path": (_table("Path", _leaves(PATH, lambda _: _bare_or_table(_Pair, BoundTable)), []), None),
-        "plausible": (_table("Plausible", _leaves(PLAUSIBLE, lambda _: RangeTable), []), None),
-        "frequencies": (
-            list[FrequencyTable],
-            Field(default=None, description="of its flights, measured or by a law; default wingbeat.frequency"),
-        ),
-        "shape": _shape(),
-        "alternatives": (dict[str, _Alternative], None),
-    },
-    ["vehicle", "wingbeat"],
-    title="wingbeat species file",
-    description="Values are in SI units and radians; a key that ends in _deg is in degrees. Give either "
-    "vehicle.mass or vehicle.body.mass, and vehicle.wing.mass or its station_masses.",
-)
+@functools.cache
+def species_file() -> type[BaseModel]:
+    """Return the model of a species file, which takes 0.1 s to make."""
+    alternative = create_model(
+        "Alternative",
+        __config__=_STRICT,
+        reason=(str, Field(default="", description="one line: why to try this")),
+        **_sections(complete=False),
+    )
+    return _table(
+        "SpeciesFile",
+        {
+            "name": (str, Field(default=None, min_length=1)),
+            "common_name": (str, ""),
+            "scientific_name": (str, ""),
+            "kind": (Literal[KINDS], Field(default=None, description="kind of flyer; selects the scaling laws")),
+            **_sections(complete=True),
+            "free": (_table("Free", _leaves(FREE, lambda _: _bare_or_table(_Pair, BoundTable)), []), None),
+            "path": (_table("Path", _leaves(PATH, lambda _: _bare_or_table(_Pair, BoundTable)), []), None),
+            "plausible": (_table("Plausible", _leaves(PLAUSIBLE, lambda _: RangeTable), []), None),
+            "frequencies": (
+                list[FrequencyTable],
+                Field(default=None, description="of its flights, measured or by a law; default wingbeat.frequency"),
+            ),
+            "shape": _shape(),
+            "alternatives": (dict[str, alternative], None),
+        },
+        ["vehicle", "wingbeat"],
+        title="wingbeat species file",
+        description="Values are in SI units and radians; a key that ends in _deg is in degrees. Give either "
+        "vehicle.mass or vehicle.body.mass, and vehicle.wing.mass or its station_masses.",
+    )
 
 
 def json_schema() -> dict[str, Any]:
@@ -192,7 +195,7 @@ def json_schema() -> dict[str, Any]:
     >>> json_schema()["title"]
     'wingbeat species file'
     """
-    return SpeciesFile.model_json_schema()
+    return species_file().model_json_schema()
 
 
 MAX_FAULTS = 100
@@ -213,7 +216,7 @@ def dotted(path: Iterable[Any]) -> str:
 def check_shape(raw: dict[str, Any], faults: FaultList) -> None:
     """Note every wrong key, type and shape in the content of a TOML file."""
     try:
-        SpeciesFile.model_validate(raw)
+        species_file().model_validate(raw)
     except ValidationError as error:
         _translate(error, "", faults)
 
@@ -288,6 +291,6 @@ def _known_keys(loc: tuple[Any, ...]) -> list[str]:
         return list(RangeTable.model_fields)
     paths = [path for key in (*KEYS, *SHAPE, *LOOKS, *FREE, *PLAUSIBLE, *PATH) for path in key.spellings]
     if not place:
-        return list(SpeciesFile.model_fields)
+        return list(species_file().model_fields)
     parts = [path.split(".") for path in paths]
     return list(dict.fromkeys(part[len(place)] for part in parts if part[: len(place)] == place))

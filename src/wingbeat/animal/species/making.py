@@ -70,7 +70,8 @@ def load_species(name_or_path: str | os.PathLike[str]) -> Species:
     """
     name, faults = name_or_path, FaultList()
     if isinstance(name, str) and name in species_names():
-        return species_of(read_species_text(packaged_text(name), f"{name}.toml", name, faults), faults)
+        content = read_species_text(packaged_text(name), f"{name}.toml", name, faults, packaged=True)
+        return species_of(content, faults)
     if isinstance(name, str) and not (name.endswith(".toml") or any(s in name for s in _SEPARATORS)):
         known = suggest(name.lower(), species_names()).replace("?", "")
         if os.path.isfile(name):

@@ -22,7 +22,7 @@ from wingbeat_evidence.whole_flights import Measurement, measured_animals, read_
 from wingbeat_evidence.whole_flights.comparison import ends_of, name_of
 from wingbeat_explorer.models import EXPLORER_MODELS
 
-# Numbers of the record that are listed, and how they are called; those that a record lacks are left out.
+# Numbers of the record or its wingbeat that are listed, and how they are called; those that it lacks are left out.
 _LISTED = {
     "mean_positive_power": "mechanical power at the wing hinges, mean of the positive part",
     "metabolic_power": "metabolic power of the flight muscle alone",
@@ -31,6 +31,11 @@ _LISTED = {
     "cost_of_transport": "cost of transport",
     "reduced_frequency": "reduced frequency",
     "body_pitch_range": "range of body pitch within a beat",
+    "hinge_stiffness": "stiffness of the pitch hinges",
+    "hinge_damping": "damping of the pitch hinges",
+    "hinge_rest_angle": "rest angle of the pitch hinges",
+    "hinge_amplitude": "amplitude of the wing's pitch",
+    "hinge_lead": "lead of the wing's pitch over its flap",
 }
 _MUSCLE = "positive_power_per_mass"
 _NUMBERS = ("value", "low", "high")
@@ -150,9 +155,10 @@ def numbers_of(record: dict[str, Any]) -> list[list[str]]:
     mass, beat = mass_of(record["vehicle"]), record["wingbeat"]
     rows = [["mass", f"{1e3 * mass:.4g}", "g"], ["wingbeat frequency", f"{beat['frequency']:.4g}", "Hz"]]
     for name, label in _LISTED.items():
-        if record.get(name) is not None:
+        value = record.get(name, beat.get(name))
+        if value is not None:
             factor, unit = for_people(NOMENCLATURE[name].unit)
-            rows.append([label, f"{factor * record[name]:.4g}", unit])
+            rows.append([label, f"{factor * value:.4g}", unit])
     if record.get("stable") is not None:
         rows.append(["a small disturbance", "decays" if record["stable"] else "grows", ""])
     return rows

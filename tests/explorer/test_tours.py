@@ -211,9 +211,9 @@ def test_on_a_phone_the_tour_leaves_the_animal_in_sight(show):
 
 def test_no_number_of_a_result_is_typed_into_a_tour():
     """Digits stand in code and in years of publications only."""
-    for path in (SOURCES / "stories_of_power.js", SOURCES / "stories_of_motion.js"):
+    for path in SOURCES.glob("stories_of_*.js"):
         texts = re.findall(r'"[^"\n]*"|`[^`]*`', path.read_text("utf-8"))
-        assert len(texts) > 50
+        assert len(texts) > 30
         for text in texts:
             plain = re.sub(r"\$\{[^{}]*\}", "", text)
             assert re.search(r"\d", re.sub(r"et al\. \d{4}|robofalcon2", "", plain)) is None, plain

@@ -175,7 +175,8 @@ export class Tour {
     if (answer.status !== "converged") return this.finish([answer.sentence]);
     const push = step.push && this.push(answer.scene.pushes);
     if (step.push && !push) return this.finish(["No feedback was found that holds this flight."]);
-    this.finish(step.tell({ now: answer, seen, push, semiSpan: answer.scene.flights[0].semi_span }));
+    const { points } = this.face.curve.data;
+    this.finish(step.tell({ now: answer, seen, points, push, semiSpan: answer.scene.flights[0].semi_span }));
   }
 
   finish(sentences) {

@@ -66,7 +66,7 @@ def _inside(value: Any, limits: list[float]) -> bool:
     return low < high and all(low <= each <= high for each in (value if isinstance(value, list) else [value]))
 
 
-@pytest.mark.parametrize("text", map(packaged_text, [*species_names(), "template"]))
+@pytest.mark.parametrize("text", [packaged_text(name) for name in (*species_names(), "template")])
 def test_a_file_of_the_package_has_the_shape_that_loading_takes_for_granted(text: str) -> None:
     faults = FaultList()
     check_shape(tomllib.loads(text), faults)

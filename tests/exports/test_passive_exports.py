@@ -139,6 +139,24 @@ def test_a_disturbed_body_and_hinge_fly_as_ours(passive_orbit):
     assert np.abs(flown.positions[:, 4] - series.hinge[:, 0]).max() < 1e-4
 
 
+@pytest.mark.parametrize("bumps", [True, False])
+def test_feedback_that_knows_the_hinge_flies_in_mujoco_as_in_our_flight(bumps, passive_orbit):
+    pytest.importorskip("mujoco")
+    asked = {} if bumps else {"delay_time": 0.01, "servos": {"flap": wb.Servo(speed=10.0)}}
+    held, start = wb.feedback_in_beat(passive_orbit, 8, **asked), passive_orbit.initial_state
+    start = start._replace(body_pitch=start.body_pitch + 0.05, w=start.w + 0.3)
+    series, driver = held.fly((0.0, 0.0), 3, start=start), held.driver()
+    flight = wb.MujocoFlight(passive_orbit, 256)
+    flight.data.qpos[:3], flight.data.qvel[:3] = start[:3], start[3:]
+    flown = flight.fly(3, servos=driver)
+    commands = np.array(driver.commands)
+    assert np.abs(commands).max() > 0.01
+    assert np.abs(commands - series.bumps).max() < 0.02 * np.abs(commands).max()
+    apart = flown.states[::32, 1:] - series.states[:, 1:6]
+    assert np.abs(apart / [1.0, 0.1, 1.0, 1.0, 2.0]).max() < 1e-3
+    assert np.abs(flown.positions[::32, 4] - series.states[:, 6]).max() < 1e-3
+
+
 @pytest.mark.parametrize("wrong", ["jnt_stiffness", "dof_damping", "qpos_spring"])
 def test_with_a_wrong_spring_the_flight_is_another(wrong, passive_orbit):
     pytest.importorskip("mujoco")

@@ -97,6 +97,7 @@ def test_another_suffix_is_refused(held, tmp_path):
     [
         {"sample_rate": 1000.0, "delay_time": 0.01, "servos": wb.Servo(speed=math.radians(600))},
         {"segments": 8, "delay_time": 0.01},
+        {"segments": 8},
     ],
 )
 def test_the_block_flies_in_mujoco_at_a_kilohertz_as_in_our_flight(asked):

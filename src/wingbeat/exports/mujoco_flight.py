@@ -303,15 +303,18 @@ class MujocoFlight:
         data.qfrc_applied[:] = air
         data.ctrl[:] = (inertia - given - air)[self._driven]
 
-    def _air_loads(self, model: Any, data: Any, laws: Laws) -> tuple[np.ndarray, np.ndarray]:
-        """Return the air loads on the joints that no acceleration causes, and the added mass, shape (5, 5)."""
-        engine = _mujoco()
+    def _coordinates(self, data: Any, laws: Laws) -> tuple[np.ndarray, np.ndarray]:
+        """Return the five coordinates and their rates."""
         position, rate = data.qpos.copy(), data.qvel.copy()
         # The five coordinates do not contain the motion of span, fold, sweep and twist at this time.
         besides, besides_rate, _ = self._besides.motion(laws)
         position[_WINGS] -= besides
         rate[_WINGS] -= besides_rate
-        q, q_dot = self._spread.T @ position, self._spread.T @ rate
+        return self._spread.T @ position, self._spread.T @ rate
+
+    def _air_loads(self, model: Any, data: Any, laws: Laws) -> tuple[np.ndarray, np.ndarray]:
+        """Return the air loads on the joints that no acceleration causes, and the added mass, shape (5, 5)."""
+        engine, (q, q_dot) = _mujoco(), self._coordinates(data, laws)
         found = air_forces(self._flown, self._wingbeat, q, q_dot, np.float64(data.time - self._begun))
         on_joints, force = np.zeros(model.nv), np.asarray(found.strip_force)
         for side, sign in SIDES.items():
@@ -341,7 +344,7 @@ class MujocoFlight:
         self,
         beats: int = 1,
         controller: Controller | None = None,
-        servos: Callable[[float, float, State], tuple[np.ndarray, np.ndarray]] | None = None,
+        servos: Callable[..., tuple[np.ndarray, np.ndarray]] | None = None,
     ) -> MujocoStates:
         """Fly from the state in `data` with MuJoCo's own steps, and return the states before and after each step.
 
@@ -350,9 +353,9 @@ class MujocoFlight:
         beats : number of wingbeats.
         controller : gives the wingbeat of each beat from the number of beats flown and the state, as in `simulate`;
             None for the gait of the orbit.
-        servos : called at the start of each step with time [s], length of the step [s] and state; returns the
-            angles and rates that are added to flap and pitch at its end, shape (2,) each. Such is
-            `SegmentFeedback.driver`. A hinge that gives way takes no angle.
+        servos : called at the start of each step with time [s], length of the step [s], state, and angle and rate
+            of a hinge that gives way [rad, rad/s]; returns the angles and rates that are added to flap and pitch at
+            its end, shape (2,) each. Such is `SegmentFeedback.driver`. A hinge that gives way takes no angle.
 
         Raises
         ------
@@ -380,7 +383,12 @@ class MujocoFlight:
                     if servos is not None:
                         before_it = self._servos[3] if self._servos is not None else (np.zeros(2), np.zeros(2))
                         time, step = float(data.time), float(self.model.opt.timestep)
-                        self._servos = time, step, before_it, servos(time, step, State(*found[-1][1]))
+                        measured: list[Any] = [State(*found[-1][1])]
+                        if self._gives:
+                            phase = np.array((time - self._begun) * self._wingbeat.frequency)
+                            coordinates = self._coordinates(data, laws_at(self._wingbeat, phase))
+                            measured.append([float(one[4]) for one in coordinates])
+                        self._servos = time, step, before_it, servos(time, step, *measured)
                     engine.mj_step(self.model, data)
                     note()
         finally:

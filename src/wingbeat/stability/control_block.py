@@ -15,6 +15,7 @@ import csv
 import io
 import json
 import os
+from collections.abc import Sequence
 from os import PathLike
 from typing import TYPE_CHECKING, Any
 
@@ -170,7 +171,7 @@ class ServoDriver:
 
     Attributes
     ----------
-    commands : those so far, each of shape (2,) [rad].
+    commands : those so far, each of shape (2,), or (1,) of the flap alone [rad].
     """
 
     def __init__(self, record: dict[str, Any]) -> None:
@@ -178,9 +179,10 @@ class ServoDriver:
             faults, fix = FaultList(), "compute the feedback without an IMU"
             faults.add("imu", record["imu"], "has readings that MuJoCo's states do not give", fix)
             faults.raise_if_any()
-        if record["inputs"] != list(SERVO_LAWS) or len(record["path"][0]) > 5:
-            faults, fix = FaultList(), "save the block, or fly it with SegmentFeedback.fly"
-            faults.add("driver", record["inputs"], "moves what MuJoCo is not told of, or knows the hinge", fix)
+        laws = record["inputs"]
+        if laws not in (list(SERVO_LAWS), list(SERVO_LAWS[:1])):
+            faults, fix = FaultList(), "give servos={'flap': ...}, or fly it with SegmentFeedback.fly"
+            faults.add("driver", laws, "moves what MuJoCo is not told of", fix)
             faults.raise_if_any()
         self._block, self._held = block_of(record), record["held"]
         self._period = 1.0 / record["sample_rate"]
@@ -189,38 +191,42 @@ class ServoDriver:
         self._pace = np.array([WITHOUT_END if one is None else 2.0 * np.pi * one for one in bandwidths])
         self._steps = np.array([np.inf if one is None else one for one in self._block["largest_step"]])
         self.commands: list[np.ndarray] = []
-        self._memory, self._angle, self._ground = np.zeros(len(self._block["memory"])), np.zeros(2), 0.0
+        self._memory, self._angle, self._ground = np.zeros(len(self._block["memory"])), np.zeros(len(laws)), 0.0
 
-    def command(self, state: State) -> np.ndarray:
+    def command(self, state: State, hinge: Sequence[float] = ()) -> np.ndarray:
         """Return the command of the next sample, and remember it.
 
         Parameters
         ----------
         state : measured [m, rad, m/s, rad/s].
+        hinge : angle and rate of a hinge that gives way [rad, rad/s].
         """
-        block, sample = self._block, len(self.commands)
+        block, sample, laws = self._block, len(self.commands), self._angle.size
         if sample == 0:
             self._ground = float(state.z)
         j, beats = sample % block["samples"], sample // block["samples"]
-        away = np.array(state, dtype=float)[1:] - block["path"][j]
+        away = np.array([*state, *hinge], dtype=float)[1:] - block["path"][j]
         away[0] -= self._ground + block["climb"] * beats / block["frequency"]
         wanted = -(block["gains_of_state"][j] @ away + block["gains_of_memory"][j] @ self._memory)
         command = np.clip(wanted, block["lower"], block["upper"])
         after = block["memory"] @ self._memory + block["input"] @ command
         if self._held:
-            after[:2] = self._memory[:2] + np.clip(after[:2] - self._memory[:2], -self._steps, self._steps)
+            moved = after[:laws] - self._memory[:laws]
+            after[:laws] = self._memory[:laws] + np.clip(moved, -self._steps, self._steps)
         self._memory = after
         self.commands.append(command)
         return command
 
-    def __call__(self, time: float, step: float, state: State) -> tuple[np.ndarray, np.ndarray]:
+    def __call__(
+        self, time: float, step: float, state: State, hinge: Sequence[float] = ()
+    ) -> tuple[np.ndarray, np.ndarray]:
         """Return angles and rates of flap and pitch, added to the gait, at the end of a step.
 
         Parameters
         ----------
         time : at the start of the step [s]; steps follow each other, and each sample starts one.
         step : its length [s].
-        state : at its start.
+        state, hinge : at its start, as in `command`.
 
         Raises
         ------
@@ -232,7 +238,7 @@ class ServoDriver:
             faults.add("steps", step, "do not divide the controller's samples", fix)
             faults.raise_if_any()
         if time >= len(self.commands) * self._period - 1e-9:
-            self.command(state)
+            self.command(state, hinge)
         late, end = self._block["delay_time"], time + step
         change = int(np.floor((end - late) / self._period - 1e-9)) * self._period + late  # of the last command
         for begin, until in ((time, min(max(change, time), end)), (min(max(change, time), end), end)):
@@ -241,13 +247,16 @@ class ServoDriver:
                 self._angle = np.asarray(follow(self._angle, aim, self._speed, self._pace, until - begin))
         if self._held:
             rate = self._pace * (self._aim(end - 1e-9) - self._angle)
-            return self._angle, np.clip(rate, -self._speed, self._speed)
-        since = (end - late) / self._period
-        part = np.pi * (since - np.floor(since))
-        height = self._aim(end)
-        return height * np.sin(part) ** 2, height * np.sin(2.0 * part) * np.pi / self._period
+            found = self._angle, np.clip(rate, -self._speed, self._speed)
+        else:
+            since = (end - late) / self._period
+            part = np.pi * (since - np.floor(since))
+            height = self._aim(end - 1e-6 * self._period)  # at the end of a bump, the next is not known yet
+            found = height * np.sin(part) ** 2, height * np.sin(2.0 * part) * np.pi / self._period
+        angle, rate = (np.pad(one, (0, len(SERVO_LAWS) - one.size)) for one in found)
+        return angle, rate
 
     def _aim(self, time: float) -> np.ndarray:
         """Return the command that acts at a time."""
         at = int(np.floor((time - self._block["delay_time"]) / self._period + 1e-9))
-        return self.commands[at] if at >= 0 else np.zeros(2)
+        return self.commands[at] if at >= 0 else np.zeros(self._angle.size)

@@ -72,6 +72,15 @@ def test_the_command_flies_the_hinge_of_the_fit():
     hinge = with_settings(ROBOT, settings).wingbeat.pitch_hinge
     assert vars(hinge) == vars(PitchHinge(2.0, 0.03, hinge.rest_angle))
     assert hinge.rest_angle == pytest.approx(-0.25, abs=1e-4)
+    assert "the air's part is left out" not in rows
+
+
+def test_a_fit_to_a_torque_without_the_moment_of_the_air_says_so():
+    """With the force at the quarter chord, the stiffness of a robot of 250 g is half of what the air asks for."""
+    record = prescribed_numbers(pitched(2.0, 0.03, -0.25))
+    for place, told in (("quarter-chord", True), ("centre-of-pressure", False)):
+        rows = dict(prescribed_rows({**record, "aero": {"force_point": place}}))
+        assert ("--force-point centre-of-pressure" in rows.get("the air's part is left out", "")) == told
 
 
 @pytest.mark.parametrize(("stiffness", "damping", "lacks"), [(2.0, -0.01, "damping"), (-2.0, 0.01, "stiffness")])

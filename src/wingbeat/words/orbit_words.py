@@ -251,6 +251,8 @@ def prescribed_rows(record: dict[str, Any]) -> Rows:
     rest = math.degrees(record["fitted_rest_angle"])
     values = (f"{record['fitted_stiffness']:.4g}", f"{record['fitted_damping']:.4g}", f"{rest:.2f}")
     paths = zip(("stiffness", "damping", "rest_angle_deg"), values, strict=True)
+    if (record.get("aero") or {}).get("force_point") == "quarter-chord":
+        rows.append(("the air's part is left out", "for it, add --force-point centre-of-pressure"))
     return [*rows, ("fly them", "--set " + " ".join(f"pitch_hinge.{path}={value}" for path, value in paths))]
 
 

@@ -2,7 +2,7 @@
 # One would guess: with jax_cpu_enable_async_dispatch off, a program runs in the thread that calls it, so time.thread_time
 # measures it (a single loop does run there).
 # What happens: a program of several loops runs on threads of XLA while the caller waits. Of its time on the processor
-# the thread that calls it sees two fifths on two cores; time.process_time sees all of it.
+# the thread that calls it sees about half on two cores; time.process_time sees all of it.
 # Where it bites: benchmarks in thread time call such a program faster than it is, and services that bill or
 # limit requests by the time of their thread.
 set -euo pipefail

@@ -44,7 +44,8 @@ _NOTHING = np.zeros(0)
 _PACKAGE = Path(__file__).parents[1]
 # Traced programs that come with the package, made by benchmarks/shipped_programs.py, and all that they depend on.
 SHIPPED = _PACKAGE / "data" / "programs"
-EQUATIONS = ("_jax", "aero", "animal", "mechanics", "orbits/flight", "orbits/search_options.py")
+_EQUATIONS = "_jax/*.py aero/*.py animal/*.py mechanics/*.py orbits/flight/*.py orbits/search_options.py"
+EQUATIONS = tuple(path for part in _EQUATIONS.split() for path in _PACKAGE.glob(part))
 
 # Whether this process had run JAX when it was last forked, and whether it is such a fork.
 _has_run = False
@@ -262,12 +263,12 @@ def _here() -> tuple[str, ...]:
 @functools.cache
 def equations_digest() -> str:
     """Return a digest of the sources on which shipped programs depend."""
-    return _digest_of(path for part in EQUATIONS for path in [_PACKAGE / part, *(_PACKAGE / part).rglob("*.py")])
+    return _digest_of(EQUATIONS)
 
 
 def _digest_of(paths: Iterable[Path]) -> str:
     digest = hashlib.sha256()
-    for path in sorted(path for path in paths if path.suffix == ".py"):
+    for path in sorted(paths):
         digest.update(path.read_bytes().replace(b"\r\n", b"\n"))
     return digest.hexdigest()
 

@@ -95,12 +95,9 @@ def stall_numbers(kernel: Kernel) -> tuple[tuple[float, float], tuple[float, flo
 
     A polar without lift on a side sheds nothing there: its number is 0.
     """
-    angles = largest_lift_angles(kernel)
-    lifts = [float(kernel_lift(kernel, np.array(angle))) for angle in angles]
-    below, above = (
-        math.sin(angle) / lift if lift * angle > 0 else 0.0 for angle, lift in zip(angles, lifts, strict=True)
-    )
-    return angles, (below, above)
+    found = _largest_lift(kernel)
+    below, above = (math.sin(angle) / lift if lift * angle > 0 else 0.0 for angle, lift in found)
+    return (found[0][0], found[1][0]), (below, above)
 
 
 def largest_lift_angles(kernel: Kernel) -> tuple[float, float]:
@@ -112,9 +109,16 @@ def largest_lift_angles(kernel: Kernel) -> tuple[float, float]:
     ----------
     kernel : the kernel of the polar.
     """
+    (below, _), (above, _) = _largest_lift(kernel)
+    return below, above
+
+
+def _largest_lift(kernel: Kernel) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return angle and lift where the lift is least at negative and largest at positive angles."""
     angles = np.linspace(0.0, 0.5 * math.pi, _ANGLES)
-    below, above = kernel_lift(kernel, -angles), kernel_lift(kernel, angles)
-    return -float(angles[below.argmin()]), float(angles[above.argmax()])
+    below, above = np.split(kernel_lift(kernel, np.concatenate([-angles, angles])), 2)  # in one program
+    low, high = below.argmin(), above.argmax()
+    return (-float(angles[low]), float(below[low])), (float(angles[high]), float(above[high]))
 
 
 def is_stalled(stall: StallNumbers | Sequence[Any], alpha: Angles) -> Any:

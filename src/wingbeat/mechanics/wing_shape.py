@@ -166,6 +166,12 @@ def strips_of(wing: Wing, count: int) -> Strips:
     return Strips(span_fraction, chord, wing.mass * share / jnp.sum(share))
 
 
+@exported(static=("count",))
+def strip_chords(wing: Wing, *, count: int) -> PerStrip:
+    """Return the chords of the strips [m], in one program; each operation of its own takes a few ms at first."""
+    return strips_of(wing, count).chord
+
+
 def chord_at(wing: Wing, span_fraction: PerStrip) -> PerStrip:
     """Return the chord [m], linear between the stations of the wing. Theory: equation ``strip-chord``."""
     stations = jnp.atleast_1d(jnp.asarray(wing.chord, dtype=float))

@@ -13,7 +13,7 @@ from wingbeat._base.datasets import at_station
 from wingbeat.aero import BladeElement
 from wingbeat.aero.wake import is_stalled
 from wingbeat.animal.vehicle import Air, Vehicle, Wing
-from wingbeat.mechanics.wing_shape import strips_of
+from wingbeat.mechanics.wing_shape import strip_chords
 from wingbeat.orbits.flight.beat import Beat, best_spring, mean_positive
 from wingbeat.orbits.problem.quantities import QUANTITIES
 from wingbeat.orbits.problem.quantity import drive_numbers
@@ -144,11 +144,11 @@ def beat_numbers(
 
 def detached_share(aero: BladeElement, wing: Wing, beat: Beat) -> float:
     """Return the share of the beat in which the angle of attack is beyond that of largest lift, by wing area."""
-    areas = strips_of(wing, aero.strips).chord
+    areas = np.asarray(strip_chords(wing, count=aero.strips))
     # A wing that lets air through in the upstroke has less lift there, but the same angle of largest lift.
     whole = dataclasses.replace(aero, upstroke_factor=1.0)
     detached = is_stalled(whole.stall_numbers()[0], beat.alpha)
-    return beat_mean(np.asarray(detached @ (areas / areas.sum()), dtype=float))
+    return beat_mean(np.asarray(detached, dtype=float) @ (areas / areas.sum()))
 
 
 # Judged numbers that are not in a record, and which quantities of a beat they are.

@@ -24,10 +24,12 @@ import numpy as np
 
 import wingbeat as wb
 from wingbeat._jax import exported
+from wingbeat.mechanics.wing_shape import strip_chords
 from wingbeat.orbits.flight.certificate import certify
 from wingbeat.orbits.nlp.transcription import Transcription, load_record_programs
 from wingbeat.orbits.search_options import WakeOptions
 from wingbeat.orbits.starts import start_point, wingbeat_with_all_laws
+from wingbeat.records.orbit_record import crossing
 
 SPEED = 8.0  # m/s; programs do not depend on it
 
@@ -49,6 +51,8 @@ def run_programs_of(problem: wb.OrbitProblem) -> None:
     programme.point(programme.scaled(start))
     certify(programme.model, wingbeat, start[:4], lag=WakeOptions(certifying_flights=1))
     load_record_programs(problem, wingbeat)
+    crossing(problem.vehicle, problem.aero.strips, wingbeat, problem.bounds["flap"])
+    strip_chords(problem.vehicle.wing, count=problem.aero.strips)
 
 
 def traced(missing: list[str], made: dict[str, bytes]) -> Callable[..., Any]:
@@ -85,15 +89,18 @@ def main() -> int:
     parser.add_argument("--check", action="store_true", help="only say whether all are there")
     parser.add_argument("--folder", type=Path, default=exported.SHIPPED, help="where to write them")
     given = parser.parse_args()
-    asked, missing, made = list(questions()), [], {}
-    exported.StoredFunction._load = found(missing) if given.check else traced(missing, made)
+    missing, made = [], {}
+    load = found(missing) if given.check else traced(missing, made)
+    if not given.check:  # problems run small programs of their coefficients, whose numbers they check
+        exported.SHIPPED = given.folder / "none"
+        exported.StoredFunction._load = load
+    asked = list(questions())
+    exported.StoredFunction._load = load
     # Nothing is compiled: a traced program tells the shapes of its results, and any numbers serve to go on.
     exported._compiled = lambda program, arguments, hot: jax.eval_shape(program, *arguments)
     exported.StoredFunction._run = lambda _, ready, *__: jax.tree_util.tree_unflatten(
         ready.tree, [np.zeros(shape) for shape in ready.shapes]
     )
-    if not given.check:
-        exported.SHIPPED = given.folder / "none"
     for problem in asked:
         run_programs_of(problem)
         if given.check and missing:

@@ -271,3 +271,16 @@ def test_measured_masses_of_muscle_come_before_the_law():
 def test_a_muscle_with_missing_numbers_is_refused():
     with pytest.raises(wb.InvalidInputError, match="must be given for a muscle"):
         PIGEON.with_values({"muscle.mass": 0.05})
+
+
+@pytest.mark.parametrize(("cells", "fed"), [(1, False), (12, True)])
+def test_a_draw_whose_battery_cannot_feed_it_counts_as_set_by_a_limit(cells, fed):
+    """One cell lasts 0 s, however far it is from feeding the beat: no error bar describes such draws."""
+    numbers = {"battery.cells": cells, "battery.capacity": 0.85, "battery.internal_resistance": 0.01}
+    orbit = wb.solve_orbit(problem(PIGEON.with_values(MOTOR | numbers)), starts=1)
+    slopes = wb.sensitivities(orbit, ("endurance", "frequency"))
+    found = wb.uncertainty_by_samples(slopes, ("endurance", "frequency"), samples=10, share=0.1)
+    limited = found["endurance"].limited
+    assert limited.share == (0.0 if fed else 1.0)
+    assert found["endurance"].mean > 0 if fed else limited.limits == (0.0,)
+    assert found["frequency"].limited.limits != (0.0,)

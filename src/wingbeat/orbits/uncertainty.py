@@ -25,7 +25,7 @@ from wingbeat.orbits.nlp.transcription import Transcription, certified_beat
 from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
 from wingbeat.orbits.problem.parameters import SIDES, Parameter, bound_of, limit_of
 from wingbeat.orbits.problem.problem import OrbitProblem, Unknowns
-from wingbeat.orbits.problem.quantity import MapQuantity, Quantity
+from wingbeat.orbits.problem.quantity import LASTING, MapQuantity, Quantity
 from wingbeat.orbits.solution import correct_guess, search_near
 from wingbeat.orbits.solve import Progress, Settings, find_orbit
 
@@ -444,5 +444,7 @@ def _read_off(
     if found is None or found.status is not Status.CONVERGED:
         short = "" if found is None or not found.deficits else found.deficits[0].law
         return [math.nan] * len(quantities), [False] * len(quantities), short
-    limited = found.limited
-    return [found.value_of(q) for q in quantities], [q.name in limited for q in quantities], ""
+    values = [found.value_of(q) for q in quantities]
+    # A battery that cannot feed the beat lasts 0 s, however far it is from feeding it.
+    unfed = {q.name for q, value in zip(quantities, values, strict=True) if q.name in LASTING and value == 0}
+    return values, [q.name in found.limited | unfed for q in quantities], ""

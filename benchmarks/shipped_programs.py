@@ -31,6 +31,7 @@ from wingbeat.orbits.search_options import WakeOptions
 from wingbeat.orbits.starts import start_point, wingbeat_with_all_laws
 from wingbeat.records.orbit_record import crossing
 
+MADE_BY = "made_by.txt"  # another JAX may trace equal programs otherwise, and reads these
 SPEED = 8.0  # m/s; programs do not depend on it
 
 
@@ -113,6 +114,7 @@ def main() -> int:
         old.unlink()
     for name, program in made.items():
         (given.folder / name).write_bytes(zlib.compress(program, 9))
+    (given.folder / MADE_BY).write_text(f"JAX {jax.__version__}\n")
     print(f"{len(made)} programs, {sum(map(len, made.values())) / 1e6:.2f} MB before compression")
     return 0
 

@@ -94,7 +94,9 @@ def find_orbit(
     programme = Transcription(problem, options)
     programme.steps = [] if settings.trace else None
     own = None if settings.start is None else np.array([*settings.start.values.values()])
-    load_programs(programme, start_point(problem, 0, seed, options.search), wingbeat_with_all_laws(problem))
+    load_programs(
+        programme, start_point(problem, 0, seed, options.search), wingbeat_with_all_laws(problem, options.search)
+    )
     free: list[Candidate] = []  # where the searches without limits of stability end, if there are such limits
     unlimited: list[Candidate] = []  # and those without any limits
     if asks_for_stability(problem):

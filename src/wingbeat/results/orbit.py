@@ -384,7 +384,7 @@ def solve_orbit(
     check_search(starts, seed)
     with ThreadPoolExecutor(1) as pool:
         if not flown_beat.loaded:  # read or compiled while the search goes on
-            pool.submit(load_record_programs, problem, wingbeat_with_all_laws(problem))
+            pool.submit(load_record_programs, problem, wingbeat_with_all_laws(problem, options.search))
         settings = Settings(starts, seed, options=options, start=own, trace=trace)
         solution = find_orbit(problem, settings, progress)
     return Orbit.of(solution, starts, seed)

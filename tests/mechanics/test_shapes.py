@@ -20,6 +20,7 @@ from wingbeat import aero, mechanics
 from wingbeat._jax import shapes
 from wingbeat._jax.exported import StoredFunction
 from wingbeat.aero.coefficient_model import CoefficientModel, Kernel
+from wingbeat.animal.vehicle import Wing
 from wingbeat.mechanics.flight_model import motion_table
 from wingbeat.orbits import flight
 from wingbeat.orbits.problem.outputs import ALL_FIELDS
@@ -62,9 +63,8 @@ def plain(function):
 
 @functools.cache
 def hints_of(thing):
-    return typing.get_type_hints(
-        thing, localns={**vars(shapes), "Kernel": Kernel, "CoefficientModel": CoefficientModel}
-    )
+    for_hints_only = {"Kernel": Kernel, "CoefficientModel": CoefficientModel, "Wing": Wing}
+    return typing.get_type_hints(thing, localns={**vars(shapes), **for_hints_only})
 
 
 def fits(value, hint) -> bool:

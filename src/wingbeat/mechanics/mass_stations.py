@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from wingbeat._jax.arrays import jnp
-from wingbeat.animal.vehicle import Wing
 
 if TYPE_CHECKING:
     from wingbeat._jax.arrays import PerStrip, PerStripBroadcast, Stations
+    from wingbeat.animal.vehicle import Wing
 
 
 class Strips(NamedTuple):

@@ -14,7 +14,7 @@ from tests.helpers.browsers import FLAGS, PATIENCE
 from tests.helpers.forks import ForkServer
 from tests.helpers.memory import MOST, forget_programs, resident
 from tests.helpers.reflight import Reflight, refly
-from wingbeat._workers.tuning import collect_seldom
+from wingbeat._workers.tuning import tune_process
 from wingbeat.cli import terminal
 from wingbeat.orbits.flight.certificate import Certificate, certify
 
@@ -27,7 +27,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 terminal.FIRST_LINE = 1e6
 
 # As wingbeat's own processes do: through what JAX holds, looks for garbage took 53 of 1260 core-seconds.
-collect_seldom()
+tune_process()
 
 ORBITS = {
     "pigeon": (10.0, wb.aero.SuFan()),

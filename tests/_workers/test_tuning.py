@@ -1,6 +1,8 @@
 """Worker processes pinned to a core each."""
 
 import os
+import subprocess
+import sys
 
 import pytest
 
@@ -29,3 +31,23 @@ def test_no_core_and_one_that_is_not_there_change_nothing():
     for core in (None, 100_000):
         pin_to(core)
         assert own_cores(None) == CORES
+
+
+COMPUTES = """
+import pathlib, wingbeat._workers.tuning as tuning
+tuning.tune_process()
+import jax
+jax.block_until_ready(jax.jit(lambda a: a @ a)(jax.numpy.ones((300, 300))))
+names = [file.read_text().strip() for file in pathlib.Path("/proc/self/task").glob("*/comm")]
+print(names.count("tf_XLAEigen"))
+"""
+
+
+@pytest.mark.skipif(not os.path.isdir("/proc/self/task"), reason="counts threads in /proc")
+@pytest.mark.parametrize(("variables", "threads"), [({}, 1), ({"PJRT_NPROC": "3"}, 3), ({"NPROC": "3"}, 3)])
+def test_xla_computes_in_one_thread_unless_the_user_chose_another_number(variables, threads):
+    # JAX 0.10.2: threads named tf_XLAEigen are those to which XLA hands parts of a program. Neither
+    # xla_cpu_multi_thread_eigen nor OMP_NUM_THREADS changes their number, these two variables do.
+    mine = {name: value for name, value in os.environ.items() if name not in ("PJRT_NPROC", "NPROC")}
+    done = subprocess.run([sys.executable, "-c", COMPUTES], env=mine | variables, capture_output=True, text=True)
+    assert done.stdout.split() == [str(threads)], done.stderr

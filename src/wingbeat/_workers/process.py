@@ -22,7 +22,7 @@ from contextlib import ExitStack, suppress
 from typing import Any, NamedTuple
 
 from wingbeat._leftovers import Leftover
-from wingbeat._workers.tuning import collect_seldom, pin_to
+from wingbeat._workers.tuning import tune_process, pin_to
 
 # The exit code of a process that was refused memory: ENOMEM, as systems number their errors.
 NO_MEMORY = 12
@@ -137,7 +137,7 @@ def main() -> None:
     settings = json.loads(sys.argv[1])
     pin_to(settings["core"])  # before there are threads, which inherit it
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for whoever started this process
-    collect_seldom()
+    tune_process()
     requests, speaker = _Requests(), _Speaker(settings["silence"])
     work = pkgutil.resolve_name(settings["work"])
     context = Context(lambda value: speaker.say("progress", value), requests.stopped)

@@ -24,12 +24,12 @@ def program() -> int:
     end_on_signals()  # before all else: imports take a second
     import gc
 
-    from wingbeat._workers.tuning import collect_seldom
+    from wingbeat._workers.tuning import tune_process
     from wingbeat.cli.app import main
     from wingbeat.cli.process import prepare_streams
 
     prepare_streams()
-    collect_seldom()
+    tune_process()
     code = main()
     gc.freeze()  # or the interpreter spends half a second at exit looking for garbage in what JAX holds
     return code

@@ -113,7 +113,7 @@ def _series(
     )
 
 
-@exported(static=("free", "fields"))
+@exported(static=("free", "fields"), hot=True)
 def _part(
     model: FlightModel,
     wingbeat: Wingbeat,

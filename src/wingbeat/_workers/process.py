@@ -22,7 +22,7 @@ from contextlib import ExitStack, suppress
 from typing import Any, NamedTuple
 
 from wingbeat._leftovers import Leftover
-from wingbeat._workers.tuning import tune_process, pin_to
+from wingbeat._workers.tuning import pin_to, tune_process
 
 # The exit code of a process that was refused memory: ENOMEM, as systems number their errors.
 NO_MEMORY = 12

@@ -1,7 +1,7 @@
 """How a process of ours uses the machine: its cores, one thread for XLA, and rare garbage collection.
 
-XLA hands parts of a program from the calling thread to its own threads, and back. The system puts these on different
-cores, so each change finds cold caches, and on a busy machine it waits: see docs/evidence/performance.md.
+XLA hands parts of a program from the calling thread to its own threads, and back. The system puts these on
+different cores, so each change finds cold caches, and on a busy machine it waits: see docs/evidence/performance.md.
 """
 
 from __future__ import annotations
@@ -42,9 +42,9 @@ def tune_process() -> None:
 
     A variable `PJRT_NPROC` or `NPROC` of the user's, who thereby chooses XLA's number of threads, stays as it is.
     """
-    # Not in the user's Python: there it would slow the user's own JAX programs, which may need many cores. JAX reads
-    # the variable when it first computes. With two threads an orbit takes a tenth longer, and on a machine with four
-    # such processes on two cores three times as long.
+    # Not in the user's Python: there it would slow the user's own JAX programs, which may need many cores. JAX
+    # reads the variable when it first computes. With two threads an orbit takes a tenth more of the processor, and
+    # where four such processes share two cores, three times as long.
     if "NPROC" not in os.environ:
         os.environ.setdefault("PJRT_NPROC", "1")
     # So many new containers. With Python's default of 700, it would look for garbage some thousand times while a

@@ -23,17 +23,19 @@ from wingbeat.orbits.nlp.newton_kkt import Corrected, certified, first_certified
 from wingbeat.orbits.nlp.transcription import Candidate, Transcription, as_candidate, load_programs, search
 from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
 from wingbeat.orbits.problem.quantity import MapQuantity
-from wingbeat.orbits.solution import Solution, families, optima_of, optimal, solution_of
+from wingbeat.orbits.solution import Optimum, Solution, families, optima_of, optimal, solution_of
 from wingbeat.orbits.starts import (
     OwnStart,
     asks_for_stability,
     easier,
     minimises_map,
+    optima_lead_within,
     plainly,
     start_beside,
     start_count,
     start_point,
     starts_in_words,
+    starts_within,
     usual_most_starts,
     wingbeat_with_all_laws,
 )
@@ -118,8 +120,9 @@ def find_orbit(
         found += led
         if (best := first_certified(programme, led)) is not None:
             break
-    more = range(starts, most if best is None else starts)
-    for done, candidate in enumerate(search_from_starts(programme, more, seed, threads, own), starts + 1):
+    tried = starts_within(problem, starts, options.search)
+    more = range(tried, most if best is None else tried)
+    for done, candidate in enumerate(search_from_starts(programme, more, seed, threads, own), tried + 1):
         found.append(candidate)
         if progress is not None:  # searches from limited quantities are not counted
             progress(done, max(starts, most))
@@ -254,15 +257,15 @@ def first_searches(
         easy = Transcription(easier(problem), options)
         free = first_searches(easy, starts, seed, threads, progress, own, unlimited)
         return stable_searches(programme, free, threads)
-    limited = bool(problem.subject_to)
+    limited, first = bool(problem.subject_to), starts_within(problem, starts, options.search)
     found: list[Candidate] = []
-    for candidate in search_from_starts(programme, range(starts), seed, threads, own):
+    for candidate in search_from_starts(programme, range(first), seed, threads, own):
         found.append(candidate)
         if progress is not None:
-            progress(len(found), starts * (1 + limited))
+            progress(len(found), first + starts * limited)
     if limited:
         without = Transcription(dataclasses.replace(problem, subject_to=()), options)
-        report = None if progress is None else lambda done, total: progress(starts + done, starts + total)
+        report = None if progress is None else lambda done, total: progress(first + done, first + total)
         found += search_from_optima(
             programme, first_searches(without, starts, seed, threads, report, own, unlimited), threads
         )
@@ -284,19 +287,32 @@ def search_from_optima(
     """Search from the best optimum of each family of an easier problem; return where the local searches end.
 
     With `pruned`, a family that is dearer without the limits than an optimum found with them is left out, because
-    limits only raise the objective within a family.
+    limits only raise the objective within a family. Within plausible ranges, so is one whose objective without
+    limits is that of a family which has led to an optimum.
     """
-    scale, apart = programme.problem.unknowns().scale, programme.options.search.same_optimum
+    problem, options = programme.problem, programme.options.search
+    ranges, led = optima_lead_within(problem), list[Optimum]()
     found: list[Candidate] = []
-    starts = list(families(optima_of(easier), scale, apart))
+    starts = list(families(optima_of(easier), problem.unknowns().scale, options.same_optimum))
     while starts:
-        together, starts = starts[:threads] if pruned else starts, starts[threads:] if pruned else []
+        together = starts[:threads] if pruned else starts
+        if ranges:
+            together = [one for i, one in enumerate(starts) if not _is_alike(one, starts[:i], options.same_value)]
+        starts = [one for one in starts if all(one is not other for other in together)]
         begun = [optimum.unknowns for optimum in together]
-        found += _side_by_side(lambda start: search(programme.uncorrected(), start), begun, threads)
-        best = optimal(found)
-        if best:
-            starts = [optimum for optimum in starts if optimum.objective < best[0].objective]
+        ends = list(_side_by_side(lambda start: search(programme.uncorrected(), start), begun, threads))
+        found += ends
+        if ranges:
+            led += [one for one, end in zip(together, ends, strict=True) if end.is_optimum]
+            starts = [one for one in starts if not _is_alike(one, led, options.same_value)]
+        elif best := optimal(found):
+            starts = [one for one in starts if one.objective < best[0].objective]
     return found
+
+
+def _is_alike(optimum: Optimum, others: Iterable[Optimum], share: float) -> bool:
+    """Return whether the objective is that of another optimum, within a share of it."""
+    return any(abs(optimum.objective - other.objective) <= share * abs(other.objective) for other in others)
 
 
 def stable_searches(programme: Transcription, free: list[Candidate], threads: int) -> list[Candidate]:

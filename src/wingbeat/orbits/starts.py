@@ -39,6 +39,17 @@ def start_count(problem: OrbitProblem, starts: int | None = None, options: Searc
     return options.starts_of_outputs if problem.has_outputs else options.starts
 
 
+def optima_lead_within(problem: OrbitProblem) -> bool:
+    """Return whether optima without limits lead to the best within them: an output's within plausible ranges."""
+    # Optima of the frequency often share its lower bound, so equal values say nothing there.
+    return problem.within_plausible and not problem.minimise.parameter and not asks_for_stability(problem)
+
+
+def starts_within(problem: OrbitProblem, starts: int, options: SearchOptions = DEFAULTS.search) -> int:
+    """Return how many of the starts search within the limits from the beginning; all search without them."""
+    return min(starts, options.starts_within_ranges) if optima_lead_within(problem) else starts
+
+
 def usual_most_starts(problem: OrbitProblem, options: SearchOptions = DEFAULTS.search) -> int:
     """Return the default of the largest number of starts, tried while none leads to a certified orbit."""
     return options.most_stable_starts if asks_for_stability(problem) else options.most_starts

@@ -1,4 +1,4 @@
-"""Within plausible ranges few starts search within the ranges at first, and optima of equal value lead there once."""
+"""Within plausible ranges few starts search within them at first, and optima of equal value lead there once."""
 
 import dataclasses
 

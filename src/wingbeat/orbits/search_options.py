@@ -146,7 +146,7 @@ class SearchOptions(Options):
         it. 12 starts missed the bat's lowest peak pitch torque at 14 m/s by half; of 30 random starts, 4 led to it.
     starts_within_ranges : number of starts that search within plausible ranges from the beginning, one in each
         family, if an output of the wingbeat is minimised. All starts search without the ranges, and their optima
-        lead into them. Where no orbit is found, the other starts follow. In 15 flights of random birds and bats by
+        lead into them. Where no orbit is found, the other starts follow. In 19 flights of random birds and bats by
         the model animal, this number and `same_value` changed no best optimum by more than 1e-4 against 24 starts,
         for 0.63 of the time; in one of them, only the starts within the ranges led to it.
     most_starts : while no start leads to a certified orbit, more starts follow, up to this many.

@@ -37,13 +37,13 @@ _TRACING = threading.Lock()
 # XLA's older way to make loops of fused operations compiles in half the time of the newer one. Programs made the
 # older way are as fast: the flight of the search takes 9 % longer for the model paper's pigeon, 10 % less for the
 # model animal's bat. From JAX 0.12 on, XLA has the newer way only.
-_SOON_ON_CPU: dict[str, str | bool | int] = (
+_SOON_ON_CPU: dict[str, str | bool] = (
     {"xla_cpu_use_fusion_emitters": False} if jax.__version_info__ < (0, 12) else {}
 )
 # The level of LLVM's optimisation for programs that a process calls a few times: they compile in 0.75 of the time.
 # A certifying flight takes no longer, that of the model animal 0.8 of the time. A hot program would take 1.3 times
 # as long.
-_SELDOM_ON_CPU = _SOON_ON_CPU | {"xla_backend_optimization_level": 1, "xla_llvm_disable_expensive_passes": True}
+_SELDOM_ON_CPU = _SOON_ON_CPU | {"xla_backend_optimization_level": "1", "xla_llvm_disable_expensive_passes": True}
 _NOTHING = np.zeros(0)
 _PACKAGE = Path(__file__).parents[1]
 # Traced programs that come with the package, made by benchmarks/shipped_programs.py, and all that they depend on.

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 
 # One core for XLA too, before it starts.
-os.environ["XLA_FLAGS"] = os.environ.get("XLA_FLAGS", "") + " --xla_cpu_multi_thread_eigen=false"
+os.environ["PJRT_NPROC"] = "1"
 if hasattr(os, "sched_setaffinity"):
     os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
 

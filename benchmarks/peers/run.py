@@ -30,15 +30,15 @@ from referee import model_gap
 MODULES = ("by_wingbeat", "by_scipy", "by_casadi", "by_aerosandbox", "by_rockit")
 PACKAGES = ("wingbeat", "numpy", "scipy", "jax", "jaxlib", "casadi", "aerosandbox", "rockit-meco")
 REFERENCE = "wingbeat"
-SINGLE = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"), "1")
+# XLA's threads on a CPU obey the last alone; its flag xla_cpu_multi_thread_eigen leaves them all (JAX 0.10.2).
+SINGLE = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "PJRT_NPROC"), "1")
 CLOSED = 1e-6
 
 
 def environment(cache: str) -> dict[str, str]:
     """Return an environment of one thread whose compilation cache is the given folder."""
     mine = {name: value for name, value in os.environ.items() if not name.startswith("JAX_")}
-    flags = f"{os.environ.get('XLA_FLAGS', '')} --xla_cpu_multi_thread_eigen=false".strip()
-    return mine | SINGLE | {"WINGBEAT_CACHE": cache, "XLA_FLAGS": flags, "PYTHONWARNINGS": "ignore"}
+    return mine | SINGLE | {"WINGBEAT_CACHE": cache, "PYTHONWARNINGS": "ignore"}
 
 
 def contest(module: str, variant: str, cases: list[Case], cache: str, starts: int = 1, cold: bool = False) -> dict:

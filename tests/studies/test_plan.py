@@ -210,6 +210,14 @@ def test_all_faults_come_at_once(tmp_path, capsys):
     assert not list(tmp_path.glob("*.sqlite*"))
 
 
+def test_each_path_that_is_not_there_is_told():
+    """The first was once the only one that was told."""
+    vary = {path: {"grid": [0.9, 1.1]} for path in ("mass", "wing.spam", "wing.cord")}
+    with pytest.raises(wb.InvalidInputError) as told:
+        wb.plan_study({"species": "pigeon", "speed": 9.0, "vary": vary}, store="x.study.sqlite")
+    assert str(told.value).count("no number has this path") == 3
+
+
 @pytest.mark.parametrize(
     ("form", "words"),
     [

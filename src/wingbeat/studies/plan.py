@@ -312,8 +312,10 @@ def _check_values(form: StudyForm, recipe: Recipe, faults: FaultList) -> None:
             if unknown := any(fault.rule == NO_SUCH_PATH for fault in named):
                 named = [Fault(place, told, named[0].rule, named[0].fix)]
             faults.faults += named
-            if len(faults.faults) >= _ENOUGH or unknown:
+            if len(faults.faults) >= _ENOUGH:
                 return
+            if unknown:  # whatever the value
+                break
 
 
 def _text(value: Any) -> Any:

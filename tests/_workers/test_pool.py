@@ -13,21 +13,12 @@ import pytest
 
 import wingbeat as wb
 from tests.explorer.app.program import wait_gone
-from tests.helpers.worker_standin import cores_at_import
 from wingbeat._workers.pool import in_processes, process_map
-from wingbeat._workers.tuning import usable_cores
-
-CORES = usable_cores()
-several = pytest.mark.skipif(not 1 < len(CORES) < 33, reason="there is one core, or none to pin to, or very many")
-
-
-def own_cores(_):
-    return sorted(os.sched_getaffinity(0))
 
 
 def slowly_told(_):
     time.sleep(0.5)
-    return os.getpid(), own_cores(None)
+    return os.getpid()
 
 
 def first_threshold(_):
@@ -47,26 +38,6 @@ def die_once(number, mark):
             open(mark, "x").close()
         os.kill(os.getpid(), signal.SIGKILL)
     return number
-
-
-@several
-def test_processes_are_pinned_to_a_core_each_and_this_one_to_none():
-    with process_map(len(CORES), len(CORES)) as over:
-        found = {process: cores for process, cores in over(slowly_told, range(4 * len(CORES)))}
-    assert sorted(found.values()) == [[core] for core in CORES[: len(found)]]
-    assert len(found) > 1
-    assert own_cores(None) == CORES
-
-
-@several
-def test_processes_are_pinned_after_their_imports():
-    """NumPy's BLAS counts cores when it is imported; with fewer threads than here, the last digits are others."""
-    assert list(in_processes(cores_at_import, range(2), len(CORES))) == [CORES] * 2
-
-
-@several
-def test_fewer_processes_than_cores_go_where_there_is_room():
-    assert list(in_processes(own_cores, range(3), len(CORES) + 1)) == [CORES] * 3
 
 
 def test_processes_look_for_garbage_seldom_and_this_one_as_it_was_told_to():
@@ -98,7 +69,7 @@ def test_an_item_whose_process_dies_twice_is_told():
 
 def test_none_is_left_when_it_is_given_up():
     with process_map(2, 2) as over:
-        pids = [pid for pid, _ in over(slowly_told, range(4))]
+        pids = list(over(slowly_told, range(4)))
         over(slowly_told, range(100))
     wait_gone(pids)
 

@@ -4,13 +4,6 @@ import os
 import sys
 import time
 
-CORES_AT_IMPORT = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
-
-
-def cores_at_import(_):
-    """Return the cores that this process might use when it imported this."""
-    return CORES_AT_IMPORT
-
 
 class OddError(Exception):
     """One that can be pickled, but not brought back."""

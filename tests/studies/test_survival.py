@@ -9,7 +9,6 @@ import resource
 import signal
 import sqlite3
 import time
-from contextlib import suppress
 
 import numpy as np
 import pytest
@@ -17,13 +16,11 @@ import pytest
 import wingbeat as wb
 from tests.helpers.study_standin import BREAKS, CRASHES, HANGS, INFEASIBLE, LEAVES, RAISES
 from tests.helpers.terminals import needs_terminal, on_terminal
-from wingbeat._workers.tuning import usable_cores
 from wingbeat.animal.species.writing import species_text
 from wingbeat.studies.engine import LocalProcesses
 from wingbeat.studies.store_checks import only_one
 
 pytestmark = pytest.mark.skipif(not os.path.isdir("/proc/self"), reason="looks for processes in /proc")
-CORES = usable_cores()
 GRID = [1 + 0.25 * i for i in range(120)]
 
 
@@ -92,44 +89,6 @@ def test_killed_workers_lose_nothing(cheap, undisturbed):
     assert driver.wait(60) == 0
     driver.communicate()
     assert study.points() == undisturbed
-    study.wait_gone()
-
-
-def wait_for_workers_on(study, driver, expected, without=None):
-    """Wait until the workers are on these cores; return their ids."""
-    until, found = time.monotonic() + 60, {}
-    while sorted(found.values()) != expected or without in found:
-        assert time.monotonic() < until, f"workers are on {found}"
-        assert driver.poll() is None, "the study ended first"
-        time.sleep(0.01)
-        found = {}
-        for process in study.processes():
-            with suppress(OSError):  # it has just gone
-                found[process] = sorted(os.sched_getaffinity(process))
-        found.pop(driver.pid, None)
-    return list(found)
-
-
-@pytest.mark.skipif(len(CORES) < 2, reason="there is one core only")
-def test_workers_that_take_all_cores_have_one_each_and_leave_it_to_their_successors(cheap):
-    study, each = cheap(GRID), [[core] for core in CORES]
-    driver = study.start("run", study.file, "-j", len(CORES), seconds=0.3)
-    first, *_ = wait_for_workers_on(study, driver, each)
-    os.kill(first, signal.SIGKILL)
-    wait_for_workers_on(study, driver, each, without=first)
-    driver.kill()
-    driver.communicate()
-    study.wait_gone()
-
-
-@pytest.mark.skipif(len(CORES) < 2, reason="there is one core only")
-def test_workers_that_leave_cores_to_others_are_pinned_to_none(cheap):
-    study = cheap(GRID)
-    driver = study.start("run", study.file, "-j", 1, seconds=0.3)
-    wait_for_points(study, 1)  # past its start
-    wait_for_workers_on(study, driver, [CORES])
-    driver.kill()
-    driver.communicate()
     study.wait_gone()
 
 

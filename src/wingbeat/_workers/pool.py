@@ -21,7 +21,6 @@ from typing import Any, NamedTuple, TypeVar
 
 from wingbeat._base.errors import WorkerError
 from wingbeat._workers.process import Context, Message, WorkerProcess
-from wingbeat._workers.tuning import cores_of, pin_to
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -68,7 +67,6 @@ class Job:
 class Desk:
     """A slot for one worker process, and the thread that looks after it."""
 
-    core: int | None
     wake: threading.Condition
     worker: WorkerProcess | None = None
     heard: queue.SimpleQueue[Message | None] = field(default_factory=queue.SimpleQueue)
@@ -100,7 +98,7 @@ class Pool:
         self._waiting: list[Job] = []
         self._numbers = itertools.count(1)
         self._open = True
-        self._desks = [Desk(core, threading.Condition(self._lock)) for core in cores_of(processes)]
+        self._desks = [Desk(threading.Condition(self._lock)) for _ in range(processes)]
         for desk in self._desks:
             desk.thread = threading.Thread(target=self._look_after, args=(desk,), daemon=True)
             desk.thread.start()
@@ -323,16 +321,12 @@ class _Callers(Pool):
         return answer
 
     def _request(self, job: Job, desk: Desk) -> Any:
-        return self._main, pickle.dumps(job.what), desk.core
+        return self._main, pickle.dumps(job.what)
 
 
-def call(request: tuple[dict[str, Any], bytes, int | None], context: Context) -> Any:
-    """Call a function with an item in a worker process; the request holds both, pickled, and the core to use."""
-    main, pickled, core = request
-    work, item = _Unpickler(main, pickled).load()
-    # Pin after the imports: a BLAS that sees only one core has one thread, and adds in another order than in the
-    # process that asks.
-    pin_to(core)
+def call(request: tuple[dict[str, Any], bytes], context: Context) -> Any:
+    """Call a function with an item in a worker process; the request holds both, pickled."""
+    work, item = _Unpickler(*request).load()
     return work(item)
 
 

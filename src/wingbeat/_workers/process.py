@@ -22,7 +22,7 @@ from contextlib import ExitStack, suppress
 from typing import Any, NamedTuple
 
 from wingbeat._leftovers import Leftover
-from wingbeat._workers.tuning import pin_to, tune_process
+from wingbeat._workers.tuning import tune_process
 
 # The exit code of a process that was refused memory: ENOMEM, as systems number their errors.
 NO_MEMORY = 12
@@ -135,7 +135,6 @@ class _Speaker:
 def main() -> None:
     """Work until the pipe closes; the program's argument holds the settings of `WorkerProcess`."""
     settings = json.loads(sys.argv[1])
-    pin_to(settings["core"])  # before there are threads, which inherit it
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for whoever started this process
     tune_process()
     requests, speaker = _Requests(), _Speaker(settings["silence"])
@@ -201,12 +200,11 @@ class WorkerProcess:
         work: str,  # the function that carries out a request, as MODULE:FUNCTION; called with it and a `Context`
         hear: Callable[[Message | None], None],  # called in a thread of its own, with None when the process ended
         *,
-        core: int | None = None,  # to which the process is pinned
         silence: float | None = None,  # it ends if it works on a request and sends no message for so long [s]
         memory: int | None = None,  # resident memory [bytes] beyond which it ends after a request: programs pile up
         environment: Mapping[str, str] | None = None,  # variables that differ from those of this process
     ) -> None:
-        settings = {"work": work, "core": core, "silence": silence, "memory": memory}
+        settings = {"work": work, "silence": silence, "memory": memory}
         # What this process imports is what the worker imports, wherever it comes from.
         paths = os.pathsep.join(map(str, sys.path))
         self._process = subprocess.Popen(

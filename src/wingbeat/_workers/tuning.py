@@ -1,4 +1,4 @@
-"""How a process of ours uses the machine: its cores, one thread for XLA, and rare garbage collection.
+"""How a process of ours uses the machine: how many cores it may, one thread for XLA, rare garbage collection.
 
 XLA hands parts of a program from the calling thread to its own threads, and back. The system puts these on
 different cores, so each change finds cold caches, and on a busy machine it waits: see docs/evidence/performance.md.
@@ -8,33 +8,11 @@ from __future__ import annotations
 
 import gc
 import os
-from contextlib import suppress
-
-
-def usable_cores() -> list[int]:
-    """Return the cores that this process may use; an empty list if the system does not say (outside Linux)."""
-    return sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else []
 
 
 def core_count() -> int:
     """Return how many cores this process may use."""
-    return len(usable_cores()) or os.cpu_count() or 1
-
-
-def cores_of(processes: int) -> list[int | None]:
-    """Return the core to which to pin each process; all None unless there is one process for every core.
-
-    With fewer processes, two programs that each use a few cores could be pinned to the same cores.
-    """
-    usable = usable_cores()
-    return list(usable) if len(usable) == processes else [None] * processes
-
-
-def pin_to(core: int | None) -> None:
-    """Pin this thread, and threads that it will start, to a core; None or a missing core changes nothing."""
-    if core is not None:
-        with suppress(OSError):
-            os.sched_setaffinity(0, {core})
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def tune_process() -> None:

@@ -9,7 +9,6 @@ from typing import NamedTuple, Protocol
 
 from wingbeat._base import WorkerError
 from wingbeat._workers.process import Message, WorkerProcess
-from wingbeat._workers.tuning import cores_of
 from wingbeat.studies.units import Outcome, Unit
 
 # There are as many processes as cores, so each has one thread.
@@ -61,7 +60,6 @@ class _Worker:
     """A process, the batch that it works on, and the time of its last message."""
 
     process: WorkerProcess = field(init=False)
-    core: int | None
     batch: int | None = None
     outcomes: list[Outcome] = field(default_factory=list)
     heard: float = 0.0
@@ -80,7 +78,6 @@ class LocalProcesses:
 
     def __init__(self, processes: int, timeout: float = 600.0) -> None:
         self.workers = processes
-        self._cores = cores_of(processes)
         self._timeout = timeout
         self._crew: list[_Worker] = []
         self._heard: queue.SimpleQueue[tuple[_Worker, Message | None]] = queue.SimpleQueue()
@@ -122,12 +119,10 @@ class LocalProcesses:
         self._crew.clear()
 
     def _start(self) -> _Worker:
-        taken = [worker.core for worker in self._crew]
-        worker = _Worker(next((core for core in self._cores if core not in taken), None))
+        worker = _Worker()
         worker.process = WorkerProcess(
             self.work,
             lambda message: self._heard.put((worker, message)),
-            core=worker.core,
             silence=_BACKSTOP * self._timeout + _BACKSTOP_SECONDS,
             environment=_ONE_THREAD,
         )

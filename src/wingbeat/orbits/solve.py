@@ -109,6 +109,11 @@ def find_orbit(
         found = first_searches(programme, starts, seed, threads, progress, own, unlimited)
     first = (free or found)[0]
     best, ending = first_certified(programme, found), None
+    tried = starts_within(problem, starts, options.search)
+    if best is None and tried < starts:
+        rest, tried = range(tried, starts), starts
+        found += search_from_starts(programme, rest, seed, threads, own)
+        best = first_certified(programme, found)
     if best is None and settings.explain and problem.within_plausible and problem.subject_to:
         best, ending = beyond_limits(programme, unlimited, len(found), threads, settings.advise)
     nearest = None
@@ -120,7 +125,6 @@ def find_orbit(
         found += led
         if (best := first_certified(programme, led)) is not None:
             break
-    tried = starts_within(problem, starts, options.search)
     more = range(tried, most if best is None else tried)
     for done, candidate in enumerate(search_from_starts(programme, more, seed, threads, own), tried + 1):
         found.append(candidate)

@@ -19,6 +19,7 @@ from wingbeat._workers.tuning import core_count
 from wingbeat.orbits.changes import holds_frequency, possible_changes
 from wingbeat.orbits.deficit import is_clear, nearest_beat
 from wingbeat.orbits.diagnosis import Ending, certified_changes, least_change, unexplained, without_orbit
+from wingbeat.orbits.flight.period import fly_part
 from wingbeat.orbits.nlp.newton_kkt import Corrected, certified, first_certified
 from wingbeat.orbits.nlp.transcription import Candidate, Transcription, as_candidate, load_programs, search
 from wingbeat.orbits.options import DEFAULTS, SolverOptions, Status
@@ -96,9 +97,9 @@ def find_orbit(
     programme = Transcription(problem, options)
     programme.steps = [] if settings.trace else None
     own = None if settings.start is None else np.array([*settings.start.values.values()])
-    load_programs(
-        programme, start_point(problem, 0, seed, options.search), wingbeat_with_all_laws(problem, options.search)
-    )
+    if not fly_part.loaded:
+        like_optimum = wingbeat_with_all_laws(problem, options.search)
+        load_programs(programme, start_point(problem, 0, seed, options.search), like_optimum)
     free: list[Candidate] = []  # where the searches without limits of stability end, if there are such limits
     unlimited: list[Candidate] = []  # and those without any limits
     if asks_for_stability(problem):

@@ -15,7 +15,7 @@ from wingbeat.mechanics.flights import Steps
 from wingbeat.orbits.flight.beat import Beat, highest_sample, peak_weights
 from wingbeat.orbits.flight.certificate import SAMPLES, Certificate, certify, map_and_changes, monodromy
 from wingbeat.orbits.flight.lagged import InnerStart
-from wingbeat.orbits.flight.period import CLOSURE_SCALE, Flown, StrokeLimits, flier, fly_part, inner_start
+from wingbeat.orbits.flight.period import CLOSURE_SCALE, Flown, StrokeLimits, flier, inner_start
 from wingbeat.orbits.flight.time_series import beat_reader, flown_beat
 from wingbeat.orbits.nlp.levenberg_marquardt import least_squares, multiplier_residual
 from wingbeat.orbits.nlp.programme import Programme
@@ -345,8 +345,6 @@ def load_programs(programme: Transcription, start: np.ndarray, wingbeat: Wingbea
 
     `start` is one of the search, `wingbeat` one like the optimum.
     """
-    if fly_part.loaded:
-        return
     with ThreadPoolExecutor(2) as pool:
         # The program of the search compiles the longest, so it goes first.
         searching = pool.submit(programme.closure_jacobian, programme.scaled(start))

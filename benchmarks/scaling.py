@@ -80,7 +80,7 @@ SWEEPS = {
     ),
     "animals of a batch": Sweep((64, 128, 256, 512, 1024), batch, "orbits of all [ms]"),
     "cores": Sweep(
-        tuple(2**k for k in range(core_count().bit_length())), lambda n: batch(2048, n), "2048 orbits [ms]", ideal=-1
+        tuple(2**k for k in range(core_count().bit_length())), lambda n: batch(2048, n), "2048 orbits [ms]", -1
     ),
 }
 

@@ -148,7 +148,7 @@ class SearchOptions(Options):
         family, if an output of the wingbeat is minimised. All starts search without the ranges, and their optima
         lead into them. Where no orbit is found, the other starts follow. In 19 flights of random birds and bats by
         the model animal, this number and `same_value` changed no best optimum by more than 1e-4 against 24 starts,
-        for 0.64 of the time (`benchmarks/plausible_search.py`); in one, only the starts within the ranges led to it.
+        for 0.64 of the time (`benchmarks/plausible_search.py`); in one, only starts within the ranges led to it.
     most_starts : while no start leads to a certified orbit, more starts follow, up to this many.
     most_stable_starts : the same, if the problem asks for stability. Stable orbits are next to optima without
         limits of stability; few are found from other starts. Of 190 stable orbits of random vehicles, 6 needed it.

@@ -98,7 +98,7 @@ def main() -> int:
     asked = list(questions())
     exported.StoredFunction._load = load
     # Nothing is compiled: a traced program tells the shapes of its results, and any numbers serve to go on.
-    exported._compiled = lambda program, arguments, hot: jax.eval_shape(program, *arguments)
+    exported._compiled = lambda program, arguments: jax.eval_shape(program, *arguments)
     exported.StoredFunction._run = lambda _, ready, *__: jax.tree_util.tree_unflatten(
         ready.tree, [np.zeros(shape) for shape in ready.shapes]
     )

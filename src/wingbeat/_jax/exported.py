@@ -40,10 +40,6 @@ _TRACING = threading.Lock()
 _SOON_ON_CPU: dict[str, str | bool] = (
     {"xla_cpu_use_fusion_emitters": False} if jax.__version_info__ < (0, 12) else {}
 )
-# The level of LLVM's optimisation for programs that a process calls a few times: they compile in 0.75 of the time.
-# A certifying flight takes no longer, that of the model animal 0.8 of the time. A hot program would take 1.3 times
-# as long.
-_SELDOM_ON_CPU = _SOON_ON_CPU | {"xla_backend_optimization_level": "1", "xla_llvm_disable_expensive_passes": True}
 _NOTHING = np.zeros(0)
 _PACKAGE = Path(__file__).parents[1]
 # Traced programs that come with the package, made by benchmarks/shipped_programs.py, and all that they depend on.
@@ -85,11 +81,9 @@ class StoredFunction:
     named in `static` must be given by keyword, others may, and different values must have different `repr`s.
     """
 
-    def __init__(
-        self, function: Callable[..., Any], static: tuple[str, ...] = (), hot: bool = False, kept: bool = True
-    ) -> None:
+    def __init__(self, function: Callable[..., Any], static: tuple[str, ...] = (), kept: bool = True) -> None:
         functools.update_wrapper(self, function)
-        self._function, self._hot, self._kept = function, hot, kept
+        self._function, self._kept = function, kept
         self._inlined = jax.jit(function, static_argnames=static)
         self._static = frozenset(static)
         self._lock = threading.Lock()
@@ -174,7 +168,7 @@ class StoredFunction:
                 if (found := find(name)) is not None:
                     program, out_tree, out_shapes = pickle.loads(found)
                     exported = jax.export.deserialize(bytearray(program))
-                    return _Ready(_compiled(exported.call, arguments, self._hot), out_tree, out_shapes)
+                    return _Ready(_compiled(exported.call, arguments), out_tree, out_shapes)
         outcome = []
 
         def flat(held: Any, more: Any) -> Any:
@@ -187,11 +181,11 @@ class StoredFunction:
             return jnp.concatenate([leaf.ravel() for leaf in leaves])
 
         if not self._kept:
-            return _Ready(_compiled(flat, arguments, self._hot), *outcome[0])
+            return _Ready(_compiled(flat, arguments), *outcome[0])
         with _TRACING:
             exported = without_repeats(jax.export.export(jax.jit(flat))(*arguments))
         keep_program(name, pickle.dumps((bytes(exported.serialize()), *outcome[0])))
-        return _Ready(_compiled(exported.call, arguments, self._hot), *outcome[0])
+        return _Ready(_compiled(exported.call, arguments), *outcome[0])
 
     def _shipped(self, tree: Any, shapes: Any, static: dict[str, Any]) -> Callable[[str], bytes | None]:
         """Return a function that reads the traced program from the package, and keeps it under a name."""
@@ -213,12 +207,12 @@ class StoredFunction:
         return f"traced-{hashlib.sha256(repr(what).encode()).hexdigest()}"
 
 
-def _compiled(program: Callable[..., Any], arguments: list[jax.ShapeDtypeStruct], hot: bool) -> Callable[..., Any]:
+def _compiled(program: Callable[..., Any], arguments: list[jax.ShapeDtypeStruct]) -> Callable[..., Any]:
     """Compile a program, or read it from JAX's cache; a first call would keep two copies in memory."""
     lowered = jax.jit(program).lower(*arguments)
     if jax.default_backend() == "cpu":
-        with suppress(jax.errors.JaxRuntimeError):  # from an XLA without these options
-            return lowered.compile(_SOON_ON_CPU if hot else _SELDOM_ON_CPU)
+        with suppress(jax.errors.JaxRuntimeError):  # from an XLA without this option
+            return lowered.compile(_SOON_ON_CPU)
     return lowered.compile()
 
 
@@ -281,10 +275,9 @@ def exported(
     function: Callable[..., Any] | None = None,
     *,
     static: tuple[str, ...] = (),
-    hot: bool = False,
     kept: bool = True,
 ) -> Any:
-    """Turn a function of float64 arrays (in pytrees) into a `StoredFunction`; a `hot` one is called often.
+    """Turn a function of float64 arrays (in pytrees) into a `StoredFunction`.
 
     A function that is not `kept` is traced in each process; those that take a user's function need this.
 
@@ -295,5 +288,5 @@ def exported(
     3.0
     """
     if function is None:
-        return functools.partial(exported, static=static, hot=hot, kept=kept)
-    return StoredFunction(function, static, hot, kept)
+        return functools.partial(exported, static=static, kept=kept)
+    return StoredFunction(function, static, kept)

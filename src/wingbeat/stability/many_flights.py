@@ -60,7 +60,7 @@ class Hold(NamedTuple):
     pitch: np.ndarray  # body pitch of the orbit at the ends of all steps [rad], shape (segments, steps + 1)
 
 
-@exported(static=("inputs", "harmonics", "delay", "late"), hot=True)
+@exported(static=("inputs", "harmonics", "delay", "late"))
 def fly_held(
     model: FlightModel,
     wingbeat: Wingbeat,

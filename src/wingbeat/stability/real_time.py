@@ -181,7 +181,7 @@ def _step(
     return state + size * total
 
 
-@exported(static=("laws", "held", "samples"), hot=True)
+@exported(static=("laws", "held", "samples"))
 def fly_in_time(
     model: FlightModel,
     wingbeat: Wingbeat,
@@ -322,7 +322,7 @@ def by_beats(fly: Callable[..., Any], frequency: float) -> Callable[..., tuple[n
 # --- linear maps ---
 
 
-@exported(static=("laws",), hot=True)
+@exported(static=("laws",))
 def _step_maps(
     model: FlightModel, wingbeat: Wingbeat, states: ServoStates, phases: Samples, *, laws: tuple[str, ...]
 ) -> ServoMaps:

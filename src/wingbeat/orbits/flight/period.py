@@ -251,7 +251,7 @@ def _chain(
     )
 
 
-@exported(static=("free", "components", "stroke"), hot=True)
+@exported(static=("free", "components", "stroke"))
 def fly_part(
     model: FlightModel,
     wingbeat: Wingbeat,

@@ -113,7 +113,7 @@ def _series(
     )
 
 
-@exported(static=("free", "fields"), hot=True)
+@exported(static=("free", "fields"))
 def _part(
     model: FlightModel,
     wingbeat: Wingbeat,

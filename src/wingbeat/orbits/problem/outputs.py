@@ -84,7 +84,7 @@ def _value(function: Callable[[Any], Any], given: Any) -> Any:
     return jnp.asarray(function(given), dtype=float)
 
 
-@exported(static=("functions", "fields"), hot=True, kept=False)
+@exported(static=("functions", "fields"), kept=False)
 def _changes(
     drive: Drive, *series: Any, functions: tuple[Callable[[Beat], Any], ...], fields: tuple[str, ...]
 ) -> tuple[Any, Any]:

@@ -262,7 +262,7 @@ def test_a_study_varies_the_stiffness(tmp_path):
 
 @pytest.mark.parametrize(
     ("stiffness", "damping", "told"),
-    [(0.02, 0.0, "spring and damper of the hinge are too weak"), (0.1, 0.002, "lift is short by")],
+    [(0.02, 0.0, "spring and damper of the hinge are too weak"), (0.2, 0.004, "thrust is short of drag by")],
 )
 def test_what_a_soft_hinge_cannot_do_is_told_in_words(stiffness, damping, told):
     few = wb.SolverOptions(search=wb.SearchOptions(most_starts=4))

@@ -11,11 +11,13 @@ from scipy.interpolate import CubicSpline
 import wingbeat as wb
 from tests.helpers.differences import differences, miss
 from tests.helpers.engines import Here
+from wingbeat._jax.exported import StoredFunction
 from wingbeat.mechanics.flight_model import State
 from wingbeat.mechanics.flights import fly_through
 from wingbeat.orbits.flight.period import STEPS, flier
 from wingbeat.orbits.nlp.transcription import Transcription
 from wingbeat.orbits.problem.parameters import parameters_of
+from wingbeat.orbits.solve import Settings, find_orbit
 from wingbeat.studies.stopping import Stop
 
 pytestmark = pytest.mark.slow
@@ -270,6 +272,17 @@ def test_what_a_soft_hinge_cannot_do_is_told_in_words(stiffness, damping, told):
     orbit = wb.solve_orbit(soft, starts=1, options=few)
     assert orbit.status is wb.Status.INFEASIBLE
     assert told in orbit.message
+
+
+def test_loading_programs_leaves_nothing_behind(monkeypatch):
+    """The states of the hinge with which a search began were once those of the flight that loaded the programs."""
+    soft = problem(numbers={"pitch_hinge.stiffness": 0.1, "pitch_hinge.damping": 0.002})
+    settings = Settings(3, most_starts=3, explain=False)
+    find_orbit(soft, settings, threads=1)  # loads them
+    found = find_orbit(soft, settings, threads=1)
+    monkeypatch.setattr(StoredFunction, "loaded", False)
+    again = find_orbit(soft, settings, threads=1)
+    assert again.unknowns.tolist() == found.unknowns.tolist()
 
 
 # --- Robots. Wanted numbers are those of a prototype apart from the package, with its own shooting and optimiser

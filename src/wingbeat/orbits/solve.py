@@ -99,7 +99,7 @@ def find_orbit(
     own = None if settings.start is None else np.array([*settings.start.values.values()])
     if not fly_part.loaded:
         like_optimum = wingbeat_with_all_laws(problem, options.search)
-        load_programs(programme, start_point(problem, 0, seed, options.search), like_optimum)
+        load_programs(programme.uncorrected(), start_point(problem, 0, seed, options.search), like_optimum)
     free: list[Candidate] = []  # where the searches without limits of stability end, if there are such limits
     unlimited: list[Candidate] = []  # and those without any limits
     if asks_for_stability(problem):

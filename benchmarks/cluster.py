@@ -1,6 +1,6 @@
 """A large study on a Dask cluster of several worker processes: orbits a second, and the memory of all that work.
 
-Run from the root of a clone; it needs the extra `cluster`, and 100 000 points take half an hour on two cores::
+Run from the root of a clone; it needs the extra `cluster`, and 100 000 points take some 40 minutes on two cores::
 
     uv run python benchmarks/cluster.py --points 100000 --workers 2 --memory memory.csv
 
@@ -22,6 +22,7 @@ import psutil
 from distributed import LocalCluster
 
 import wingbeat as wb
+from wingbeat.studies.driver import Tally
 
 SHARES = ("body.mass", "wing.semi_span", "wing.chord")
 FIELDS = ("seconds", "points", "driver_mb", "dask_workers_mb", "solvers_mb", "store_mb")
@@ -76,7 +77,7 @@ def main() -> None:
             daskers = [psutil.Process(worker.pid) for worker in cluster.workers.values()]
             begun = time.perf_counter()
 
-            def note(tally: object) -> None:
+            def note(tally: Tally) -> None:
                 now = time.perf_counter() - begun
                 if rows and now < rows[-1]["seconds"] + asked.every:
                     return
